@@ -1,0 +1,1 @@
+"""The display memory of 1986: frame, drawing, tracing, fill."""

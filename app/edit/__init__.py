@@ -1,0 +1,1 @@
+"""Drawing commands and undo, without a window."""

@@ -1,0 +1,1 @@
+"""The plane: chaining, regions, exact offsets, distances."""

@@ -1,0 +1,45 @@
+"""What the program has to say about a drawing or a path: named, located, counted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+
+class FindingKind(Enum):
+    """What was found. The value is the key in reports."""
+
+    OPEN_CONTOUR = "open_contour"
+    SELF_INTERSECTION = "self_intersection"
+    OVERLAP = "overlap"
+    LEFT_OUT = "left_out"
+    TINY_ENTITY = "tiny_entity"
+    REGION_TOO_SMALL = "region_too_small"
+    NECK_TOO_NARROW = "neck_too_narrow"
+    GOUGE = "gouge"
+    LEFT_REACHABLE = "left_reachable"
+    LEFT_UNREACHABLE = "left_unreachable"
+    RAPID_IN_MATERIAL = "rapid_in_material"
+    TOLERANCE = "tolerance"
+    ENGAGEMENT = "engagement"
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One sentence about one place.
+
+    Attributes:
+        text: a sentence: what, where with coordinates in mm, what to do.
+        x, y: the place, mm, or None where there is none.
+        counts: True when it makes the job "done, with findings" (exit status 1); False for a remark.
+        entity_ids: entities concerned, so that the window can mark them.
+        amount: the measured length (mm) or area (mm2) or number, if there is one.
+    """
+
+    kind: FindingKind
+    text: str
+    x: float | None = None
+    y: float | None = None
+    counts: bool = True
+    entity_ids: tuple[int, ...] = ()
+    amount: float | None = None

@@ -1,0 +1,125 @@
+"""A tool path as columns: one row a move, in the order of cutting."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.model.finding import Finding
+from app.model.part import Region
+
+Floats = NDArray[np.float64]
+
+
+class MoveKind(IntEnum):
+    """How the control moves: the G word."""
+
+    RAPID = 0
+    LINE = 1
+    ARC_CW = 2
+    ARC_CCW = 3
+
+
+class Purpose(IntEnum):
+    """What a move is for; decides its colour and its line style."""
+
+    RAPID = 0
+    PLUNGE = 1
+    CONTOUR = 2
+    POCKET = 3
+    LINK = 4
+    LEAD = 5
+
+
+@dataclass(frozen=True)
+class Moves:
+    """A sequence of n moves; the first one is a rapid from wherever the tool was.
+
+    Arcs lie in the XY plane; one whose Z changes is a helix.
+
+    Attributes:
+        end: (n, 3) end point of each move, mm, part coordinates.
+        centre: (n, 2) centre of arcs, mm; NaN for others.
+        kind: (n,) uint8 MoveKind.
+        purpose: (n,) uint8 Purpose.
+        operation: (n,) int16 index into the job's operations.
+        tool: (n,) int16 T number.
+        region: (n,) int16 region number, 0 = none (between regions).
+        feed: (n,) feed rate, mm/min; 0 for rapids.
+        line: (n,) int32 line of the NC text that holds the move, 1-based; 0 = not written yet.
+    """
+
+    end: Floats
+    centre: Floats
+    kind: NDArray[np.uint8]
+    purpose: NDArray[np.uint8]
+    operation: NDArray[np.int16]
+    tool: NDArray[np.int16]
+    region: NDArray[np.int16]
+    feed: Floats
+    line: NDArray[np.int32]
+
+    def __len__(self) -> int:
+        return len(self.kind)
+
+    def __post_init__(self) -> None:
+        for column in self.columns().values():
+            if len(column) != len(self.kind):
+                raise ValueError("columns of different length")
+            column.setflags(write=False)
+
+    def columns(self) -> dict[str, NDArray[np.generic]]:
+        """Return every column by name."""
+        return {name: getattr(self, name) for name in self.__dataclass_fields__}
+
+    @property
+    def start(self) -> Floats:
+        """(n, 3) start point of each move; the first starts where it ends."""
+        return np.concatenate([self.end[:1], self.end[:-1]])
+
+    def sweeps(self) -> Floats:
+        """(n,) signed angle of each arc, radians, counter-clockwise positive; 0 for other moves.
+
+        An arc that ends where it starts is a full turn.
+        """
+        a, b = self.start[:, :2] - self.centre, self.end[:, :2] - self.centre
+        turn = (np.arctan2(b[:, 1], b[:, 0]) - np.arctan2(a[:, 1], a[:, 0])) % (2 * np.pi)
+        same = np.all(self.start[:, :2] == self.end[:, :2], axis=1)
+        turn = np.where(same, 2 * np.pi, turn)
+        ccw, cw = self.kind == MoveKind.ARC_CCW, self.kind == MoveKind.ARC_CW
+        back = np.where(same, -2 * np.pi, turn - 2 * np.pi)
+        return np.where(ccw, turn, np.where(cw, back, 0.0))
+
+    def lengths(self) -> Floats:
+        """(n,) length of each move, mm (helices along the helix)."""
+        delta = self.end - self.start
+        arcs = self.kind >= MoveKind.ARC_CW
+        radius = np.hypot(*(self.end[:, :2] - self.centre).T)
+        flat = np.where(arcs, np.nan_to_num(radius) * np.abs(np.nan_to_num(self.sweeps())), np.hypot(delta[:, 0], delta[:, 1]))
+        return np.hypot(flat, delta[:, 2])
+
+
+@dataclass(frozen=True)
+class Program:
+    """The answer of a computation: every move of a job, and what there is to say about it.
+
+    Attributes:
+        moves: in the order of cutting.
+        regions: the areas that were machined, by region number.
+        findings: drawing and path findings, worst first.
+        strokes: pocket strokes (connected pocket paths without a lift), summed over depth passes.
+        polyline_rings: rings that had to fall back to a fine polyline.
+        bitmap_area_mm2, exact_area_mm2: area of A' by the bitmap fill and by the exact offset (independent check).
+    """
+
+    moves: Moves
+    regions: tuple[Region, ...] = ()
+    findings: tuple[Finding, ...] = ()
+    strokes: int = 0
+    polyline_rings: int = 0
+    bitmap_area_mm2: float = 0.0
+    exact_area_mm2: float = 0.0
+    pitch_mm: float = field(default=0.25)

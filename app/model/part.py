@@ -1,0 +1,114 @@
+"""What is drawn: curves on layers, the contours they chain into, the regions these bound."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+
+from app.model.curves import Curve, Primitive
+
+
+class Units(Enum):
+    """Length units of a drawing or an NC program; the value is the unit's size in mm."""
+
+    MM = 1.0
+    INCH = 25.4
+    CM = 10.0
+    M = 1000.0
+    FOOT = 304.8
+    MICRON = 0.001
+
+
+@dataclass(frozen=True, slots=True)
+class Layer:
+    """A named sheet of the drawing.
+
+    Attributes:
+        colour: "#rrggbb" or "" for the theme's ink.
+    """
+
+    name: str = "0"
+    colour: str = ""
+    visible: bool = True
+    locked: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Entity:
+    """One drawn curve.
+
+    Attributes:
+        id: unique in its part, never used again, > 0.
+        curve: the curve, mm.
+        layer: name of its layer.
+    """
+
+    id: int
+    curve: Curve
+    layer: str = "0"
+
+
+@dataclass(frozen=True)
+class Part:
+    """A drawing in mm.
+
+    Attributes:
+        entities: in the order of drawing.
+        layers: every layer that exists, in order; entities name only these.
+        units: the units in which the drawing was made or is shown.
+        name: shown in titles and NC headers.
+    """
+
+    entities: tuple[Entity, ...] = ()
+    layers: tuple[Layer, ...] = (Layer(),)
+    units: Units = Units.MM
+    name: str = "untitled"
+
+    def next_id(self) -> int:
+        """Return an entity id that is not in use."""
+        return max((e.id for e in self.entities), default=0) + 1
+
+    def with_entities(self, entities: tuple[Entity, ...]) -> Part:
+        """Return the part with other entities; layers they name are added."""
+        known = {layer.name for layer in self.layers}
+        new = tuple(Layer(name) for name in dict.fromkeys(e.layer for e in entities) if name not in known)
+        return replace(self, entities=entities, layers=self.layers + new)
+
+
+@dataclass(frozen=True)
+class Contour:
+    """Curves joined end to end.
+
+    Attributes:
+        primitives: lines, arcs, or one circle; each begins exactly where the one before ends.
+        closed: the last one ends exactly where the first begins.
+        layer: layer of the first curve.
+        entity_ids: entities that it came from, in order.
+        deviation: largest distance between the drawn curves and the primitives, mm (0: exact).
+    """
+
+    primitives: tuple[Primitive, ...]
+    closed: bool = True
+    layer: str = "0"
+    entity_ids: tuple[int, ...] = ()
+    deviation: float = 0.0
+
+
+@dataclass(frozen=True)
+class Region:
+    """One area to machine: a boundary and the islands directly inside it.
+
+    Attributes:
+        number: 1, 2, … in order of the drawing.
+        boundary: counter-clockwise, so the area lies to the left of travel.
+        islands: clockwise, for the same reason.
+    """
+
+    number: int
+    boundary: Contour
+    islands: tuple[Contour, ...] = ()
+
+    @property
+    def contours(self) -> tuple[Contour, ...]:
+        """Boundary first, then islands."""
+        return (self.boundary, *self.islands)

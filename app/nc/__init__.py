@@ -1,0 +1,1 @@
+"""NC text: posts and writer."""

@@ -1,0 +1,16 @@
+"""Every length below which two things count as the same, in mm, each with its reason."""
+
+LEVEL = 1e-3
+"""A path's distance to the part may differ from its level by this much, both ways (1 um)."""
+
+CURVE = 1e-3
+"""Ellipses and splines become lines and arcs within this distance, checked both ways (1 um)."""
+
+RIDGE = 1e-3
+"""A ring is dropped when the field rises above its level by less than this (parallel walls at a level)."""
+
+WELD = 1e-6
+"""Ends closer than this are one point; curves shorter than this are no curves (0.01 of an NC digit)."""
+
+JOIN = 0.01
+"""Default distance at which loose ends of a drawing are joined."""

@@ -1,0 +1,1 @@
+"""From regions to moves: contour, pocket, links, depth passes."""

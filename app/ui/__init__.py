@@ -1,0 +1,1 @@
+"""The window. Shows state, emits intent; computes nothing itself."""

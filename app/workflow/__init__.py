@@ -1,0 +1,1 @@
+"""One file a command: the whole way from bytes to bytes."""
