@@ -1,0 +1,43 @@
+"""Compiled inner loops: one decorator, one cache in the user's cache folder.
+
+A kernel has an explicit signature, so importing its module compiles it or loads it from the cache: nothing is
+compiled while a job runs. `python -m app.kernels` fills the cache at set-up.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numba
+import platformdirs
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def _cache_folder() -> str:
+    """Return a folder that can be written, creating it."""
+    for folder in (Path(platformdirs.user_cache_dir("hitofude")) / "kernels", Path(tempfile.gettempdir()) / "hitofude-kernels"):
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError:
+            continue
+        if os.access(folder, os.W_OK):
+            return str(folder)
+    return tempfile.mkdtemp(prefix="hitofude-kernels-")
+
+
+if "NUMBA_CACHE_DIR" not in os.environ:
+    numba.config.CACHE_DIR = _cache_folder()
+
+
+def kernel(signature: str) -> Callable[[Function], Function]:
+    """Compile a function for the given numba signature; it releases the GIL and is kept in the cache.
+
+    Args:
+        signature: such as "float64(float64[:, ::1], int64)".
+    """
+    return numba.njit(signature, nogil=True, cache=True, error_model="numpy")  # type: ignore[no-any-return]
