@@ -1,0 +1,110 @@
+"""Colours and type of the window, by day and by night. Path colours are Okabe-Ito, safe for colour-blind eyes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+from PySide6.QtGui import QColor, QFont, QFontDatabase
+
+TEXT_PX = 13
+HEADING_PX = 15
+
+
+@dataclass(frozen=True)
+class Theme:
+    """Every colour that the window paints with.
+
+    Attributes:
+        paper, canvas: grounds of panels and of the drawing.
+        raised: ground of fields that can be typed in; hover: ground under the mouse; chosen: of the selected row.
+        ink, muted: text; both reach a contrast of 4.5 on paper, canvas and raised.
+        hairline, grid, grid_major: separators and raster.
+        accent: the bitmap's phosphor green; accent_ink: text on it; accent_text: green that can be read on paper.
+        pocket … unreachable: tool paths and findings; region_fill: the area to machine.
+        error, warning, ok: verdicts, readable as text on paper.
+        regions: cycle of eight for colouring by region.
+    """
+
+    name: str
+    paper: QColor
+    canvas: QColor
+    raised: QColor
+    hover: QColor
+    chosen: QColor
+    ink: QColor
+    muted: QColor
+    hairline: QColor
+    grid: QColor
+    grid_major: QColor
+    accent: QColor
+    accent_ink: QColor
+    accent_text: QColor
+    selection: QColor
+    pocket: QColor
+    contour: QColor
+    rest: QColor
+    rapid: QColor
+    plunge: QColor
+    gouge: QColor
+    left: QColor
+    unreachable: QColor
+    region_fill: QColor
+    error: QColor
+    warning: QColor
+    ok: QColor
+    regions: tuple[QColor, ...]
+
+    def hex_colours(self) -> dict[str, str]:
+        """Return every single colour as "#rrggbb" by its name, for style sheets and icons."""
+        values = ((f.name, getattr(self, f.name)) for f in fields(self))
+        return {name: value.name() for name, value in values if isinstance(value, QColor)}
+
+
+def _regions(*names: str) -> tuple[QColor, ...]:
+    return tuple(QColor(name) for name in names)
+
+
+LIGHT = Theme(
+    name="light",
+    paper=QColor("#FAFAF8"), canvas=QColor("#FFFFFF"), raised=QColor("#FFFFFF"), hover=QColor("#EFF0ED"), chosen=QColor("#DDF6E8"),
+    ink=QColor("#1E2227"), muted=QColor("#5F6670"), hairline=QColor("#DCDEDA"), grid=QColor("#F1F2F0"), grid_major=QColor("#E6E8E5"),
+    accent=QColor("#2BD47D"), accent_ink=QColor("#08301B"), accent_text=QColor("#0B7A43"), selection=QColor("#2BD47D"),
+    pocket=QColor("#009E73"), contour=QColor("#E69F00"), rest=QColor("#CC79A7"), rapid=QColor("#8A8F98"), plunge=QColor("#D55E00"),
+    gouge=QColor("#D32F2F"), left=QColor("#2979FF"), unreachable=QColor("#B0A8C8"), region_fill=QColor("#F3F5F2"),
+    error=QColor("#C62828"), warning=QColor("#8A5A00"), ok=QColor("#0B7A43"),
+    regions=_regions("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7A6BC2", "#7F8C2A"),
+)
+
+DARK = Theme(
+    name="dark",
+    paper=QColor("#16191D"), canvas=QColor("#101317"), raised=QColor("#1E2228"), hover=QColor("#23282E"), chosen=QColor("#15382A"),
+    ink=QColor("#D8DCE2"), muted=QColor("#949BA5"), hairline=QColor("#2A2F36"), grid=QColor("#171B20"), grid_major=QColor("#20252B"),
+    accent=QColor("#2BD47D"), accent_ink=QColor("#06251A"), accent_text=QColor("#3FDD8C"), selection=QColor("#2BD47D"),
+    pocket=QColor("#1DB98C"), contour=QColor("#F0AE2B"), rest=QColor("#DB92B9"), rapid=QColor("#7C828C"), plunge=QColor("#EE7A2B"),
+    gouge=QColor("#F0524F"), left=QColor("#4C8DFF"), unreachable=QColor("#8F86AC"), region_fill=QColor("#171B20"),
+    error=QColor("#FF7B74"), warning=QColor("#F0AE2B"), ok=QColor("#3FDD8C"),
+    regions=_regions("#3C9DD8", "#EE7A2B", "#1DB98C", "#DB92B9", "#F0AE2B", "#7CC7F2", "#9C8EE0", "#A7B44A"),
+)
+
+
+def text_font(pixels: int = TEXT_PX, semibold: bool = False) -> QFont:
+    """Return the system's font with tabular figures, so that numbers line up.
+
+    Args:
+        pixels: height, 13 for text and 15 for headings.
+        semibold: True for headings.
+    """
+    return _sized(QFontDatabase.systemFont(QFontDatabase.SystemFont.GeneralFont), pixels, semibold)
+
+
+def mono_font(pixels: int = TEXT_PX) -> QFont:
+    """Return the system's fixed-pitch font, for commands and NC text."""
+    return _sized(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont), pixels, False)
+
+
+def _sized(font: QFont, pixels: int, semibold: bool) -> QFont:
+    font.setPixelSize(pixels)
+    font.setWeight(QFont.Weight.DemiBold if semibold else QFont.Weight.Normal)
+    if hasattr(font, "setFeature"):
+        font.setFeature(QFont.Tag("tnum"), 1)
+    return font
