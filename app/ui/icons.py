@@ -1,0 +1,66 @@
+"""Icons: one SVG each in `resources/icons`, drawn in the colour that the theme asks for."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QByteArray, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap
+from PySide6.QtSvg import QSvgRenderer
+from PySide6.QtWidgets import QToolButton, QWidget
+
+from app.resources import resource
+from app.ui.theme import Theme
+
+SIZE = 20
+_SCALES = (1, 2, 3)
+
+
+def pixmap(name: str, colour: QColor, scale: int = 1) -> QPixmap:
+    """Return an icon as a picture of 20 x 20 px times `scale`."""
+    data = resource("icons", f"{name}.svg").read_bytes().replace(b"currentColor", colour.name().encode())
+    picture = QPixmap(SIZE * scale, SIZE * scale)
+    picture.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(picture)
+    QSvgRenderer(QByteArray(data)).render(painter, QRectF(0, 0, SIZE * scale, SIZE * scale))
+    painter.end()
+    picture.setDevicePixelRatio(scale)
+    return picture
+
+
+def icon(name: str, theme: Theme, colour: QColor | None = None) -> QIcon:
+    """Return an icon in ink (or another colour), green when it is checked, faint when it is disabled."""
+    made = QIcon()
+    for scale in _SCALES:
+        made.addPixmap(pixmap(name, colour or theme.ink, scale), QIcon.Mode.Normal, QIcon.State.Off)
+        made.addPixmap(pixmap(name, colour or theme.accent_text, scale), QIcon.Mode.Normal, QIcon.State.On)
+        disabled = pixmap(name, theme.muted, scale)
+        made.addPixmap(_faded(disabled), QIcon.Mode.Disabled, QIcon.State.Off)
+    return made
+
+
+def _faded(picture: QPixmap) -> QPixmap:
+    out = QPixmap(picture.size())
+    out.setDevicePixelRatio(picture.devicePixelRatio())
+    out.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(out)
+    painter.setOpacity(0.45)
+    painter.drawPixmap(0, 0, picture)
+    painter.end()
+    return out
+
+
+class IconButton(QToolButton):
+    """A flat button with one icon that follows the theme."""
+
+    def __init__(self, name: str, tip: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._name = name
+        self.setToolTip(tip)
+        self.setAccessibleName(tip)
+        self.setAutoRaise(True)
+        self.setIconSize(QSize(16, 16))
+        self.setFixedSize(24, 24)
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Draw the icon in the theme's ink."""
+        self.setIcon(icon(self._name, theme))

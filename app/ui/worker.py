@@ -1,0 +1,150 @@
+"""The only place that starts jobs: a function runs on its own thread, its answer comes back as a signal."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from PySide6.QtCore import QObject, QRunnable, Qt, QThreadPool, Signal, Slot
+
+from app.errors import Cancelled, HitofudeError
+from app.progress import Progress
+
+_TOLD_EVERY_S = 0.04
+SWITCH_INTERVAL_S = 0.0005
+"""Python threads change hands this often while a job runs: keeps painting quick (PLATFORM, Threads)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a job ended with.
+
+    Attributes:
+        job_id, revision: which job, and the document's revision that it was started for.
+        value: what the function returned, or None.
+        error: a sentence for the user, or None.
+    """
+
+    job_id: int
+    revision: int
+    value: object = None
+    error: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Work:
+    """A job on its way: what to run and where to answer."""
+
+    job_id: int
+    revision: int
+    function: Callable[[Progress], object]
+    cancelled: threading.Event
+
+
+class _Runner(QRunnable):
+    """Runs one job on a thread of the pool."""
+
+    def __init__(self, work: _Work, worker: Worker) -> None:
+        super().__init__()
+        self._work, self._worker, self._told = work, worker, 0.0
+
+    def _tell(self, fraction: float, text: str) -> None:
+        now = time.monotonic()
+        if now - self._told >= _TOLD_EVERY_S:
+            self._told = now
+            self._worker.told.emit(self._work.job_id, fraction, text)
+
+    def run(self) -> None:
+        """Run the function and answer; nothing may escape from here."""
+        work = self._work
+        value, error = None, None
+        try:
+            value = work.function(Progress(self._tell, work.cancelled))
+        except Cancelled:
+            return
+        except HitofudeError as sentence:
+            error = str(sentence)
+        except Exception as fault:
+            traceback.print_exc()
+            error = f"The program made a mistake here ({type(fault).__name__}: {fault}). Your drawing is safe; please report this."
+        self._worker.answered.emit(Answer(work.job_id, work.revision, value, error))
+
+
+class Worker(QObject):
+    """Runs one job at a time for the window.
+
+    A newer job replaces the one before, whose answer is dropped. `cancel` takes effect at once: the job is asked to
+    stop, and whatever it still answers is dropped.
+    """
+
+    progress = Signal(float, str)
+    done = Signal(Answer)
+    failed = Signal(Answer)
+    cancelled = Signal(int)
+    busy_changed = Signal(bool)
+    told = Signal(int, float, str)
+    answered = Signal(Answer)
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        sys.setswitchinterval(SWITCH_INTERVAL_S)
+        self._pool = QThreadPool(self)
+        self._pool.setMaxThreadCount(3)
+        self._next_id = 1
+        self._current: _Work | None = None
+        self.told.connect(self._on_told, Qt.ConnectionType.QueuedConnection)
+        self.answered.connect(self._on_answered, Qt.ConnectionType.QueuedConnection)
+
+    @property
+    def busy(self) -> bool:
+        """True while a job runs whose answer is still wanted."""
+        return self._current is not None
+
+    def start(self, function: Callable[[Progress], object], revision: int) -> int:
+        """Run `function(progress)` on another thread; its inputs must be a snapshot that nobody changes.
+
+        Returns:
+            The job's id, as in the answer.
+        """
+        self._drop()
+        work = _Work(self._next_id, revision, function, threading.Event())
+        self._next_id += 1
+        self._current = work
+        self._pool.start(_Runner(work, self))
+        self.busy_changed.emit(True)
+        return work.job_id
+
+    def cancel(self) -> None:
+        """Leave the running job at once; its answer will be dropped."""
+        dropped = self._drop()
+        if dropped is not None:
+            self.cancelled.emit(dropped.job_id)
+            self.busy_changed.emit(False)
+
+    def finish(self, wait_ms: int = 2000) -> None:
+        """Leave the running job and wait for its thread, before the program ends."""
+        self._drop()
+        self._pool.waitForDone(wait_ms)
+
+    def _drop(self) -> _Work | None:
+        work, self._current = self._current, None
+        if work is not None:
+            work.cancelled.set()
+        return work
+
+    @Slot(int, float, str)
+    def _on_told(self, job_id: int, fraction: float, text: str) -> None:
+        if self._current is not None and self._current.job_id == job_id:
+            self.progress.emit(fraction, text)
+
+    @Slot(Answer)
+    def _on_answered(self, answer: Answer) -> None:
+        if self._current is None or self._current.job_id != answer.job_id:
+            return
+        self._current = None
+        self.busy_changed.emit(False)
+        (self.failed if answer.error is not None else self.done).emit(answer)

@@ -1,0 +1,102 @@
+"""The worker: answers by signal, drops what nobody waits for, leaves a cancelled job at once."""
+
+import threading
+import time
+
+import pytest
+
+from app.errors import InputError
+from app.progress import Progress
+from app.ui.worker import Worker
+
+
+@pytest.fixture
+def worker(qtbot):
+    made = Worker()
+    yield made
+    made.finish()
+
+
+def test_answer_comes_back_with_id_and_revision(qtbot, worker):
+    with qtbot.waitSignal(worker.done) as caught:
+        job_id = worker.start(lambda progress: threading.get_ident(), revision=7)
+    answer = caught.args[0]
+    assert (answer.job_id, answer.revision) == (job_id, 7)
+    assert answer.value != threading.get_ident(), "the job ran on the window's own thread"
+    assert not worker.busy
+
+
+def test_sentence_of_an_error_arrives(qtbot, worker):
+    def fail(progress: Progress) -> object:
+        raise InputError("gear.dxf is empty; choose another file.")
+
+    with qtbot.waitSignal(worker.failed) as caught:
+        worker.start(fail, 1)
+    assert caught.args[0].error == "gear.dxf is empty; choose another file."
+
+
+def test_mistake_of_the_program_is_told_as_one(qtbot, worker, capsys):
+    with qtbot.waitSignal(worker.failed) as caught:
+        worker.start(lambda progress: 1 / 0, 1)
+    assert "Your drawing is safe" in caught.args[0].error
+    assert "ZeroDivisionError" in capsys.readouterr().err
+
+
+def test_progress_is_told_on_the_window_thread(qtbot, worker):
+    def work(progress: Progress) -> object:
+        for i in range(20):
+            progress.step(i / 20, "rings")
+            time.sleep(0.01)
+        return None
+
+    seen: list[tuple[float, str, int]] = []
+    worker.progress.connect(lambda f, t: seen.append((f, t, threading.get_ident())))
+    with qtbot.waitSignal(worker.done):
+        worker.start(work, 1)
+    assert len(seen) >= 3
+    assert [f for f, _, _ in seen] == sorted(f for f, _, _ in seen)
+    assert {ident for _, _, ident in seen} == {threading.get_ident()}
+
+
+def test_cancel_answers_within_0_2_s_even_when_the_job_cannot_stop(qtbot, worker):
+    release = threading.Event()
+    answers: list[object] = []
+    worker.done.connect(answers.append)
+    worker.start(lambda progress: release.wait(5), 1)
+    begun = time.monotonic()
+    with qtbot.waitSignal(worker.cancelled):
+        worker.cancel()
+    assert time.monotonic() - begun < 0.2
+    assert not worker.busy
+    release.set()
+    qtbot.wait(100)
+    assert answers == [], "the answer of a cancelled job was not dropped"
+
+
+def test_job_that_listens_stops(qtbot, worker):
+    stopped = threading.Event()
+
+    def work(progress: Progress) -> object:
+        try:
+            while True:
+                progress.step(0.5)
+                time.sleep(0.002)
+        finally:
+            stopped.set()
+
+    worker.start(work, 1)
+    qtbot.wait(30)
+    worker.cancel()
+    assert stopped.wait(0.2)
+
+
+def test_newer_job_replaces_the_older(qtbot, worker):
+    release = threading.Event()
+    worker.start(lambda progress: (release.wait(5), "old")[1], 1)
+    values: list[object] = []
+    worker.done.connect(lambda answer: values.append(answer.value))
+    with qtbot.waitSignal(worker.done):
+        worker.start(lambda progress: "new", 2)
+    release.set()
+    qtbot.wait(100)
+    assert values == ["new"]
