@@ -1,0 +1,48 @@
+"""Exact distances from points to lines and arcs, by a tree of boxes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.geometry import kernels
+from app.geometry.primitives import Indices, Rows, boxes
+
+
+@dataclass(frozen=True)
+class DistanceField:
+    """Distance from any point to the nearest of some lines and arcs.
+
+    Attributes:
+        rows: (n, 8), n > 0.
+        boxes, order, nodes: the tree over them, see `kernels`.
+    """
+
+    rows: Rows
+    boxes: Rows
+    order: Indices
+    nodes: Rows
+
+    @staticmethod
+    def of(rows: Rows) -> DistanceField:
+        """Build the tree over rows (n, 8), n > 0."""
+        rows = np.ascontiguousarray(rows)
+        around = np.ascontiguousarray(boxes(rows))
+        order, nodes = kernels.build_tree(around)
+        return DistanceField(rows, around, order, nodes)
+
+    def nearest(self, points: NDArray[np.float64], limit: float = np.inf) -> tuple[NDArray[np.float64], Indices]:
+        """Return (distances (m,) mm, rows (m,)) for points (m, 2); rows farther than `limit` give (limit, -1)."""
+        points = np.ascontiguousarray(points, dtype=np.float64)
+        distances, found = np.empty(len(points)), np.empty(len(points), np.int64)
+        kernels.nearest_many(self.rows, self.order, self.nodes, points, limit, distances, found)
+        return distances, found
+
+    def inside(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Return for points (m, 2) whether the closed rows enclose them by the even-odd rule."""
+        points = np.ascontiguousarray(points, dtype=np.float64)
+        result = np.empty(len(points), np.bool_)
+        kernels.inside_many(self.rows, points, result)
+        return result

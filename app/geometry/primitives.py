@@ -1,0 +1,174 @@
+"""Lines and arcs as rows of numbers, for kernels, and back.
+
+A row is (x0, y0, x1, y1, cx, cy, r, turn): start, end, centre, radius, and turn = 0 for a line, +1 for an arc that
+runs counter-clockwise, -1 for one that runs clockwise. Arcs of rows sweep less than pi, so that "is this direction
+within the arc" is two cross products. Lengths in mm.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.model.curves import Arc, Circle, Line, Primitive
+from app.model.part import Contour, Region
+
+Rows = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+_MAX_SWEEP = 0.75 * math.pi
+X0, Y0, X1, Y1, CX, CY, R, TURN = range(8)
+
+
+@dataclass(frozen=True)
+class Primitives:
+    """Closed contours as rows; the area to machine lies to the left of travel.
+
+    Attributes:
+        rows: (n, 8) float64, see the module.
+        previous: (n,) int64 row that ends where this one starts.
+        region: (n,) int64 region number that the row bounds.
+        even_odd: True when contours cross, so that sides are decided by even-odd counting, not by direction.
+    """
+
+    rows: Rows
+    previous: Indices
+    region: Indices
+    even_odd: bool = False
+
+
+def curve_rows(curve: Primitive) -> list[tuple[float, ...]]:
+    """Return the rows of one line, arc or circle; arcs are split so that each sweeps less than pi."""
+    if isinstance(curve, Line):
+        return [(*curve.start, *curve.end, 0.0, 0.0, 0.0, 0.0)]
+    if isinstance(curve, Circle):
+        return _arc_rows(curve.start, curve.start, curve.centre, math.tau if curve.ccw else -math.tau)
+    return _arc_rows(curve.start, curve.end, curve.centre, curve.sweep)
+
+
+def _arc_rows(start: tuple[float, float], end: tuple[float, float], centre: tuple[float, float], sweep: float) -> list[tuple[float, ...]]:
+    count = max(1, math.ceil(abs(sweep) / _MAX_SWEEP))
+    first = math.atan2(start[1] - centre[1], start[0] - centre[0])
+    r0, r1 = math.dist(start, centre), math.dist(end, centre)
+    points = [start]
+    for k in range(1, count):
+        radius, angle = r0 + (r1 - r0) * k / count, first + sweep * k / count
+        points.append((centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)))
+    points.append(end)
+    turn = 1.0 if sweep > 0 else -1.0
+    return [_arc_row(a, b, centre, turn) for a, b in zip(points, points[1:], strict=False)]
+
+
+def _arc_row(a: tuple[float, float], b: tuple[float, float], centre: tuple[float, float], turn: float) -> tuple[float, ...]:
+    """Return an arc's row with its centre moved onto the bisector of its ends, so that both radii are the same number."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    mx, my = (a[0] + b[0]) / 2, (a[1] + b[1]) / 2
+    along = ((centre[0] - mx) * dx + (centre[1] - my) * dy) / (dx * dx + dy * dy)
+    cx, cy = centre[0] - along * dx, centre[1] - along * dy
+    return (*a, *b, cx, cy, math.hypot(a[0] - cx, a[1] - cy), turn)
+
+
+def contour_rows(contour: Contour) -> Rows:
+    """Return the rows (n, 8) of a contour, in its direction."""
+    return np.array([row for curve in contour.primitives for row in curve_rows(curve)], dtype=np.float64).reshape(-1, 8)
+
+
+def pack(regions: Sequence[Region], even_odd: bool = False) -> Primitives:
+    """Return the rows of all contours of some regions.
+
+    Args:
+        regions: boundaries counter-clockwise, islands clockwise.
+        even_odd: contours cross: both sides of each are kept, for the caller to decide by even-odd counting.
+    """
+    rows, previous, numbers = [], [], []
+    count = 0
+    for region in regions:
+        for contour in region.contours:
+            block = contour_rows(contour)
+            for piece in (block, reversed_rows(block)) if even_odd else (block,):
+                rows.append(piece)
+                previous.append(count + np.roll(np.arange(len(piece)), 1))
+                numbers.append(np.full(len(piece), region.number))
+                count += len(piece)
+    if not rows:
+        return Primitives(np.zeros((0, 8)), np.zeros(0, np.int64), np.zeros(0, np.int64), even_odd)
+    return Primitives(np.concatenate(rows), np.concatenate(previous), np.concatenate(numbers), even_odd)
+
+
+def reversed_rows(rows: Rows) -> Rows:
+    """Return the same path travelled the other way."""
+    back = rows[::-1].copy()
+    back[:, [X0, Y0, X1, Y1]] = back[:, [X1, Y1, X0, Y0]]
+    back[:, TURN] *= -1
+    return back
+
+
+def sweeps(rows: Rows) -> NDArray[np.float64]:
+    """Return the signed sweep of each row, radians; 0 for lines; a row that ends where it starts is a full turn."""
+    a = np.arctan2(rows[:, Y0] - rows[:, CY], rows[:, X0] - rows[:, CX])
+    b = np.arctan2(rows[:, Y1] - rows[:, CY], rows[:, X1] - rows[:, CX])
+    turn = np.where(rows[:, TURN] >= 0, (b - a) % math.tau, (a - b) % math.tau)
+    same = (rows[:, X0] == rows[:, X1]) & (rows[:, Y0] == rows[:, Y1])
+    return np.where(same, math.tau, turn) * rows[:, TURN]
+
+
+def lengths(rows: Rows) -> NDArray[np.float64]:
+    """Return the length of each row, mm."""
+    chord = np.hypot(rows[:, X1] - rows[:, X0], rows[:, Y1] - rows[:, Y0])
+    return np.where(rows[:, TURN] == 0, chord, np.abs(sweeps(rows)) * rows[:, R])
+
+
+def signed_area(rows: Rows) -> float:
+    """Return the area that closed rows enclose, mm2, positive when counter-clockwise (Green's theorem, exact for arcs)."""
+    origin = rows[0, :2] if len(rows) else np.zeros(2)
+    x0, y0 = rows[:, X0] - origin[0], rows[:, Y0] - origin[1]
+    x1, y1 = rows[:, X1] - origin[0], rows[:, Y1] - origin[1]
+    polygon = float(np.sum(x0 * y1 - x1 * y0)) / 2
+    turn = sweeps(rows)
+    return polygon + float(np.sum(rows[:, R] ** 2 * (turn - np.sin(turn)))) / 2
+
+
+def boxes(rows: Rows) -> NDArray[np.float64]:
+    """Return (n, 4) boxes x0, y0, x1, y1 that hold each row exactly, mm."""
+    low = np.minimum(rows[:, [X0, Y0]], rows[:, [X1, Y1]])
+    high = np.maximum(rows[:, [X0, Y0]], rows[:, [X1, Y1]])
+    turn = sweeps(rows)
+    start = np.arctan2(rows[:, Y0] - rows[:, CY], rows[:, X0] - rows[:, CX])
+    for k, (dx, dy) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
+        ahead = np.where(turn >= 0, (k * math.pi / 2 - start) % math.tau, (start - k * math.pi / 2) % math.tau)
+        touched = (rows[:, TURN] != 0) & (ahead <= np.abs(turn))
+        point = rows[:, [CX, CY]] + rows[:, [R]] * np.array([dx, dy])
+        low = np.where(touched[:, None], np.minimum(low, point), low)
+        high = np.where(touched[:, None], np.maximum(high, point), high)
+    return np.hstack([low, high])
+
+
+def sample(rows: Rows, tolerance: float) -> NDArray[np.float64]:
+    """Return points (m, 2) along rows whose chords stay within `tolerance` mm; each row's end is left to the next one."""
+    turn = np.abs(sweeps(rows))
+    step = 2 * np.arccos(np.clip(1 - tolerance / np.maximum(rows[:, R], tolerance), 0, 1))
+    counts = np.where(rows[:, TURN] == 0, 1, np.maximum(1, np.ceil(turn / step))).astype(np.int64)
+    index = np.repeat(np.arange(len(rows)), counts)
+    part = (np.arange(len(index)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[index]
+    return points_at(rows[index], part)
+
+
+def points_at(rows: Rows, fraction: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the point (n, 2) at a fraction in [0, 1] of each row's length."""
+    line = rows[:, :2] + (rows[:, 2:4] - rows[:, :2]) * fraction[:, None]
+    angle = np.arctan2(rows[:, Y0] - rows[:, CY], rows[:, X0] - rows[:, CX]) + sweeps(rows) * fraction
+    arc = rows[:, CX:R] + rows[:, [R]] * np.stack([np.cos(angle), np.sin(angle)], 1)
+    arc = np.where((fraction == 0)[:, None], rows[:, :2], arc)
+    return np.where((rows[:, TURN] == 0)[:, None], line, arc)
+
+
+def row_curve(row: Rows) -> Line | Arc:
+    """Return one row as a line or an arc of the model."""
+    start, end = (float(row[X0]), float(row[Y0])), (float(row[X1]), float(row[Y1]))
+    if row[TURN] == 0:
+        return Line(start, end)
+    return Arc(start, end, (float(row[CX]), float(row[CY])), bool(row[TURN] > 0))
