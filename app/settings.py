@@ -1,0 +1,90 @@
+"""What the program remembers between two runs: a small JSON file in the user's configuration folder."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import asdict, dataclass, fields, replace
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+import platformdirs
+
+from app.errors import InputError
+from app.files.atomic import write_atomically
+
+RECENT_FILES = 10
+"""How many files the list of recent files holds."""
+
+
+class ThemeChoice(Enum):
+    """Which colours the window uses."""
+
+    SYSTEM = "system"
+    LIGHT = "light"
+    DARK = "dark"
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Remembered choices of one user.
+
+    Attributes:
+        theme: "system" follows the desktop.
+        recent_files: absolute paths, the latest first, each once.
+        window_geometry, window_state: opaque text of the window tool-kit, or "".
+        last_folder: folder of the last file dialog, or "".
+    """
+
+    theme: ThemeChoice = ThemeChoice.SYSTEM
+    recent_files: tuple[str, ...] = ()
+    window_geometry: str = ""
+    window_state: str = ""
+    last_folder: str = ""
+
+    def with_recent_file(self, path: Path) -> Settings:
+        """Return the settings with this file as the latest one."""
+        name = str(path.absolute())
+        others = tuple(other for other in self.recent_files if other != name)
+        return replace(self, recent_files=(name, *others)[:RECENT_FILES], last_folder=str(path.absolute().parent))
+
+
+def config_folder() -> Path:
+    """Return the folder of the settings file: HITOFUDE_CONFIG if that is set, else the platform's own place."""
+    return Path(os.environ.get("HITOFUDE_CONFIG") or platformdirs.user_config_dir("hitofude"))
+
+
+def load_settings() -> Settings:
+    """Return the saved settings; what is missing, damaged or of another version's kind takes its default."""
+    try:
+        saved = json.loads((config_folder() / "settings.json").read_text("utf-8"))
+    except (OSError, ValueError):
+        return Settings()
+    if not isinstance(saved, dict):
+        return Settings()
+    return Settings(**{field.name: _checked(field.name, saved[field.name]) for field in fields(Settings) if field.name in saved})
+
+
+def _checked(name: str, value: object) -> Any:
+    default = getattr(Settings(), name)
+    if isinstance(default, ThemeChoice):
+        return ThemeChoice(value) if value in [choice.value for choice in ThemeChoice] else default
+    if isinstance(default, tuple):
+        return tuple(item for item in value if isinstance(item, str)) if isinstance(value, list) else default
+    return value if isinstance(value, str) else default
+
+
+def save_settings(settings: Settings) -> None:
+    """Write the settings file whole or not at all.
+
+    Raises:
+        InputError: the folder or the file cannot be written.
+    """
+    folder = config_folder()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"Cannot make the settings folder {folder}: {error.strerror}.") from error
+    text = json.dumps(asdict(settings) | {"theme": settings.theme.value}, indent=1, ensure_ascii=False)
+    write_atomically(folder / "settings.json", text.encode() + b"\n")

@@ -1,0 +1,164 @@
+"""The rules of the house, read from the source: who may know whom, how long things may be, what starts light."""
+
+import ast
+import subprocess
+import sys
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+from tests.conftest import ROOT
+
+APP = ROOT / "app"
+LEAVES = {"errors", "progress", "tolerances", "resources", "pool", "jit"}
+KNOWS = {
+    "model": set(),
+    "geometry": {"model", "fit"},
+    "fit": {"model", "geometry"},
+    "bitmap": {"model", "geometry"},
+    "toolpath": {"model", "geometry", "fit", "bitmap"},
+    "nc": {"model", "geometry", "fit"},
+    "files": {"model", "geometry", "fit"},
+    "edit": {"model", "geometry", "fit", "files"},
+    "workflow": {"model", "geometry", "fit", "bitmap", "toolpath", "nc", "files"},
+    "ui": {"model", "geometry", "fit", "bitmap", "toolpath", "nc", "files", "edit", "workflow", "settings", "kernels", "cli"},
+    "settings": {"files"},
+    "kernels": set(),
+    "cli": {"model", "geometry", "fit", "bitmap", "toolpath", "nc", "files", "edit", "workflow"},
+    "__main__": {"cli", "ui"},
+}
+QT = {"PySide6", "pyqtgraph", "shiboken6"}
+COMPILER = {"numba"}
+FILES = sorted(APP.rglob("*.py"))
+PYTHON_FILES = FILES + sorted((ROOT / "tests").rglob("*.py"))
+
+
+def module_name(path: Path) -> str:
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+MODULES = {module_name(path): path for path in FILES}
+
+
+def tree_of(path: Path) -> ast.Module:
+    return ast.parse(path.read_text("utf-8"), str(path))
+
+
+def names_in(node: ast.AST) -> list[str]:
+    """Modules that one import statement names."""
+    if isinstance(node, ast.Import):
+        return [alias.name for alias in node.names]
+    if isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+        return [full if (full := f"{node.module}.{alias.name}") in MODULES else node.module for alias in node.names]
+    return []
+
+
+def imports(path: Path) -> set[str]:
+    return {name for node in ast.walk(tree_of(path)) for name in names_in(node)}
+
+
+def imports_at_start(path: Path) -> set[str]:
+    """Modules that importing this file imports: neither those inside functions nor those for types only."""
+    found: set[str] = set()
+    waiting: list[ast.AST] = [tree_of(path)]
+    while waiting:
+        node = waiting.pop()
+        found.update(names_in(node))
+        types_only = isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test)
+        if not types_only and not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            waiting.extend(ast.iter_child_nodes(node))
+    return found
+
+
+def room_of(module: str) -> str:
+    parts = module.split(".")
+    room = parts[1] if len(parts) > 1 else ""
+    return "cli" if room.startswith("cli_") else room
+
+
+def each(paths: list[Path]) -> pytest.MarkDecorator:
+    return pytest.mark.parametrize("path", paths, ids=[str(p.relative_to(ROOT)) for p in paths])
+
+
+@each(FILES)
+def test_rooms_know_only_what_lies_before_them(path: Path) -> None:
+    room = room_of(module_name(path))
+    allowed = LEAVES | {"", room} | (set() if room in LEAVES else KNOWS.get(room, set()))
+    wrong = {name for name in imports(path) if name.split(".")[0] == "app" and room_of(name) not in allowed}
+    assert not wrong, f"{path.name} in {room} must not know {wrong}"
+
+
+@each(FILES)
+def test_geometry_knows_of_fit_only_its_arcs(path: Path) -> None:
+    if room_of(module_name(path)) == "geometry":
+        assert {name for name in imports(path) if name.startswith("app.fit")} <= {"app.fit.arcs"}
+
+
+@each(FILES)
+def test_qt_stays_in_the_window(path: Path) -> None:
+    if room_of(module_name(path)) != "ui":
+        assert not {name for name in imports(path) if name.split(".")[0] in QT}
+
+
+@each(FILES)
+def test_only_kernel_files_know_the_compiler(path: Path) -> None:
+    if "kernels" not in path.stem and path.stem != "jit":
+        assert not {name for name in imports(path) if name.split(".")[0] in COMPILER or name == "app.jit"}
+
+
+def test_every_room_is_in_the_table() -> None:
+    assert {room_of(name) for name in MODULES} <= LEAVES | set(KNOWS) | {""}
+
+
+def test_no_import_cycles() -> None:
+    graph = {name: {target for target in imports_at_start(path) if target in MODULES and target != name} for name, path in MODULES.items()}
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        pytest.fail(" imports ".join(reversed(error.args[1])))
+
+
+@each(PYTHON_FILES)
+def test_files_are_short(path: Path) -> None:
+    assert len(path.read_text("utf-8").splitlines()) <= 400
+
+
+@each(PYTHON_FILES)
+def test_functions_are_short(path: Path) -> None:
+    functions = (node for node in ast.walk(tree_of(path)) if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef))
+    long = {node.name: size for node in functions if (size := (node.end_lineno or 0) - node.lineno + 1) > 50}
+    assert not long
+
+
+@each(FILES)
+def test_functions_take_few_parameters(path: Path) -> None:
+    if "kernels" in path.stem:
+        return
+    functions = (node for node in ast.walk(tree_of(path)) if isinstance(node, ast.FunctionDef))
+    counts = {node.name: len([a for a in (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs) if a.arg not in ("self", "cls")])
+              for node in functions}
+    assert not {name: count for name, count in counts.items() if count > 5}
+
+
+@each(FILES)
+def test_public_things_say_what_they_are(path: Path) -> None:
+    tree = tree_of(path)
+    assert ast.get_docstring(tree), f"{path.name} has no docstring"
+    public = (node for node in tree.body if isinstance(node, ast.FunctionDef | ast.ClassDef) and not node.name.startswith("_"))
+    assert not [node.name for node in public if not ast.get_docstring(node)]
+
+
+def modules_after(statement: str) -> set[str]:
+    code = f"{statement}\nimport sys\nprint(*sorted({{name.split('.')[0] for name in sys.modules}}))"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True, timeout=60)
+    return set(done.stdout.split())
+
+
+def test_the_command_line_starts_without_heavy_libraries() -> None:
+    assert not modules_after("import app.cli") & (QT | COMPILER | {"ezdxf", "trimesh", "cv2", "shapely", "scipy"})
+
+
+def test_kernel_modules_know_no_window() -> None:
+    assert not modules_after("import app.kernels; app.kernels.warm()") & QT
