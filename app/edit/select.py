@@ -1,0 +1,107 @@
+"""Which entities a `select` line means."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.edit.command import check_ids
+from app.edit.sample import Box, bounds, sample
+from app.model.curves import Curve
+from app.model.part import Entity, Part
+
+
+class How(Enum):
+    """What becomes of the selection that was there."""
+
+    REPLACE = ""
+    ADD = "add"
+    REMOVE = "remove"
+
+
+class By(Enum):
+    """What the entities are chosen by."""
+
+    IDS = "ids"
+    ALL = "all"
+    NONE = "none"
+    WINDOW = "window"
+    CROSSING = "crossing"
+    LAYER = "layer"
+
+
+@dataclass(frozen=True, slots=True)
+class Select:
+    """Choose entities; hidden and locked layers are passed over, except by number.
+
+    Attributes:
+        box: x0, y0, x1, y1 with x0 <= x1 and y0 <= y1, mm; WINDOW takes what lies wholly inside, CROSSING also what reaches in.
+    """
+
+    by: By
+    how: How = How.REPLACE
+    ids: frozenset[int] = frozenset()
+    box: Box = (0.0, 0.0, 0.0, 0.0)
+    layer: str = ""
+
+    def resolve(self, part: Part, selection: frozenset[int]) -> frozenset[int]:
+        """Return the new selection.
+
+        Raises:
+            InputError: an id that the part does not have.
+        """
+        check_ids(part, self.ids)
+        found = self.ids if self.by is By.IDS else frozenset(e.id for e in reachable(part) if self._takes(e))
+        if self.how is How.ADD:
+            return selection | found
+        return selection - found if self.how is How.REMOVE else found
+
+    def _takes(self, entity: Entity) -> bool:
+        if self.by is By.LAYER:
+            return entity.layer == self.layer
+        if self.by is By.WINDOW:
+            return inside(bounds(entity.curve), self.box)
+        if self.by is By.CROSSING:
+            return crosses(entity.curve, self.box)
+        return self.by is By.ALL
+
+
+def reachable(part: Part) -> tuple[Entity, ...]:
+    """Return the entities on layers that are visible and not locked."""
+    shut = {layer.name for layer in part.layers if not layer.visible or layer.locked}
+    return tuple(e for e in part.entities if e.layer not in shut) if shut else part.entities
+
+
+def inside(inner: Box, outer: Box) -> bool:
+    """Return whether a box lies within another."""
+    return inner[0] >= outer[0] and inner[1] >= outer[1] and inner[2] <= outer[2] and inner[3] <= outer[3]
+
+
+def crosses(curve: Curve, box: Box) -> bool:
+    """Return whether any point of a curve lies within a box."""
+    extent = bounds(curve)
+    if extent[0] > box[2] or extent[2] < box[0] or extent[1] > box[3] or extent[3] < box[1]:
+        return False
+    if inside(extent, box):
+        return True
+    points = sample(curve)
+    return bool(_segments_reach(points[:-1], points[1:], box).any())
+
+
+def _segments_reach(a: NDArray[np.float64], b: NDArray[np.float64], box: Box) -> NDArray[np.bool_]:
+    """Return for each segment whether it meets the box (Liang-Barsky: the parameter ranges of both slabs overlap)."""
+    first, last = np.zeros(len(a)), np.ones(len(a))
+    for axis in (0, 1):
+        low, high = box[axis] - a[:, axis], box[axis + 2] - a[:, axis]
+        step = b[:, axis] - a[:, axis]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            t0, t1 = low / step, high / step
+        flat = step == 0
+        hit = (low <= 0) & (high >= 0)
+        t0 = np.where(flat, np.where(hit, 0.0, 2.0), t0)
+        t1 = np.where(flat, np.where(hit, 1.0, 2.0), t1)
+        first, last = np.maximum(first, np.minimum(t0, t1)), np.minimum(last, np.maximum(t0, t1))
+    return np.asarray(first <= last)
