@@ -6,6 +6,7 @@ compiled while a job runs. `python -m app.kernels` fills the cache at set-up.
 
 from __future__ import annotations
 
+import hashlib
 import os
 import tempfile
 from collections.abc import Callable
@@ -18,9 +19,17 @@ import platformdirs
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
+def _version() -> str:
+    """Return a name that changes with any kernel's source: numba itself looks at one file, not at what it calls."""
+    sources = sorted(Path(__file__).parent.rglob("*kernels*.py"))
+    return hashlib.sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()[:16]
+
+
 def _cache_folder() -> str:
     """Return a folder that can be written, creating it."""
-    for folder in (Path(platformdirs.user_cache_dir("hitofude")) / "kernels", Path(tempfile.gettempdir()) / "hitofude-kernels"):
+    version = _version()
+    for base in (Path(platformdirs.user_cache_dir("hitofude")) / "kernels", Path(tempfile.gettempdir()) / "hitofude-kernels"):
+        folder = base / version
         try:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError:

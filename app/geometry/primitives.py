@@ -32,13 +32,19 @@ class Primitives:
         rows: (n, 8) float64, see the module.
         previous: (n,) int64 row that ends where this one starts.
         region: (n,) int64 region number that the row bounds.
-        even_odd: True when contours cross, so that sides are decided by even-odd counting, not by direction.
+        forward: (n,) False for rows that repeat another one the other way round. They are there when contours
+            cross, so that sides are decided by even-odd counting, not by direction.
     """
 
     rows: Rows
     previous: Indices
     region: Indices
-    even_odd: bool = False
+    forward: NDArray[np.bool_]
+
+    @property
+    def outline(self) -> Rows:
+        """The rows of the drawing, each once."""
+        return self.rows[self.forward]
 
 
 def curve_rows(curve: Primitive) -> list[tuple[float, ...]]:
@@ -84,19 +90,18 @@ def pack(regions: Sequence[Region], even_odd: bool = False) -> Primitives:
         regions: boundaries counter-clockwise, islands clockwise.
         even_odd: contours cross: both sides of each are kept, for the caller to decide by even-odd counting.
     """
-    rows, previous, numbers = [], [], []
+    rows, previous, numbers, forward = [np.zeros((0, 8))], [], [], []
     count = 0
     for region in regions:
         for contour in region.contours:
             block = contour_rows(contour)
-            for piece in (block, reversed_rows(block)) if even_odd else (block,):
-                rows.append(piece)
-                previous.append(count + np.roll(np.arange(len(piece)), 1))
-                numbers.append(np.full(len(piece), region.number))
-                count += len(piece)
-    if not rows:
-        return Primitives(np.zeros((0, 8)), np.zeros(0, np.int64), np.zeros(0, np.int64), even_odd)
-    return Primitives(np.concatenate(rows), np.concatenate(previous), np.concatenate(numbers), even_odd)
+            for ahead in (True, False) if even_odd else (True,):
+                rows.append(block if ahead else reversed_rows(block))
+                previous.extend(count + np.roll(np.arange(len(block)), 1))
+                numbers.extend([region.number] * len(block))
+                forward.extend([ahead] * len(block))
+                count += len(block)
+    return Primitives(np.concatenate(rows), np.array(previous, np.int64), np.array(numbers, np.int64), np.array(forward, np.bool_))
 
 
 def reversed_rows(rows: Rows) -> Rows:
