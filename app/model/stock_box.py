@@ -1,0 +1,79 @@
+"""Where the stock and the work origin are: the box round the regions, in part coordinates."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from app.errors import ParameterError
+from app.model.curves import Arc, Circle, Point, Primitive
+from app.model.job import Job, OriginXY, OriginZ
+from app.model.part import Contour, Region
+
+QUADRANTS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
+
+
+@dataclass(frozen=True, slots=True)
+class StockBox:
+    """The stock, mm, part coordinates; z1 = 0 is its top."""
+
+    x0: float
+    y0: float
+    z0: float
+    x1: float
+    y1: float
+    z1: float = 0.0
+
+    @property
+    def size(self) -> tuple[float, float, float]:
+        """Length along X, Y and Z, mm."""
+        return (self.x1 - self.x0, self.y1 - self.y0, self.z1 - self.z0)
+
+
+def extent(contours: Iterable[Contour]) -> tuple[float, float, float, float] | None:
+    """Return (x0, y0, x1, y1) of the contours, mm, arcs by what they really reach; None when there are none."""
+    points = [point for contour in contours for primitive in contour.primitives for point in _extreme_points(primitive)]
+    if not points:
+        return None
+    xs, ys = zip(*points, strict=True)
+    return (min(xs), min(ys), max(xs), max(ys))
+
+
+def stock_box(job: Job, regions: Iterable[Region]) -> StockBox:
+    """Return the stock of a job: the extent of its regions and the margin round it.
+
+    Raises:
+        ParameterError: there is no region.
+    """
+    box = extent(contour for region in regions for contour in region.contours)
+    if box is None:
+        raise ParameterError("The part has no closed contour, so there is no stock to set the work origin on; close a contour first.")
+    margin = job.stock.margin
+    return StockBox(box[0] - margin, box[1] - margin, -job.stock.thickness, box[2] + margin, box[3] + margin)
+
+
+def work_origin(job: Job, box: StockBox) -> tuple[float, float, float]:
+    """Return the work origin in part coordinates, mm: NC coordinates = part coordinates - work origin."""
+    x, y = {
+        OriginXY.DRAWING: (0.0, 0.0),
+        OriginXY.LOWER_LEFT: (box.x0, box.y0),
+        OriginXY.CENTRE: ((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2),
+    }[job.origin_xy]
+    return (x, y, box.z1 if job.origin_z is OriginZ.TOP else box.z0)
+
+
+def _extreme_points(primitive: Primitive) -> Iterator[Point]:
+    """Yield points of a primitive that hold its extent: its ends, and where an arc passes a quadrant."""
+    yield primitive.start
+    yield primitive.end
+    if isinstance(primitive, (Arc, Circle)):
+        cx, cy = primitive.centre
+        yield from ((cx + primitive.radius * ux, cy + primitive.radius * uy)
+                    for ux, uy in QUADRANTS if isinstance(primitive, Circle) or _passes(primitive, math.atan2(uy, ux)))
+
+
+def _passes(arc: Arc, angle: float) -> bool:
+    """Tell whether an arc passes the direction `angle` as seen from its centre."""
+    turn = (angle - arc.start_angle) % math.tau if arc.ccw else (arc.start_angle - angle) % math.tau
+    return turn < abs(arc.sweep)

@@ -1,0 +1,115 @@
+"""The text of a program block by block, knowing what the control knows: position, motion and feed are modal."""
+
+from __future__ import annotations
+
+from app.model.moves import MoveKind
+from app.model.part import Units
+from app.nc.grid import spelled
+from app.nc.post import ArcCentre, Post
+
+Position = tuple[int, int, int]
+"""X, Y and Z as counts of their last decimal."""
+
+Reached = tuple[int | None, int | None, int | None]
+"""A position of which some axes may be unknown."""
+
+
+class Blocks:
+    """Lines of a program as they are written; words that would say what the control knows already are left out.
+
+    Attributes:
+        lines: the text so far.
+        motion_line: 1-based line of the last motion block; 0 before the first.
+    """
+
+    def __init__(self, post: Post, units: Units) -> None:
+        """Begin an empty program."""
+        self.lines: list[str] = []
+        self.motion_line = 0
+        self._post = post
+        self._digits = post.digits(units)
+        self._number = post.numbers.start
+        self.forget()
+
+    def forget(self) -> None:
+        """Take nothing for granted any more: at the start, and after a tool change."""
+        self._position: Reached = (None, None, None)
+        self._motion = ""
+        self._feed: int | None = None
+
+    def comment(self, text: str) -> None:
+        """Write a comment, in several lines if it is wider than the control takes."""
+        style = self._post.comments
+        for line in _wrapped(text, style.width):
+            self.lines.append(f"{style.open}{line}{style.close}")
+
+    def block(self, text: str) -> None:
+        """Write a block that is no motion; an empty text is left out."""
+        if text:
+            self.lines.append(text if text.startswith("%") else self._numbered(text))
+
+    def rapid_z(self, z: int) -> None:
+        """Go straight up or down at rapid rate."""
+        self._write(MoveKind.RAPID, (self._position[0], self._position[1], z), {})
+
+    def straight(self, kind: MoveKind, end: Position, feed: int = 0) -> None:
+        """Go straight, by a rapid or a line; a move that is none after rounding is left out."""
+        self._write(kind, end, {}, None if kind is MoveKind.RAPID else feed)
+
+    def arc(self, kind: MoveKind, end: Position, centre: tuple[int, int], feed: int) -> None:
+        """Go along an arc; X, Y, I and J are always written.
+
+        Args:
+            kind: clockwise or counter-clockwise.
+            end: where to.
+            centre: from the start to the centre, counts of the last decimal of I and J.
+            feed: count of the last decimal of F.
+        """
+        digits = self._digits
+        if self._post.arcs.centre is ArcCentre.ABSOLUTE:
+            finer = 10 ** (digits.I - digits.X)
+            centre = (centre[0] + (self._position[0] or 0) * finer, centre[1] + (self._position[1] or 0) * finer)
+        words = {"X": spelled(end[0], digits.X), "Y": spelled(end[1], digits.Y)}
+        self._write(kind, end, words | {"I": spelled(centre[0], digits.I), "J": spelled(centre[1], digits.J)}, feed)
+
+    def _write(self, kind: MoveKind, end: Reached, words: dict[str, str], feed: int | None = None) -> None:
+        """Write a motion block with the axes and the feed that change, and remember what it did."""
+        for letter, new, old in zip("XYZ", end, self._position, strict=True):
+            if new is not None and new != old:
+                words[letter] = spelled(new, getattr(self._digits, letter))
+        if not words:
+            return
+        motion = self._post.words.motion[kind]
+        if motion != self._motion or not self._post.words.modal_motion:
+            words["G"] = motion
+        if feed is not None and feed != self._feed:
+            words["F"] = _without_zeros(spelled(feed, self._digits.F))
+            self._feed = feed
+        block = (words[letter] if letter == "G" else letter + words[letter] for letter in self._post.words.order if letter in words)
+        self.lines.append(self._numbered(" ".join(block)))
+        self._motion, self._position, self.motion_line = motion, end, len(self.lines)
+
+    def _numbered(self, text: str) -> str:
+        """Return a block with its N word, if the post wants one; LinuxCNC and Fanuc end at N99999, so it starts again there."""
+        if not self._post.numbers.use:
+            return text
+        number, self._number = self._number, self._number + self._post.numbers.step
+        if self._number > 99999:
+            self._number = self._post.numbers.start
+        return f"N{number} {text}"
+
+
+def _without_zeros(text: str) -> str:
+    """Return a number without the zeros behind its point."""
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def _wrapped(text: str, width: int) -> list[str]:
+    """Return the text in lines of at most `width` characters, broken at spaces where there are any."""
+    lines: list[str] = []
+    while len(text) > width:
+        cut = text.rfind(" ", 1, width + 1)
+        cut = cut if cut > 0 else width
+        lines.append(text[:cut])
+        text = text[cut:].lstrip()
+    return [*lines, text]

@@ -1,0 +1,17 @@
+"""Numbers as a control reads them: whole counts of the last decimal, so that nothing is rounded twice."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def counts(values: NDArray[np.float64], decimals: int) -> list[int]:
+    """Return values as counts of their last decimal, the nearest ones."""
+    rounded: list[int] = np.rint(values * 10.0**decimals).astype(np.int64).tolist()
+    return rounded
+
+
+def spelled(count: int, decimals: int) -> str:
+    """Return a count of the last decimal as text with all its decimals; zero has no sign."""
+    return f"{count / 10**decimals:.{decimals}f}"

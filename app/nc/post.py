@@ -1,0 +1,191 @@
+"""What there is to know about a control's dialect: the shape of a post's data file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from app.model.part import Units
+
+
+class ArcCentre(Enum):
+    """What the I and J words of an arc count from."""
+
+    INCREMENTAL = "incremental"
+    ABSOLUTE = "absolute"
+
+
+class Coolant(Enum):
+    """What the coolant does while a tool cuts."""
+
+    NONE = "none"
+    FLOOD = "flood"
+    MIST = "mist"
+
+
+@dataclass(frozen=True, slots=True)
+class UnitWords:
+    """G words of the length units."""
+
+    mm: str
+    inch: str
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """How a block is spelled.
+
+    Attributes:
+        order: letters of a motion block in the order of writing.
+        motion: G words of rapid, line, clockwise arc, counter-clockwise arc.
+        modal_motion: leave the G word out where it is that of the block before.
+    """
+
+    order: tuple[str, ...]
+    motion: tuple[str, ...]
+    modal_motion: bool
+
+
+@dataclass(frozen=True, slots=True)
+class WordDecimals:
+    """Digits after the decimal point of each word; every word but F keeps its point and its zeros.
+
+    Attributes:
+        X, Y, Z: positions, out units; X and Y alike.
+        I, J: arc centres, out units; alike.
+        F: feed rate, out units a minute.
+    """
+
+    X: int
+    Y: int
+    Z: int
+    I: int  # noqa: E741 - the word's own letter
+    J: int
+    F: int
+
+
+@dataclass(frozen=True, slots=True)
+class Decimals:
+    """Digits of each word, by the program's units."""
+
+    mm: WordDecimals
+    inch: WordDecimals
+
+
+@dataclass(frozen=True, slots=True)
+class Comments:
+    """How a comment is marked.
+
+    Attributes:
+        open, close: what stands before and behind; close may be "".
+        width: longest comment, characters; longer text goes on in another comment.
+    """
+
+    open: str
+    close: str
+    width: int
+
+
+@dataclass(frozen=True, slots=True)
+class Numbers:
+    """N words: whether, from where, and how far apart."""
+
+    use: bool
+    start: int
+    step: int
+
+
+@dataclass(frozen=True, slots=True)
+class Arcs:
+    """Which arcs the control takes.
+
+    Attributes:
+        centre: what I and J count from.
+        largest_sweep_deg: longer arcs are split into equal pieces, in [60, 359]; full circles always are.
+        largest_radius_mm: flatter arcs become lines.
+        radius_mismatch_mm: the control refuses arcs whose two radii differ by more.
+    """
+
+    centre: ArcCentre
+    largest_sweep_deg: float
+    largest_radius_mm: float
+    radius_mismatch_mm: float
+
+
+@dataclass(frozen=True, slots=True)
+class Blending:
+    """How the control may round corners.
+
+    Attributes:
+        tolerance_mm: the farthest it may leave the path where it blends.
+        blend: template of the block that says so, with the field {blend} in out units; "" where the control has none.
+        exact: block that forbids it, or "".
+    """
+
+    tolerance_mm: float
+    blend: str
+    exact: str
+
+
+@dataclass(frozen=True, slots=True)
+class SpindleRules:
+    """How long the spindle takes to reach its speed, s."""
+
+    dwell_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class CoolantWords:
+    """What the coolant does, and its M words."""
+
+    use: Coolant
+    flood: str
+    mist: str
+    off: str
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramLines:
+    """Blocks round the motion, as templates; a block whose text comes out empty is left out.
+
+    Fields: {units} {blending} in every block; in `tool` and `leave` also {tool} {speed} {dwell_s} {dwell_ms} {coolant_on}
+    {coolant_off}.
+
+    Attributes:
+        start: before the first tool.
+        tool: change to a tool, its length, spindle on; the tool stands at clearance.
+        leave: after the last move of a tool, at clearance height.
+        end: behind everything.
+    """
+
+    start: tuple[str, ...]
+    tool: tuple[str, ...]
+    leave: tuple[str, ...]
+    end: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Post:
+    """One control's dialect.
+
+    Attributes:
+        title: the control's name for people.
+        extension: of its program files, with the dot.
+    """
+
+    title: str
+    extension: str
+    units: UnitWords
+    words: Words
+    decimals: Decimals
+    comments: Comments
+    numbers: Numbers
+    arcs: Arcs
+    blending: Blending
+    spindle: SpindleRules
+    coolant: CoolantWords
+    program: ProgramLines
+
+    def digits(self, units: Units) -> WordDecimals:
+        """Return the digits of each word in a program of these units."""
+        return self.decimals.inch if units is Units.INCH else self.decimals.mm

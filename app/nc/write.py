@@ -1,0 +1,177 @@
+"""A program of tool paths as NC text for one control."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.errors import ParameterError
+from app.model.job import Job
+from app.model.moves import MoveKind, Program
+from app.model.part import Units
+from app.model.stock_box import stock_box, work_origin
+from app.model.tool import Tool
+from app.nc.arcs import ArcRules, written_pieces
+from app.nc.blocks import Blocks
+from app.nc.grid import spelled
+from app.nc.header import Heading, heading_lines, operation_words, tool_words
+from app.nc.post import Coolant, Post
+from app.nc.sequence import check_sequence
+from app.nc.work_moves import WorkMoves, work_moves
+from app.progress import NO_PROGRESS, Progress
+
+MOVES_A_STEP = 2048
+
+LARGEST_DEVIATION = 1e-3
+"""No written arc leaves the meant one by more, mm, unless the last decimal itself is coarser."""
+
+
+@dataclass(frozen=True)
+class NcText:
+    """A written program.
+
+    Attributes:
+        text: ASCII, lines ended by a line feed.
+        lines: (n,) 1-based line that brings the tool to the end of each move of the program; a move that is nothing
+            after rounding has the line of the one before.
+    """
+
+    text: str
+    lines: NDArray[np.int32]
+
+
+def write_program(program: Program, job: Job, post: Post, progress: Progress = NO_PROGRESS) -> NcText:
+    """Return the program as NC text; the same program, job and post always give the same bytes.
+
+    Positions are rounded once, to the nearest last decimal; the written path stays within `writing_tolerance` of the
+    moves. Before each tool the spindle stops at safe Z; each begins at safe Z before it moves in X or Y.
+
+    Args:
+        program: moves in part coordinates, with the regions they cut.
+        job: what they were computed from.
+        post: the control's dialect.
+        progress: asked for cancel now and then.
+
+    Raises:
+        ParameterError: the moves are none that a machine should make, a tool is not in the job, out units are neither
+            mm nor inch, or there is no region to place the stock round.
+        Cancelled: the job was asked to stop.
+    """
+    if job.out_units not in (Units.MM, Units.INCH):
+        raise ParameterError(f"NC programs are in mm or inch, not in {job.out_units.name.lower()}; choose one of the two.")
+    check_sequence(program.moves, job)
+    box = stock_box(job, program.regions)
+    sheet = Blocks(post, job.out_units)
+    for line in heading_lines(Heading(program, job, post, box, blend_mm(job, post), writing_tolerance(job, post))):
+        sheet.comment(line)
+    moves = work_moves(program.moves, work_origin(job, box), job.out_units, post.digits(job.out_units))
+    lines = _Writer(job, post, sheet, moves).write(progress)
+    return NcText("\n".join(sheet.lines) + "\n", np.array(lines, dtype=np.int32))
+
+
+def blend_mm(job: Job, post: Post) -> float:
+    """Return how far the control may leave the written path, mm: what the blending block says, 0 for an exact path."""
+    if job.exact_path or not post.blending.blend:
+        return 0.0
+    scale: int = 10 ** post.digits(job.out_units).X
+    return math.floor(post.blending.tolerance_mm / job.out_units.value * scale + 1e-6) / scale * job.out_units.value
+
+
+def writing_tolerance(job: Job, post: Post) -> float:
+    """Return how far the written path may be from the program's moves, mm.
+
+    Two steps of the last decimal, at most 1 um; where one step is more than that, one step.
+    """
+    step: float = job.out_units.value * 10.0 ** -post.digits(job.out_units).X
+    return max(min(2 * step, LARGEST_DEVIATION), step)
+
+
+class _Writer:
+    """One run over the moves."""
+
+    def __init__(self, job: Job, post: Post, sheet: Blocks, moves: WorkMoves) -> None:
+        self.job, self.post, self.sheet, self.moves = job, post, sheet, moves
+        digits, unit = post.digits(job.out_units), job.out_units.value
+        self.z_scale = 10.0**digits.Z
+        self.arc_rules = ArcRules(
+            digits.X, digits.I, writing_tolerance(job, post) / unit, math.radians(post.arcs.largest_sweep_deg),
+            post.arcs.largest_radius_mm / unit, post.arcs.radius_mismatch_mm / unit,
+        )  # fmt: skip
+
+    def write(self, progress: Progress) -> list[int]:
+        """Write everything behind the header; return the line of each move."""
+        moves, lines = self.moves, []
+        self._blocks(self.post.program.start)
+        for i in range(len(moves)):
+            if i % MOVES_A_STEP == 0:
+                progress.step(i / len(moves), "Writing NC")
+            new_tool = i == 0 or moves.tool[i] != moves.tool[i - 1]
+            if new_tool:
+                self._change_tool(i)
+            if i == 0 or moves.operation[i] != moves.operation[i - 1]:
+                self.sheet.comment(operation_words(self.job.operations[moves.operation[i]], self.job))
+            if new_tool:
+                self.sheet.rapid_z(moves.end[i][2])
+            self._move(i)
+            lines.append(self.sheet.motion_line)
+        self._leave_tool(len(moves) - 1)
+        self._blocks(self.post.program.end)
+        return lines
+
+    def _move(self, i: int) -> None:
+        """Write one move."""
+        moves = self.moves
+        kind, end, feed = moves.kind[i], moves.end[i], moves.feed[i]
+        if kind in (MoveKind.RAPID, MoveKind.LINE):
+            self.sheet.straight(kind, end, feed)
+            return
+        before, z0, z1 = moves.end[i - 1], moves.z[i - 1], moves.z[i]
+        for piece in written_pieces(moves.arcs[i], before[:2], end[:2], self.arc_rules):
+            z = end[2] if piece.fraction == 1 else round((z0 + (z1 - z0) * piece.fraction) * self.z_scale)
+            if piece.centre is None:
+                self.sheet.straight(MoveKind.LINE, (*piece.end, z), feed)
+            else:
+                self.sheet.arc(kind, (*piece.end, z), piece.centre, feed)
+        self.sheet.straight(MoveKind.LINE, end, feed)
+
+    def _change_tool(self, i: int) -> None:
+        """Leave the tool before, if there is one, and take the tool of move i."""
+        if i:
+            self._leave_tool(i - 1)
+        tool = self.job.tool(self.moves.tool[i])
+        self.sheet.comment(tool_words(tool, self.job.out_units))
+        self._blocks(self.post.program.tool, tool)
+        self.sheet.forget()
+
+    def _leave_tool(self, i: int) -> None:
+        """Go to safe Z, where each tool began, after move i, the last of its tool; then stop spindle and coolant."""
+        self.sheet.rapid_z(self.moves.end[0][2])
+        self._blocks(self.post.program.leave, self.job.tool(self.moves.tool[i]))
+
+    def _blocks(self, templates: tuple[str, ...], tool: Tool | None = None) -> None:
+        """Write the post's blocks."""
+        fields = self._fields() | (self._tool_fields(tool) if tool else {})
+        for template in templates:
+            self.sheet.block(template.format(**fields).strip())
+
+    def _fields(self) -> dict[str, str]:
+        """Return what every template may name."""
+        post, units = self.post, self.job.out_units
+        decimals = post.digits(units).X
+        blend = spelled(round(blend_mm(self.job, post) / units.value * 10**decimals), decimals)
+        return {
+            "units": post.units.inch if units is Units.INCH else post.units.mm,
+            "blending": post.blending.exact if self.job.exact_path else post.blending.blend.format(blend=blend),
+        }
+
+    def _tool_fields(self, tool: Tool) -> dict[str, str]:
+        """Return what the templates round a tool may name."""
+        coolant, dwell = self.post.coolant, self.post.spindle.dwell_s
+        on = {Coolant.NONE: "", Coolant.FLOOD: coolant.flood, Coolant.MIST: coolant.mist}[coolant.use]
+        return {
+            "tool": str(tool.number), "speed": f"{tool.spindle_speed:.0f}", "dwell_s": f"{dwell:g}",
+            "dwell_ms": f"{dwell * 1000:.0f}", "coolant_on": on, "coolant_off": coolant.off if on else "",
+        }  # fmt: skip
