@@ -11,12 +11,13 @@ import os
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import numba
 import platformdirs
 
-Function = TypeVar("Function", bound=Callable[..., Any])
+Compiled = Callable[..., Any]
+"""A kernel: its types are those of its signature, which mypy does not read."""
 
 
 def _version() -> str:
@@ -43,7 +44,7 @@ if "NUMBA_CACHE_DIR" not in os.environ:
     numba.config.CACHE_DIR = _cache_folder()
 
 
-def kernel(signature: str) -> Callable[[Function], Function]:
+def kernel(signature: str) -> Callable[[Compiled], Compiled]:
     """Compile a function for the given numba signature; it releases the GIL and is kept in the cache.
 
     Args:

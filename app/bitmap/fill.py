@@ -1,0 +1,72 @@
+"""Fill closed contours in the display memory (steps 130 and 201-208), always right."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from app.bitmap.codes import Codes, PixelCode, Plane
+from app.bitmap.draw import draw
+from app.bitmap.frame import Frame
+from app.bitmap.trace import trace
+from app.model.part import Contour
+from app.pool import pool
+
+Observer = Callable[[int, Plane], None]
+"""Gets the number of a step of the text and the picture (rows, cols) that the display memory shows after it."""
+
+_BAND = 1 << 20
+"""Pixels from which a second thread is worth its start."""
+
+
+def fill(frame: Frame, contours: Sequence[Contour], observer: Observer | None = None) -> Codes:
+    """Fill what closed contours enclose, by even-odd counting along the rows.
+
+    A pixel that is no contour pixel, and whose centre lies on no contour, is filled exactly when its centre is inside
+    by even-odd counting, for contours that cross, touch, overlap or merge within a pixel too: parity comes from the
+    crossings that each pixel noted while it was drawn, not from how the drawn pixels look. Contour pixels are filled.
+
+    Args:
+        contours: closed; order, direction and nesting do not matter.
+        observer: is shown the memory after steps 201 (contour pixels 1), 202 (start pixels 2), 203 (traced pixels 2),
+            206 (R where the count is even), 208 (inside I) and 130 (all of them 1). Costs nothing when there is none.
+
+    References:
+        JPH07107645B2, process 130. The text marks R by the look of the chain code (its formula I), which fails where
+        strands merge, where tracing skips pixels and at acute vertices that do not turn back; see `draw` for the rule used.
+    """
+    plane, left = draw(frame, contours)
+    if observer is not None:
+        _show_tracing(plane, observer)
+        observer(206, plane.copy())
+    _scan(plane, left)
+    codes = Codes(frame, plane)
+    if observer is not None:
+        observer(208, plane.copy())
+        observer(130, codes.filled.astype(np.uint8))
+    return codes
+
+
+def _show_tracing(plane: Plane, observer: Observer) -> None:
+    chains, traced = trace(plane)
+    contour = np.minimum(plane, PixelCode.CONTOUR)
+    observer(201, contour)
+    starts = contour.copy()
+    for chain in chains:
+        starts[chain.start] = PixelCode.TRACED
+    observer(202, starts)
+    observer(203, traced)
+
+
+def _scan(plane: Plane, left: Plane) -> None:
+    from app.bitmap import kernels
+
+    bands = 1 if plane.size < _BAND else 4
+    cuts = np.linspace(0, len(plane), bands + 1).astype(int)
+    jobs = [(plane[a:b], left[a:b]) for a, b in pairwise(cuts)]
+    if bands == 1:
+        kernels.scan(*jobs[0])
+    else:
+        list(pool().map(kernels.scan, *zip(*jobs, strict=True)))
