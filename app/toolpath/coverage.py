@@ -1,0 +1,207 @@
+"""What is left on the floor: measured from the moves themselves, not from what made them.
+
+Three areas are told apart on the floor of the deepest pass: cleared; left although a tool of the job could cut it
+(must be 0); out of reach of every tool of the job. A tool of radius r that keeps the stock to leave reaches the
+opening of the area by its disc. The swept area is the union of all cutting moves at full depth, each as wide as its
+tool. Method: polygons (shapely), arcs as chords within CHORD; strips thinner than STRIP are numeric and not counted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from app.model.finding import Finding, FindingKind
+from app.model.job import Job
+from app.model.moves import MoveKind, Moves, Program
+from app.model.operation import Operation, PocketOperation
+from app.progress import NO_PROGRESS, Progress
+from app.toolpath.flat import Shape, flattened, grown, move_rows, region_shape
+
+CHORD = 1e-3
+"""mm; arcs are measured as chords that stay within this of them."""
+
+STRIP = 0.01
+"""mm; what is narrower than this is no material but the chords' own error."""
+
+_DEPTH = 1e-6
+"""mm by which a move may miss the floor and still count as on it."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """One connected piece of floor that is left.
+
+    Attributes:
+        x, y: centre of the largest disc in it, mm.
+        area_mm2: its area.
+        disc_mm: diameter of the largest disc that fits into it, mm.
+        reachable: True when some tool of the job could cut it.
+        outline: (n, 2) its outer boundary, mm.
+    """
+
+    x: float
+    y: float
+    area_mm2: float
+    disc_mm: float
+    reachable: bool
+    outline: NDArray[np.float64] = field(repr=False)
+
+
+@dataclass(frozen=True)
+class Coverage:
+    """What is left on the floor.
+
+    Attributes:
+        reachable_left_mm2: left although some tool of the job could cut it; 0 when all is well.
+        unreachable_mm2: out of reach of every tool of the job.
+        largest_disc_mm: diameter of the largest disc that would fit where no tool reaches, mm; 0 = nowhere.
+        places: every piece, the largest disc first.
+        area_mm2: the whole floor.
+        floor_mm: depth at which it was measured, mm.
+    """
+
+    reachable_left_mm2: float = 0.0
+    unreachable_mm2: float = 0.0
+    largest_disc_mm: float = 0.0
+    places: tuple[Place, ...] = ()
+    area_mm2: float = 0.0
+    floor_mm: float = 0.0
+
+
+def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Coverage:
+    """Measure what the moves of a program leave on the floor.
+
+    With a pocket operation the whole of every region is to be cleared; with contour operations alone, the band along
+    the walls that a contour tool is wide.
+
+    Args:
+        program: moves and the regions they machine.
+        job: tools and operations that the moves belong to.
+        progress: steps once a tool.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    operations = [operation for operation in job.operations if operation.cut.enabled]
+    if not operations or not program.regions:
+        return Coverage()
+    pockets = [operation for operation in operations if isinstance(operation, PocketOperation)]
+    floor = max(operation.cut.depth for operation in pockets or operations)
+    regions = shapely.MultiPolygon(list(_polygons([region_shape(region, CHORD) for region in program.regions])))
+    progress.step(0.0, "Measuring what is left")
+    leave = min(operation.cut.stock_to_leave for operation in operations)
+    area = grown(regions, -leave, CHORD) if leave else regions
+    reach = shapely.union_all([_reach(regions, operation, job) for operation in _farthest(operations, job)])
+    wanted = reach if pockets else shapely.difference(reach, _beyond_band(regions, operations, job))
+    left = _left(wanted, program.moves, (job, floor), progress)
+    return _coverage(area.area, floor, _places(left, True), _places(_solid(shapely.difference(area, reach)), False))
+
+
+def _coverage(area: float, floor: float, left: tuple[Place, ...], corners: tuple[Place, ...]) -> Coverage:
+    return Coverage(
+        reachable_left_mm2=sum(place.area_mm2 for place in left),
+        unreachable_mm2=sum(place.area_mm2 for place in corners),
+        largest_disc_mm=max((place.disc_mm for place in corners), default=0.0),
+        places=left + corners,
+        area_mm2=float(area),
+        floor_mm=floor,
+    )
+
+
+def _farthest(operations: list[Operation], job: Job) -> list[Operation]:
+    """Return the operations whose tools reach farthest: what any other one reaches, one of these does."""
+    size = [(job.tool(each.cut.tool).radius, each.cut.stock_to_leave) for each in operations]
+    smallest = [a for a in set(size) if not any(b != a and b[0] <= a[0] and b[1] <= a[1] for b in size)]
+    return [operations[size.index(each)] for each in smallest]
+
+
+def _reach(regions: Shape, operation: Operation, job: Job) -> Shape:
+    """Return what the operation's tool can cut without touching a wall: the opening by its disc."""
+    radius = job.tool(operation.cut.tool).radius
+    return grown(grown(regions, -radius - operation.cut.stock_to_leave, CHORD), radius, CHORD)
+
+
+def _beyond_band(regions: Shape, operations: list[Operation], job: Job) -> Shape:
+    """Return what lies farther from the walls than a contour pass is wide."""
+    widths = [2 * job.tool(each.cut.tool).radius + each.cut.stock_to_leave for each in operations]
+    return grown(regions, -min(widths), CHORD)
+
+
+def _left(wanted: Shape, moves: Moves, where: tuple[Job, float], progress: Progress) -> Shape:
+    """Return what of a wanted area no move at the floor has cut."""
+    job, floor = where
+    numbers = [int(number) for number in np.unique(moves.tool)]
+    for done, number in enumerate(numbers):
+        progress.step(done / len(numbers), f"Measuring what T{number} leaves")
+        wanted = shapely.difference(wanted, swept(moves, number, job.tool(number).radius, floor))
+    return _solid(wanted)
+
+
+def swept(moves: Moves, tool: int, radius: float, floor: float) -> Shape:
+    """Return the area that one tool's cutting moves at full depth cover.
+
+    Args:
+        moves: of the whole program.
+        tool: T number. radius: of that tool, mm.
+        floor: depth, mm, > 0; moves whose both ends are at least this deep count.
+    """
+    deep = np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -floor + _DEPTH
+    chosen = np.flatnonzero(deep & (moves.kind != MoveKind.RAPID) & (moves.tool == tool))
+    if not len(chosen):
+        return shapely.Polygon()
+    rows = move_rows(moves)[chosen]
+    owner, points = flattened(rows, CHORD)
+    run = np.concatenate([[0], np.cumsum(np.diff(chosen) != 1)])
+    paths = shapely.linestrings(points, indices=run[owner])
+    return shapely.union_all([grown(path, radius, CHORD) for path in np.atleast_1d(paths)])
+
+
+def _solid(shape: Shape) -> Shape:
+    """Return the shape without strips thinner than STRIP (an opening)."""
+    thin = STRIP / 2
+    kept = shapely.buffer(shape, -thin, join_style="mitre")
+    return shapely.intersection(shapely.buffer(kept, thin, join_style="mitre"), shape)
+
+
+def _polygons(shapes: Iterable[Shape]) -> Iterable[Shape]:
+    """Yield every polygon of some shapes."""
+    for part in shapely.get_parts(shapely.get_parts(list(shapes))):
+        if part.geom_type == "Polygon" and not part.is_empty:
+            yield part
+
+
+def _places(shape: Shape, reachable: bool) -> tuple[Place, ...]:
+    """Return the pieces of a shape, the largest disc first."""
+    places = []
+    for piece in _polygons([shape]):
+        if piece.area < STRIP**2:
+            continue
+        centre, rim = (np.array(point) for point in shapely.maximum_inscribed_circle(piece, tolerance=CHORD).coords)
+        disc = 2 * float(np.hypot(*(rim - centre)))
+        places.append(Place(float(centre[0]), float(centre[1]), piece.area, disc, reachable, np.array(piece.exterior.coords)[:-1]))
+    return tuple(sorted(places, key=lambda place: -place.disc_mm))
+
+
+def coverage_findings(coverage: Coverage) -> tuple[Finding, ...]:
+    """Return what there is to say: material left within reach counts, corners out of reach are a remark."""
+    findings = []
+    for reachable, area in ((True, coverage.reachable_left_mm2), (False, coverage.unreachable_mm2)):
+        places = [place for place in coverage.places if place.reachable is reachable]
+        if not places:
+            continue
+        worst, count = places[0], len(places)
+        spots = "1 place" if count == 1 else f"{count} places"
+        if reachable:
+            text = (f"{area:.3f} mm2 of material within reach is left in {spots}, the worst {worst.disc_mm:.3f} mm wide "
+                    f"at ({worst.x:.3f}, {worst.y:.3f}); use a smaller pocket tool or stepover.")
+        else:
+            text = (f"{area:.3f} mm2 in {spots} is out of reach of every tool; a disc of {worst.disc_mm:.3f} mm "
+                    f"would fit at ({worst.x:.3f}, {worst.y:.3f}); a smaller contour tool reaches farther.")
+        kind = FindingKind.LEFT_REACHABLE if reachable else FindingKind.LEFT_UNREACHABLE
+        findings.append(Finding(kind, text, worst.x, worst.y, counts=reachable, amount=area))
+    return tuple(findings)

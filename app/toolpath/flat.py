@@ -1,0 +1,66 @@
+"""Moves and regions as shapely shapes, for measuring what was made; nothing here makes a path."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from app.geometry.primitives import R, TURN, Rows, contour_rows, points_at, sample, sweeps
+from app.model.moves import MoveKind, Moves
+from app.model.part import Region
+
+Shape = shapely.Geometry
+
+
+def move_rows(moves: Moves) -> Rows:
+    """Return moves as rows (n, 8) of `app.geometry.primitives`, seen from above; a full circle is one row."""
+    centre = np.nan_to_num(moves.centre)
+    start, end = moves.start[:, :2], moves.end[:, :2]
+    arc = moves.kind >= MoveKind.ARC_CW
+    radius = (np.hypot(*(start - centre).T) + np.hypot(*(end - centre).T)) / 2
+    turn = np.where(moves.kind == MoveKind.ARC_CCW, 1.0, -1.0)
+    return np.column_stack([start, end, centre, np.where(arc, radius, 0.0), np.where(arc, turn, 0.0)])
+
+
+def flattened(rows: Rows, chord: float) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Return (row index (m,), points (m, 2)): each row as chords that stay within `chord` mm of it, both ends included."""
+    radius = np.maximum(rows[:, R], chord)
+    step = 2 * np.arccos(1 - chord / radius)
+    turn = np.where(rows[:, TURN] != 0, np.abs(sweeps(rows)), 0.0)
+    counts = np.maximum(1, np.ceil(turn / step)).astype(np.int64)
+    owner = np.repeat(np.arange(len(rows)), counts + 1)
+    place = np.arange(len(owner)) - np.repeat(np.cumsum(counts + 1) - counts - 1, counts + 1)
+    points = points_at(rows[owner], place / counts[owner])
+    last = place == counts[owner]
+    points[last] = rows[owner[last], 2:4]
+    return owner, points
+
+
+def lines(rows: Rows, chord: float) -> NDArray[np.object_]:
+    """Return each row as a shapely line of chords that stay within `chord` mm of it."""
+    owner, points = flattened(rows, chord)
+    return np.asarray(shapely.linestrings(points, indices=owner), dtype=object)
+
+
+def region_shape(region: Region, chord: float) -> Shape:
+    """Return a region as a shapely polygon whose chords stay within `chord` mm of its contours."""
+    rings = [sample(contour_rows(contour), chord) for contour in region.contours]
+    outer, *inner = rings
+    if len(outer) < 3:
+        return shapely.Polygon()
+    return shapely.make_valid(shapely.Polygon(outer, [ring for ring in inner if len(ring) > 2]))
+
+
+def quarter_chords(radius: float, chord: float) -> int:
+    """Return how many chords a quarter circle needs to stay within `chord` mm (shapely's quad_segs)."""
+    if radius <= chord:
+        return 1
+    return max(1, int(np.ceil(np.pi / 4 / np.arccos(1 - chord / radius))))
+
+
+def grown(shape: Shape, distance: float, chord: float) -> Shape:
+    """Return all points within `distance` mm of a shape; a negative distance gives the points that deep inside."""
+    return shapely.buffer(shape, distance, quad_segs=quarter_chords(abs(distance), chord))
+
+

@@ -1,0 +1,84 @@
+"""Where a tool does not fit: regions too small for it, and necks that part a region for it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+
+from app.geometry.distance import DistanceField
+from app.geometry.offset import Level, Ring
+from app.geometry.primitives import contour_rows, sample
+from app.model.finding import Finding, FindingKind
+from app.model.part import Region
+from app.model.tool import Tool
+
+_CHORD = 0.01
+
+
+def too_small(regions: Sequence[Region], level: Level, tool: Tool, counts: bool) -> list[Finding]:
+    """Return a finding for each region in which a tool has no room at all.
+
+    Args:
+        counts: True when nothing else of the job machines such a region.
+    """
+    reached = {ring.region for ring in level.rings}
+    findings = []
+    for region in regions:
+        if region.number in reached:
+            continue
+        x, y, diameter = largest_disc(region)
+        text = (f"Region {region.number} at ({x:.3f}, {y:.3f}) is too small for T{tool.number} {tool.label}: "
+                f"its largest disc is {diameter:.3f} mm. Use a smaller tool for it.")
+        findings.append(Finding(FindingKind.REGION_TOO_SMALL, text, x, y, counts, amount=diameter,
+                                entity_ids=region.boundary.entity_ids))
+    return findings
+
+
+def largest_disc(region: Region) -> tuple[float, float, float]:
+    """Return (x, y, diameter), mm, of the largest disc in a region, within 0.01 mm."""
+    polygon = shapely.make_valid(shapely.Polygon(sample(contour_rows(region.boundary), _CHORD),
+                                                 [p for i in region.islands if len(p := sample(contour_rows(i), _CHORD)) > 2]))
+    if polygon.is_empty or polygon.area <= 0:
+        x, y = contour_rows(region.boundary)[0, :2]
+        return float(x), float(y), 0.0
+    radius = shapely.maximum_inscribed_circle(polygon, tolerance=_CHORD)
+    (x, y), _ = shapely.get_coordinates(radius)
+    return float(x), float(y), 2 * float(radius.length)
+
+
+def necks(level: Level, field: DistanceField, tool: Tool) -> list[Finding]:
+    """Return a finding for each place where a region falls into parts because the tool does not fit through.
+
+    The place is the narrowest one on the straight way between the two parts.
+    """
+    findings = []
+    for number in dict.fromkeys(ring.region for ring in level.rings):
+        parts = [_polygon(ring) for ring in level.rings if ring.region == number and ring.area > 0]
+        for a, b in _nearest_pairs(parts):
+            way = np.linspace(a, b, 65)
+            width = field.nearest(way)[0]
+            x, y = way[int(np.argmin(width))]
+            text = (f"Region {number} has a neck at ({x:.3f}, {y:.3f}), about {2 * width.min():.3f} mm wide: "
+                    f"T{tool.number} {tool.label} does not fit through it.")
+            findings.append(Finding(FindingKind.NECK_TOO_NARROW, text, float(x), float(y), counts=False, amount=2 * float(width.min())))
+    return findings
+
+
+def _polygon(ring: Ring) -> shapely.Polygon:
+    return shapely.Polygon(sample(ring.rows, _CHORD)) if len(ring.rows) > 2 else shapely.Point(ring.rows[0, :2]).buffer(1e-6)
+
+
+def _nearest_pairs(parts: Sequence[shapely.Polygon]) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Return the ends of the shortest ways that join all parts, one less than there are parts."""
+    joined, rest = list(parts[:1]), list(parts[1:])
+    pairs = []
+    while rest:
+        tree = shapely.STRtree(joined)
+        (own, other), distance = tree.query_nearest(rest, return_distance=True, all_matches=False)
+        k = int(np.argmin(distance))
+        part = rest.pop(int(own[k]))
+        pairs.append(tuple(shapely.get_coordinates(shapely.shortest_line(part, joined[int(other[k])]))))
+        joined.append(part)
+    return pairs  # type: ignore[return-value]  # two points each
