@@ -1,0 +1,60 @@
+"""Start: the window for `open`, a drawing or nothing; the command line for everything else."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from app.cli import BAD_INPUT
+from app.cli import main as command_line
+
+_LIBRARIES = "libegl1 libgl1 libglib2.0-0 libfontconfig1 libdbus-1-3 libxkbcommon0 libxkbcommon-x11-0 libxcb-cursor0 libxcb-icccm4 " \
+    "libxcb-keysyms1 libxcb-shape0"
+
+
+def main() -> int:
+    """Run what the arguments ask for.
+
+    Returns:
+        Exit status: 0 done, 1 done with findings, 2 bad input, 130 cancelled.
+    """
+    arguments = sys.argv[1:]
+    if not arguments:
+        return _window(None)
+    if arguments[0] == "open":
+        return _open(arguments[1:])
+    if len(arguments) == 1 and not arguments[0].startswith("-") and Path(arguments[0]).suffix:
+        return _open(arguments)
+    return command_line(arguments)
+
+
+def _open(files: list[str]) -> int:
+    if len(files) > 1:
+        return _refuse(f"open takes one drawing, not {len(files)}; open the others with File, Open")
+    if files and files[0] in ("-h", "--help"):
+        return command_line(["--help"])
+    if files and files[0].startswith("-"):
+        return _refuse(f"open has no option {files[0]}; name a drawing, or nothing for the sample part")
+    if files and not Path(files[0]).is_file():
+        return _refuse(f"{files[0]}: there is no such file; name a drawing, or nothing for the sample part")
+    return _window(Path(files[0]) if files else None)
+
+
+def _window(path: Path | None) -> int:
+    try:
+        from app.ui.start import start
+    except ImportError as error:
+        if "PySide6" not in f"{error.name}{error.path}{error}" and ".so" not in str(error):
+            raise
+        return _refuse(f"the window needs libraries that are missing here ({error}); install them, on Debian or Ubuntu with: "
+                       f"apt-get install {_LIBRARIES}")
+    return start(path)
+
+
+def _refuse(sentence: str) -> int:
+    print(f"hitofude: {sentence}", file=sys.stderr)
+    return BAD_INPUT
+
+
+if __name__ == "__main__":
+    sys.exit(main())

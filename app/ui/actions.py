@@ -1,0 +1,156 @@
+"""Everything that menus, tool bars and keys can do: one table, one QAction each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from PySide6.QtGui import QAction, QActionGroup, QKeySequence
+from PySide6.QtWidgets import QMenu, QMenuBar, QWidget
+
+from app.ui.icons import icon
+from app.ui.theme import Theme
+
+
+@dataclass(frozen=True, slots=True)
+class Spec:
+    """One action.
+
+    Attributes:
+        name: by which the window connects it. text: in the menu. key: shortcut.
+        key_hint: shown like a shortcut, but the canvas itself listens to the key.
+        group: of checkable actions of which one is on; "" with `checkable` for a switch of its own.
+    """
+
+    name: str
+    text: str
+    key: str = ""
+    icon: str = ""
+    key_hint: str = ""
+    group: str = ""
+    checkable: bool = False
+
+
+SEPARATOR = Spec("", "")
+
+MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
+    ("&File", (
+        Spec("new", "&New", "Ctrl+N", "new"),
+        Spec("open", "&Open…", "Ctrl+O", "open"),
+        Spec("sample", "Open &sample part"),
+        SEPARATOR,
+        Spec("export", "&Export NC…", "Ctrl+E", "export"),
+        SEPARATOR,
+        Spec("quit", "&Quit", "Ctrl+Q"),
+    )),
+    ("&Edit", (
+        Spec("undo", "&Undo", "Ctrl+Z", "undo"),
+        Spec("redo", "&Redo", "Ctrl+Shift+Z", "redo"),
+        SEPARATOR,
+        Spec("delete", "&Delete", icon="delete", key_hint="Del"),
+        Spec("select_all", "Select &all", "Ctrl+A"),
+    )),
+    ("&View", (
+        Spec("view_draw", "&Draw", "Ctrl+1", group="view", checkable=True),
+        Spec("view_paths", "&Paths", "Ctrl+2", group="view", checkable=True),
+        Spec("view_nc", "&NC", "Ctrl+3", group="view", checkable=True),
+        SEPARATOR,
+        Spec("fit", "&Fit", "Ctrl+0", "fit", key_hint="F"),
+        Spec("zoom_in", "Zoom &in", "Ctrl++", "zoom-in"),
+        Spec("zoom_out", "Zoom &out", "Ctrl+-", "zoom-out"),
+        SEPARATOR,
+        Spec("snap", "&Snap to points", "F3", checkable=True),
+        Spec("ortho", "Ort&ho", "F8", checkable=True),
+        Spec("grid", "Snap to &grid", "F9", checkable=True),
+        SEPARATOR,
+        Spec("theme_system", "Colours of the s&ystem", group="theme", checkable=True),
+        Spec("theme_light", "&Light", group="theme", checkable=True),
+        Spec("theme_dark", "D&ark", group="theme", checkable=True),
+    )),
+    ("&Draw", (
+        Spec("tool_select", "&Select", "Ctrl+Shift+S", "select", group="tool", checkable=True),
+        SEPARATOR,
+        Spec("tool_line", "&Line", "Ctrl+Shift+L", "line", group="tool", checkable=True),
+        Spec("tool_polyline", "&Polyline", "Ctrl+Shift+P", "polyline", group="tool", checkable=True),
+        Spec("tool_arc_centre", "&Arc: start, end, centre", "Ctrl+Shift+A", "arc-centre", group="tool", checkable=True),
+        Spec("tool_arc_three", "Arc: &three points", "Ctrl+Shift+T", "arc-three", group="tool", checkable=True),
+        Spec("tool_circle", "&Circle", "Ctrl+Shift+C", "circle", group="tool", checkable=True),
+        Spec("tool_rectangle", "&Rectangle", "Ctrl+Shift+R", "rectangle", group="tool", checkable=True),
+    )),
+    ("&Job", (
+        Spec("job_properties", "&Stock and origin", "Ctrl+J"),
+        SEPARATOR,
+        Spec("add_tool", "Add &tool", "Ctrl+T"),
+        Spec("add_pocket", "Add &pocket"),
+        Spec("add_contour", "Add &contour"),
+    )),
+    ("&Compute", (
+        Spec("compute", "&Compute", "F5", "compute"),
+        Spec("cancel", "C&ancel", "Shift+F5", "cancel"),
+        SEPARATOR,
+        Spec("findings", "&Findings", "Ctrl+F"),
+    )),
+    ("&Help", (
+        Spec("keys", "&Keys", "F1"),
+        Spec("about", "&About Hitofude"),
+    )),
+)
+
+
+class Actions:
+    """The window's actions by name."""
+
+    def __init__(self, window: QWidget) -> None:
+        self.by_name: dict[str, QAction] = {}
+        self._icons: dict[str, str] = {}
+        self._groups: dict[str, QActionGroup] = {}
+        for _, specs in MENUS:
+            for spec in specs:
+                if spec is not SEPARATOR:
+                    self._add(spec, window)
+
+    def __getitem__(self, name: str) -> QAction:
+        return self.by_name[name]
+
+    def fill(self, bar: QMenuBar) -> None:
+        """Put the menus in the menu bar."""
+        for title, specs in MENUS:
+            menu: QMenu = bar.addMenu(title)
+            for spec in specs:
+                if spec is SEPARATOR:
+                    menu.addSeparator()
+                else:
+                    menu.addAction(self.by_name[spec.name])
+
+    def set_theme(self, theme: Theme) -> None:
+        """Draw every icon anew."""
+        for name, picture in self._icons.items():
+            colour = theme.accent_ink if name == "compute" else None
+            self.by_name[name].setIcon(icon(picture, theme, colour))
+
+    def _add(self, spec: Spec, window: QWidget) -> None:
+        hint = f"\t{spec.key_hint}" if spec.key_hint and not spec.key else ""
+        action = QAction(spec.text + hint, window)
+        action.setCheckable(spec.checkable)
+        action.setIconVisibleInMenu(False)
+        if spec.key:
+            action.setShortcut(QKeySequence(spec.key))
+        plain = spec.text.replace("&", "").rstrip("…")
+        action.setToolTip(f"{plain} ({spec.key or spec.key_hint})" if spec.key or spec.key_hint else plain)
+        if spec.icon:
+            self._icons[spec.name] = spec.icon
+        if spec.group:
+            self._groups.setdefault(spec.group, QActionGroup(window)).addAction(action)
+        window.addAction(action)
+        self.by_name[spec.name] = action
+
+
+def keys_text() -> str:
+    """Return the list of keys as rich text, made from the table and the canvas' own keys."""
+    rows = [(s.text.replace("&", "").rstrip("…"), s.key or s.key_hint) for _, specs in MENUS for s in specs if s.key or s.key_hint]
+    rows += [
+        ("Zoom at the mouse", "wheel"), ("Pan", "middle button, Space + drag"), ("Leave a tool, clear the selection", "Esc"),
+        ("Repeat the last tool, end a chain", "Enter"), ("Straight up or across while drawing", "Shift"),
+        ("Place by number", "x,y   @dx,dy   @length<angle"),
+    ]
+    cells = "".join(f"<tr><td>{name}</td><td style='padding-left:24px'><b>{key.replace('<', '&lt;')}</b></td></tr>" for name, key in rows)
+    return f"<table cellspacing='4'>{cells}</table>"

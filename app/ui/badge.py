@@ -1,0 +1,136 @@
+"""The verdict badge, and the list of findings that a click on it opens."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPoint, Qt, QTimer, Signal
+from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
+
+from app.model.finding import Finding
+from app.ui.figures import counted
+from app.ui.panels.fields import muted, restyle
+from app.ui.panels.section import Row, heading
+from app.ui.verdict import Level, Verdict, finding_level, short, worst_first
+
+_TURN = "◐◓◑◒"
+_TURN_MS = 150
+
+
+class Badge(QPushButton):
+    """The product in one line: grey, turning, green with figures, or the worst finding."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setProperty("role", "badge")
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.setFixedHeight(24)
+        self._turn = 0
+        self._timer = QTimer(self)
+        self._timer.setInterval(_TURN_MS)
+        self._timer.timeout.connect(self._advance)
+        self.show_verdict(Verdict(Level.NONE, "Not computed"))
+
+    def show_verdict(self, verdict: Verdict) -> None:
+        """Show a verdict that stands."""
+        self._timer.stop()
+        self._show(verdict.level, verdict.text)
+
+    def show_running(self) -> None:
+        """Turn while a job runs."""
+        if not self._timer.isActive():
+            self._timer.start()
+            self._advance()
+
+    def _advance(self) -> None:
+        self._turn = (self._turn + 1) % len(_TURN)
+        self._show(Level.NONE, f"{_TURN[self._turn]} Computing")
+
+    def _show(self, level: Level, text: str) -> None:
+        self.setText(text)
+        self.setAccessibleName(f"Verdict: {text}")
+        if self.property("verdict") != level.value:
+            self.setProperty("verdict", level.value)
+            restyle(self)
+
+
+class FindingsList(QFrame):
+    """Every finding, worst first; a click goes to its place.
+
+    Signals:
+        picked(finding).
+    """
+
+    picked = Signal(Finding)
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent, Qt.WindowType.Popup)
+        self.setObjectName("findings")
+        self.rows: list[Row] = []
+        self._column = QVBoxLayout(self)
+        self._column.setContentsMargins(0, 12, 0, 8)
+        self._column.setSpacing(0)
+
+    def show_findings(self, findings: tuple[Finding, ...], above: QWidget, empty: str) -> None:
+        """Open above a widget.
+
+        Args:
+            findings: what to list, in any order.
+            above: the badge; the list's right edge is the badge's.
+            empty: what to say when there are none.
+        """
+        self._clear()
+        counting = sum(f.counts for f in findings)
+        title = heading(counted(counting, "finding") if counting else "No findings")
+        title.setContentsMargins(16, 0, 16, 6)
+        self._column.addWidget(title)
+        self._column.addWidget(self._list(findings) if findings else self._sentence(empty))
+        self.setFixedWidth(520)
+        self.adjustSize()
+        corner = above.mapToGlobal(QPoint(above.width() - self.width(), -self.height() - 4))
+        self.move(corner)
+        self.show()
+
+    def _clear(self) -> None:
+        self.rows = []
+        while (item := self._column.takeAt(0)) is not None:
+            widget = item.widget()
+            if widget is not None:
+                widget.hide()
+                widget.deleteLater()
+
+    def _sentence(self, text: str) -> QLabel:
+        made = muted(text)
+        made.setWordWrap(True)
+        made.setContentsMargins(16, 0, 16, 8)
+        return made
+
+    def _list(self, findings: tuple[Finding, ...]) -> QWidget:
+        inner = QWidget()
+        column = QVBoxLayout(inner)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        for finding in worst_first(findings):
+            column.addWidget(self._row(finding))
+        area = QScrollArea()
+        area.setWidgetResizable(True)
+        area.setWidget(inner)
+        area.setFixedHeight(min(inner.sizeHint().height(), 360))
+        return area
+
+    def _row(self, finding: Finding) -> Row:
+        label = QLabel(finding.text)
+        label.setWordWrap(True)
+        label.setFixedWidth(472)
+        label.setToolTip(short(finding))
+        if finding_level(finding) is Level.BAD:
+            label.setProperty("role", "error")
+        elif not finding.counts:
+            label.setProperty("role", "muted")
+        row = Row(label)
+        row.setFixedHeight(label.heightForWidth(472) + 12)
+        row.clicked.connect(lambda: self._pick(finding))
+        self.rows.append(row)
+        return row
+
+    def _pick(self, finding: Finding) -> None:
+        self.hide()
+        self.picked.emit(finding)

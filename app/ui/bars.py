@@ -1,0 +1,107 @@
+"""The bar above the canvas with files, views and Compute, and the strip of drawing tools at its left."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QToolButton, QVBoxLayout, QWidget
+
+from app.ui.actions import Actions
+from app.ui.icons import icon
+from app.ui.theme import Theme
+
+TOP_HEIGHT = 46
+STRIP_WIDTH = 44
+
+
+def _line(width: int, height: int) -> QFrame:
+    made = QFrame()
+    made.setObjectName("hairline")
+    made.setFixedSize(width, height)
+    return made
+
+
+def _button(actions: Actions, name: str, size: int) -> QToolButton:
+    button = QToolButton()
+    button.setDefaultAction(actions[name])
+    button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
+    button.setIconSize(QSize(20, 20))
+    button.setFixedSize(size, size)
+    button.setAutoRaise(True)
+    return button
+
+
+class TopBar(QWidget):
+    """New, Open, Undo, Redo; the views; Compute and Export."""
+
+    def __init__(self, actions: Actions) -> None:
+        super().__init__()
+        self.setObjectName("topBar")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.setFixedHeight(TOP_HEIGHT)
+        self._actions = actions
+        self.compute, self.export = QPushButton("Compute  F5"), QPushButton("Export NC")
+        row = QHBoxLayout(self)
+        row.setContentsMargins(10, 0, 12, 0)
+        row.setSpacing(4)
+        for name in ("new", "open", "", "undo", "redo", ""):
+            if name:
+                row.addWidget(_button(actions, name, 34))
+            else:
+                row.addSpacing(4)
+                row.addWidget(_line(1, 20))
+                row.addSpacing(4)
+        self.tabs = {name: self._tab(name) for name in ("view_draw", "view_paths", "view_nc")}
+        for tab in self.tabs.values():
+            row.addWidget(tab)
+        row.addStretch(1)
+        self._connect(self.compute, "compute")
+        self._connect(self.export, "export")
+        self.compute.setProperty("role", "primary")
+        row.addWidget(self.compute)
+        row.addSpacing(4)
+        row.addWidget(self.export)
+
+    def _tab(self, name: str) -> QToolButton:
+        tab = QToolButton()
+        tab.setDefaultAction(self._actions[name])
+        tab.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
+        tab.setProperty("role", "tab")
+        tab.setFixedHeight(TOP_HEIGHT - 1)
+        return tab
+
+    def _connect(self, button: QPushButton, name: str) -> None:
+        action = self._actions[name]
+        button.setFixedHeight(32)
+        button.setIconSize(QSize(18, 18))
+        button.setToolTip(action.toolTip())
+        button.clicked.connect(action.trigger)
+        action.enabledChanged.connect(button.setEnabled)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme."""
+        self.compute.setIcon(icon("compute", theme, theme.accent_ink))
+        self.export.setIcon(icon("export", theme))
+
+
+class ToolStrip(QWidget):
+    """Select and the drawing tools, top to bottom; fit and zoom below."""
+
+    def __init__(self, actions: Actions) -> None:
+        super().__init__()
+        self.setObjectName("toolStrip")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.setFixedWidth(STRIP_WIDTH)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(4, 8, 5, 8)
+        column.setSpacing(2)
+        self.buttons: dict[str, QToolButton] = {}
+        drawing = ("tool_line", "tool_polyline", "tool_arc_centre", "tool_arc_three", "tool_circle", "tool_rectangle")
+        for name in ("tool_select", "fit", "", *drawing, "", "delete"):
+            if name:
+                self.buttons[name] = _button(actions, name, 35)
+                column.addWidget(self.buttons[name])
+            else:
+                column.addSpacing(6)
+                column.addWidget(_line(26, 1), 0, Qt.AlignmentFlag.AlignHCenter)
+                column.addSpacing(6)
+        column.addStretch(1)

@@ -1,0 +1,132 @@
+"""Computing in the background: from the document's job to moves, NC text and verdict, and whether they are up to date."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+
+from app.edit.document import Change, Document
+from app.model.job import Job
+from app.model.moves import Program
+from app.progress import Progress
+from app.ui.worker import Answer, Worker
+
+if TYPE_CHECKING:
+    from app.workflow.make import Made
+
+
+class State(Enum):
+    """What the window knows about the tool paths of the job as it is now."""
+
+    NONE = "Not computed"
+    RUNNING = "Computing"
+    CURRENT = "Paths up to date"
+    STALE = "Paths out of date"
+    FAILED = "Could not be computed"
+
+
+def _export(job: Job, progress: Progress) -> Made:
+    from app.workflow.make import export  # imports the engines: never on the window's thread
+
+    return export(job, progress)
+
+
+class Computation(QObject):
+    """The document's tool paths.
+
+    Signals:
+        changed(): state or result changed. failed(sentence).
+
+    Attributes:
+        made: the last result of this document, also when it is out of date; None before the first.
+        error: why the last run failed, or "".
+    """
+
+    changed = Signal()
+    finished = Signal()
+    failed = Signal(str)
+
+    def __init__(self, document: Document, worker: Worker) -> None:
+        super().__init__()
+        self._document, self._worker = document, worker
+        self._job_id: int | None = None
+        self._snapshot: Job | None = None
+        self._made_for: Job | None = None
+        self.made: Made | None = None
+        self.error = ""
+        worker.done.connect(self._on_done)
+        worker.failed.connect(self._on_failed)
+        worker.cancelled.connect(self._on_cancelled)
+        self._unsubscribe = document.subscribe(self._on_change)
+
+    @property
+    def state(self) -> State:
+        """Where the tool paths stand."""
+        if self._job_id is not None:
+            return State.RUNNING
+        if self.error:
+            return State.FAILED
+        if self.made is None:
+            return State.NONE
+        return State.CURRENT if self._made_for is self._document.job else State.STALE
+
+    @property
+    def program(self) -> Program | None:
+        """Moves of the last result."""
+        return self.made.program if self.made is not None else None
+
+    def start(self) -> None:
+        """Compute the job as it is now; a run that is on its way is left."""
+        job = self._document.job
+        self.error = ""
+        self._snapshot = job
+        self._job_id = self._worker.start(lambda progress: _export(job, progress), self._document.revision)
+        self.changed.emit()
+
+    def forget(self) -> None:
+        """Drop the result: another document was opened."""
+        self.made, self._made_for, self.error = None, None, ""
+        self.changed.emit()
+
+    def operation_times(self) -> dict[int, float]:
+        """Return the cutting time of each operation, seconds, from lengths and feeds of the last result."""
+        program = self.program
+        if program is None or self.state is not State.CURRENT:
+            return {}
+        moves = program.moves
+        seconds = np.divide(moves.lengths() * 60, moves.feed, out=np.zeros(len(moves)), where=moves.feed > 0)
+        return {int(op): float(seconds[moves.operation == op].sum()) for op in np.unique(moves.operation) if op >= 0}
+
+    def _on_change(self, change: Change) -> None:
+        if not change & (Change.PART | Change.JOB):
+            return
+        if self._job_id is not None and self._snapshot is not self._document.job:
+            self._worker.cancel()
+        self.error = ""
+        self.changed.emit()
+
+    def _on_done(self, answer: Answer) -> None:
+        if answer.job_id != self._job_id:
+            return
+        self._job_id = None
+        if answer.revision == self._document.revision:
+            self.made, self._made_for = answer.value, self._snapshot  # type: ignore[assignment]
+            self.changed.emit()
+            self.finished.emit()
+        else:
+            self.changed.emit()
+
+    def _on_failed(self, answer: Answer) -> None:
+        if answer.job_id == self._job_id:
+            self._job_id = None
+            self.error = answer.error or ""
+            self.changed.emit()
+            self.failed.emit(self.error)
+
+    def _on_cancelled(self, job_id: int) -> None:
+        if job_id == self._job_id:
+            self._job_id = None
+            self.changed.emit()

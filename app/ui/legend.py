@@ -1,0 +1,108 @@
+"""The legend over the canvas: what each line means, a click switches it off; colour by tool or by region."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
+
+from app.model.job import Job
+from app.model.operation import ContourOperation, Operation, PocketOperation
+from app.ui.canvas.canvas import ColourBy
+from app.ui.panels.fields import ChoiceField, muted
+from app.ui.panels.section import hairline, heading
+from app.ui.samples import LineSample, Sample
+from app.ui.theme import LIGHT, Theme
+
+
+class _LegendRow(QToolButton):
+    """One kind of line; a click shows or hides it."""
+
+    def __init__(self, sample: Sample) -> None:
+        super().__init__()
+        self.setCheckable(True)
+        self.setChecked(True)
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.setFixedHeight(24)
+        self.line, self.label = LineSample(sample), QLabel(sample.value)
+        self.setAccessibleName(f"Show {sample.value.lower()}")
+        self.setToolTip(f"Show or hide: {sample.value.lower()}")
+        row = QHBoxLayout(self)
+        row.setContentsMargins(4, 0, 8, 0)
+        row.setSpacing(10)
+        row.addWidget(self.line)
+        row.addWidget(self.label)
+        row.addStretch(1)
+        for child in (self.line, self.label):
+            child.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.toggled.connect(self._show_state)
+
+    def _show_state(self, on: bool) -> None:
+        self.line.setEnabled(on)
+        self.line.update()
+        self.label.setProperty("role", "" if on else "muted")
+        self.label.style().unpolish(self.label)
+        self.label.style().polish(self.label)
+        font = self.label.font()
+        font.setStrikeOut(not on)
+        self.label.setFont(font)
+
+
+class Legend(QFrame):
+    """A quiet sheet in the canvas' upper right corner.
+
+    Signals:
+        layer_switched(sample, on). colour_chosen(ColourBy).
+    """
+
+    layer_switched = Signal(Sample, bool)
+    colour_chosen = Signal(ColourBy)
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._theme = LIGHT
+        self.setFixedWidth(170)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(12, 10, 12, 10)
+        column.setSpacing(0)
+        column.addWidget(heading("Legend"))
+        column.addSpacing(4)
+        self.rows: dict[Sample, _LegendRow] = {}
+        for sample in Sample:
+            row = _LegendRow(sample)
+            row.toggled.connect(lambda on, s=sample: self.layer_switched.emit(s, on))
+            self.rows[sample] = row
+            column.addWidget(row)
+        column.addSpacing(8)
+        column.addWidget(hairline())
+        column.addSpacing(8)
+        column.addWidget(muted("Colour by"))
+        self.colour = ChoiceField("", [(ColourBy.TOOL, "Tool"), (ColourBy.REGION, "Region")])
+        self.colour.show_value(ColourBy.TOOL)
+        self.colour.chosen.connect(self.colour_chosen)
+        column.addWidget(self.colour)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme."""
+        self._theme = theme
+        self.update()
+
+    def show_job(self, job: Job) -> None:
+        """Name the tools of pocket and contour paths."""
+        for sample, kind in ((Sample.POCKET, PocketOperation), (Sample.CONTOUR, ContourOperation)):
+            self.rows[sample].label.setText(f"{sample.value} {_tools(job.operations, kind)}".strip())
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Keep clicks beside a row from reaching the canvas."""
+        event.accept()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Paint the sheet: the canvas' own colour, nearly covering."""
+        ground = QColor(self._theme.canvas)
+        ground.setAlphaF(0.92)
+        QPainter(self).fillRect(self.rect(), ground)
+
+
+def _tools(operations: tuple[Operation, ...], kind: type) -> str:
+    numbers = dict.fromkeys(op.cut.tool for op in operations if isinstance(op, kind) and op.cut.enabled)
+    return " ".join(f"T{number}" for number in numbers)

@@ -1,0 +1,130 @@
+"""The window: puts the parts together. What they do is connected in `wiring.py`."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication, QKeyEvent
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QMainWindow, QVBoxLayout, QWidget
+
+from app.edit.document import Document
+from app.settings import Settings, ThemeChoice
+from app.ui import style
+from app.ui.actions import Actions
+from app.ui.arrow import arrow_picture
+from app.ui.badge import FindingsList
+from app.ui.bars import ToolStrip, TopBar
+from app.ui.canvas.canvas import Canvas
+from app.ui.command_line import CommandLine
+from app.ui.computation import Computation
+from app.ui.notice import Notice
+from app.ui.opening import SUFFIXES
+from app.ui.panels.side_panel import SidePanel
+from app.ui.status_bar import StatusBar
+from app.ui.theme import DARK, LIGHT, Theme
+from app.ui.views import Views
+from app.ui.worker import Worker
+
+SIZE = (1440, 900)
+
+
+class MainWindow(QMainWindow):
+    """Menu, bars, views, panel, log, command line, status.
+
+    Signals:
+        dropped(path): a drawing was dropped on the window. closing(): asked to close; `accept_close` tells whether it may.
+    """
+
+    dropped = Signal(str)
+    closing = Signal()
+
+    def __init__(self, document: Document, settings: Settings) -> None:
+        super().__init__()
+        self.document, self.settings = document, settings
+        self.theme = self._theme_for(settings.theme)
+        self.may_close = True
+        self.worker = Worker(self)
+        self.computation = Computation(document, self.worker)
+        self.actions_ = Actions(self)
+        self.canvas = Canvas(document, self.theme)
+        self.views, self.panel = Views(self.canvas), SidePanel(document)
+        self.notice, self.command_line, self.status = Notice(), CommandLine(), StatusBar()
+        self.top_bar, self.tool_strip = TopBar(self.actions_), ToolStrip(self.actions_)
+        self.findings_list = FindingsList(self)
+        self.file_label = QLabel()
+        self._lay_out()
+        self.set_theme_choice(settings.theme)
+        QGuiApplication.styleHints().colorSchemeChanged.connect(lambda _: self.set_theme_choice(self.settings.theme))
+
+    def _lay_out(self) -> None:
+        self.actions_.fill(self.menuBar())
+        self.file_label.setProperty("role", "muted")
+        self.file_label.setContentsMargins(0, 0, 16, 0)
+        self.menuBar().setCornerWidget(self.file_label)
+        centre = QVBoxLayout()
+        centre.setSpacing(0)
+        centre.addWidget(self.notice)
+        centre.addWidget(self.views, 1)
+        middle = QHBoxLayout()
+        middle.setSpacing(0)
+        middle.addWidget(self.tool_strip)
+        middle.addLayout(centre, 1)
+        middle.addWidget(self.panel)
+        root = QWidget()
+        root.setObjectName("root")
+        column = QVBoxLayout(root)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.top_bar)
+        column.addLayout(middle, 1)
+        column.addWidget(self.command_line)
+        column.addWidget(self.status)
+        self.setCentralWidget(root)
+        self.setAcceptDrops(True)
+        self.setMinimumSize(960, 640)
+        self.resize(*SIZE)
+
+    def _theme_for(self, choice: ThemeChoice) -> Theme:
+        if choice is ThemeChoice.SYSTEM:
+            return DARK if QGuiApplication.styleHints().colorScheme() == Qt.ColorScheme.Dark else LIGHT
+        return DARK if choice is ThemeChoice.DARK else LIGHT
+
+    def set_theme_choice(self, choice: ThemeChoice) -> None:
+        """Paint everything in the theme that the user or the system chose."""
+        self.theme = self._theme_for(choice)
+        application = QApplication.instance()
+        if isinstance(application, QApplication):
+            style.apply(application, self.theme, arrow_picture(self.theme))
+        self.actions_.set_theme(self.theme)
+        for widget in self.findChildren(QWidget):
+            if hasattr(widget, "set_theme"):
+                widget.set_theme(self.theme)
+        self.actions_[f"theme_{choice.value}"].setChecked(True)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
+        """A character that nothing else wanted begins a command."""
+        text = event.text()
+        control = event.modifiers() & (Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier)
+        if text and text.isprintable() and not text.isspace() and not control:
+            self.command_line.begin(text)
+        else:
+            super().keyPressEvent(event)
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
+        """Welcome one drawing."""
+        urls = event.mimeData().urls()
+        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith(SUFFIXES):
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 (Qt's name)
+        """Open the drawing that was dropped."""
+        event.acceptProposedAction()
+        self.dropped.emit(event.mimeData().urls()[0].toLocalFile())
+
+    def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Ask before changes are lost; leave the running job."""
+        self.closing.emit()
+        if not self.may_close:
+            event.ignore()
+            return
+        self.worker.finish()
+        event.accept()

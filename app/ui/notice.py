@@ -1,0 +1,50 @@
+"""A bar above the canvas: one sentence and the buttons that answer it. Never a window of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
+
+from app.ui.icons import IconButton
+
+Answers = Sequence[tuple[str, Callable[[], None]]]
+
+
+class Notice(QWidget):
+    """Shows one sentence at a time; a newer one takes its place."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setObjectName("notice")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.text = QLabel()
+        self.text.setWordWrap(True)
+        self.buttons: list[QPushButton] = []
+        self._row = QHBoxLayout(self)
+        self._row.setContentsMargins(16, 4, 8, 4)
+        self._row.setSpacing(8)
+        self._row.addWidget(self.text, 1)
+        self._close = IconButton("cancel", "Close this line")
+        self._close.clicked.connect(self.hide)
+        self._row.addWidget(self._close)
+        self.setMinimumHeight(36)
+        self.hide()
+
+    def ask(self, sentence: str, answers: Answers = (), error: bool = False) -> None:
+        """Show a sentence and a button for each answer; a pressed button closes the bar and acts."""
+        for button in self.buttons:
+            self._row.removeWidget(button)
+            button.deleteLater()
+        self.buttons = []
+        self.text.setText(sentence)
+        self.text.setProperty("role", "error" if error else "")
+        self.text.style().unpolish(self.text)
+        self.text.style().polish(self.text)
+        for at, (text, act) in enumerate(answers):
+            button = QPushButton(text)
+            button.clicked.connect(lambda _=False, a=act: (self.hide(), a()))
+            self.buttons.append(button)
+            self._row.insertWidget(1 + at, button)
+        self.show()

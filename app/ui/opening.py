@@ -1,0 +1,99 @@
+"""Opening drawings in the background; asks for units when a drawing names none."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal
+
+from app.edit.document import Document
+from app.errors import InputError
+from app.model.finding import Finding
+from app.model.job import Job
+from app.model.part import Units
+from app.progress import Progress
+from app.resources import resource
+from app.ui.worker import Answer, Worker
+
+if TYPE_CHECKING:
+    from app.files.drawing import Drawing
+
+SUFFIXES = (".dxf",)
+FILTER = "Drawings (*.dxf *.DXF);;All files (*)"
+
+
+@dataclass(frozen=True)
+class Opened:
+    """A drawing that was read.
+
+    Attributes:
+        path: the file. drawing: what it holds. job: the job to work on, with the tools that were there before.
+        units: what the user said its units are; None when he was not asked.
+    """
+
+    path: Path
+    drawing: Drawing
+    job: Job
+    units: Units | None = None
+
+
+def sample_path() -> Path:
+    """Return the drawing that a first start shows."""
+    return resource("samples", "fig2.dxf")
+
+
+def _read(path: Path, units: Units | None, before: Job, progress: Progress) -> Opened:
+    from app.files.drawing import read_drawing  # imports the DXF reader: never on the window's thread
+    from app.workflow.make import job_from_drawing
+    from app.workflow.options import MakeOptions
+
+    progress.step(0.05, f"Reading {path.name}")
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"Cannot read {path}: {error.strerror}. Choose another file.") from error
+    drawing = read_drawing(path.name, data, units, ())
+    progress.step(0.9, f"Reading {path.name}")
+    return Opened(path, drawing, job_from_drawing(drawing, MakeOptions(job=before, units=units)), units)
+
+
+class Opening(QObject):
+    """Reads a drawing and loads it into the document.
+
+    Signals:
+        opened(Opened): the document holds it now. failed(sentence).
+    """
+
+    opened = Signal(Opened)
+    failed = Signal(str)
+
+    def __init__(self, document: Document, worker: Worker) -> None:
+        super().__init__()
+        self._document, self._worker = document, worker
+        self._job_id: int | None = None
+        self.findings: tuple[Finding, ...] = ()
+        worker.done.connect(self._on_done)
+        worker.failed.connect(self._on_failed)
+
+    def open(self, path: Path, units: Units | None = None) -> None:
+        """Read a drawing; the document changes only when it has been read whole.
+
+        Args:
+            path: a DXF file.
+            units: of a drawing that names none; None = not asked yet.
+        """
+        before = self._document.job
+        self._job_id = self._worker.start(lambda progress: _read(path, units, before, progress), self._document.revision)
+
+    def _on_done(self, answer: Answer) -> None:
+        if answer.job_id != self._job_id or not isinstance(answer.value, Opened):
+            return
+        self.findings = answer.value.drawing.findings
+        self._document.load(answer.value.job, answer.value.path)
+        self.opened.emit(answer.value)
+
+    def _on_failed(self, answer: Answer) -> None:
+        if answer.job_id == self._job_id:
+            self.failed.emit(answer.error or "")

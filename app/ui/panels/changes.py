@@ -1,0 +1,107 @@
+"""What the side panel does to a job: each function takes a job and returns another one. No Qt."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+
+from app.errors import ParameterError
+from app.model.job import Job
+from app.model.operation import ContourOperation, Cut, Operation, PocketOperation
+from app.model.tool import Tool
+
+
+class SubjectKind(Enum):
+    """What can be selected in the side panel."""
+
+    JOB = "job"
+    TOOL = "tool"
+    OPERATION = "operation"
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """What the properties are shown of: the job, the tool with a T number, or the operation at an index."""
+
+    kind: SubjectKind
+    key: int = 0
+
+    def in_job(self, job: Job) -> Subject:
+        """Return the same subject, or the nearest one that the job has."""
+        if self.kind is SubjectKind.TOOL and self.key not in {t.number for t in job.tools}:
+            return Subject(SubjectKind.TOOL, job.tools[-1].number) if job.tools else Subject(SubjectKind.JOB)
+        if self.kind is SubjectKind.OPERATION and self.key >= len(job.operations):
+            return Subject(SubjectKind.OPERATION, len(job.operations) - 1) if job.operations else Subject(SubjectKind.JOB)
+        return self
+
+
+def operation_name(operation: Operation) -> str:
+    """Return the trade's name of an operation."""
+    return "Pocket" if isinstance(operation, PocketOperation) else "Contour"
+
+
+def stepover_of(operation: PocketOperation, tool: Tool) -> float:
+    """Return the distance between rings, mm: the operation's own, or half the diameter."""
+    return operation.stepover if operation.stepover is not None else tool.diameter / 2
+
+
+def with_tool(job: Job, number: int, tool: Tool) -> Job:
+    """Return the job with the tool `number` replaced; operations that use it follow a change of its number.
+
+    Raises:
+        ParameterError: another tool has that number already.
+    """
+    if tool.number != number and tool.number in {t.number for t in job.tools}:
+        raise ParameterError(f"T{tool.number} is another tool of this job; choose a free number.")
+    operations = tuple(
+        replace(op, cut=replace(op.cut, tool=tool.number)) if op.cut.tool == number else op for op in job.operations
+    )
+    return replace(job, tools=tuple(tool if t.number == number else t for t in job.tools), operations=operations)
+
+
+def with_new_tool(job: Job) -> tuple[Job, int]:
+    """Return the job with one more tool, a copy of the last with the next free number, and that number."""
+    number = max((t.number for t in job.tools), default=0) + 1
+    like = job.tools[-1] if job.tools else Tool(number, 3.0)
+    return replace(job, tools=(*job.tools, replace(like, number=number, name=""))), number
+
+
+def without_tool(job: Job, number: int) -> Job:
+    """Return the job without a tool.
+
+    Raises:
+        ParameterError: an operation uses it.
+    """
+    users = [operation_name(op) for op in job.operations if op.cut.tool == number]
+    if users:
+        raise ParameterError(f"T{number} is used by {users[0]}; give that operation another tool first.")
+    return replace(job, tools=tuple(t for t in job.tools if t.number != number))
+
+
+def with_operation(job: Job, index: int, operation: Operation) -> Job:
+    """Return the job with one operation replaced."""
+    operations = list(job.operations)
+    operations[index] = operation
+    return replace(job, operations=tuple(operations))
+
+
+def with_cut(job: Job, index: int, cut: Cut) -> Job:
+    """Return the job with the parameters of one operation replaced."""
+    return with_operation(job, index, replace(job.operations[index], cut=cut))
+
+
+def with_new_operation(job: Job, kind: type[PocketOperation] | type[ContourOperation]) -> Job:
+    """Return the job with one more operation, cut as deep as the last one.
+
+    Raises:
+        ParameterError: the job has no tool.
+    """
+    if not job.tools:
+        raise ParameterError("The job has no tool yet; add one first.")
+    like = job.operations[-1].cut if job.operations else Cut(tool=job.tools[0].number)
+    return replace(job, operations=(*job.operations, kind(replace(like, enabled=True))))
+
+
+def without_operation(job: Job, index: int) -> Job:
+    """Return the job without one operation."""
+    return replace(job, operations=job.operations[:index] + job.operations[index + 1:])

@@ -1,0 +1,228 @@
+"""Fields of a properties form: label, value with unit, a note; wrong input is marked at once with the reason under it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QButtonGroup, QComboBox, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QToolButton, QWidget
+
+from app.edit.errors import CommandError
+from app.edit.numbers import length
+from app.errors import HitofudeError
+
+LABEL_WIDTH = 96
+VALUE_WIDTH = 92
+ROW_HEIGHT = 24
+
+
+@dataclass(frozen=True, slots=True)
+class Spec:
+    """What a number field asks for.
+
+    Attributes:
+        name, unit: shown before and after the value.
+        low, high: range, ends included, in the unit.
+        decimals: shown when the field is not being typed in.
+        is_length: units such as 1in can be typed; else plain numbers only.
+        tip: what it means, one sentence.
+    """
+
+    name: str
+    unit: str = "mm"
+    low: float = 0.0
+    high: float = 99_999.0
+    decimals: int = 3
+    is_length: bool = True
+    tip: str = ""
+
+    def read(self, text: str) -> float:
+        """Return the value of a typed text.
+
+        Raises:
+            HitofudeError: not a number, or out of range; a sentence.
+        """
+        value = length(text)
+        if not self.is_length and any(letter.isalpha() or letter in "\"'" for letter in text):
+            raise HitofudeError(f"{self.name} is in {self.unit}; type the number alone.")
+        if not self.low <= value <= self.high:
+            raise HitofudeError(f"{self.name} is {value:g} {self.unit}; use {self.low:g} to {self.high:g}.")
+        return value
+
+
+def muted(text: str = "") -> QLabel:
+    """Return a label in the quiet colour."""
+    made = QLabel(text)
+    made.setProperty("role", "muted")
+    return made
+
+
+def restyle(widget: QWidget) -> None:
+    """Let the style sheet look at a widget's properties again."""
+    widget.style().unpolish(widget)
+    widget.style().polish(widget)
+
+
+class NumberField(QWidget):
+    """One number: arithmetic and units are accepted (`1in + 8mm`)."""
+
+    committed = Signal(float)
+
+    def __init__(self, spec: Spec, read: Callable[[str], float] | None = None) -> None:
+        super().__init__()
+        self.spec = spec
+        self._read = read or spec.read
+        self._value = 0.0
+        self.edit, self.note, self.reason = QLineEdit(), muted(), QLabel()
+        self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
+        self.edit.setFixedSize(VALUE_WIDTH, ROW_HEIGHT)
+        self.edit.setAccessibleName(spec.name)
+        self.edit.textEdited.connect(self._check)
+        self.edit.editingFinished.connect(self._commit)
+        self.edit.installEventFilter(self)
+        self.reason.setProperty("role", "error")
+        self.reason.setWordWrap(True)
+        self.reason.hide()
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        name = muted(self.spec.name)
+        name.setFixedWidth(LABEL_WIDTH)
+        name.setBuddy(self.edit)
+        self.setToolTip(self.spec.tip)
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 1, 0, 1)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(2)
+        grid.addWidget(name, 0, 0)
+        grid.addWidget(self.edit, 0, 1)
+        grid.addWidget(muted(self.spec.unit), 0, 2)
+        grid.addWidget(self.note, 0, 3, Qt.AlignmentFlag.AlignRight)
+        grid.addWidget(self.reason, 1, 0, 1, 4)
+        grid.setColumnStretch(3, 1)
+
+    @property
+    def value(self) -> float:
+        """The value that was last accepted, in the field's unit."""
+        return self._value
+
+    def show_value(self, value: float, note: str = "") -> None:
+        """Show a value of the job, unless the user is in the middle of typing another one."""
+        self.note.setText(note)
+        if self.edit.isModified() and self.edit.hasFocus():
+            return
+        self._value = value
+        self.edit.setText(f"{value:.{self.spec.decimals}f}")
+        self.edit.setModified(False)
+        self._mark("")
+
+    def refuse(self, reason: str) -> None:
+        """Mark what was typed as wrong, for a reason that only the job knows."""
+        self._mark(reason)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Escape brings the old value back."""
+        if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Escape:
+            self.edit.setModified(False)
+            self.show_value(self._value, self.note.text())
+            return True
+        return super().eventFilter(watched, event)
+
+    def _check(self, text: str) -> float | None:
+        try:
+            value = self._read(text)
+        except CommandError as wrong:
+            self._mark(wrong.reason)
+        except HitofudeError as wrong:
+            self._mark(str(wrong))
+        else:
+            self._mark("")
+            return value
+        return None
+
+    def _commit(self) -> None:
+        if not self.edit.isModified():
+            return
+        value = self._check(self.edit.text())
+        if value is not None:
+            self.edit.setModified(False)
+            self._value = value
+            self.edit.setText(f"{value:.{self.spec.decimals}f}")
+            self.committed.emit(value)
+
+    def _mark(self, reason: str) -> None:
+        self.reason.setText(reason)
+        self.reason.setVisible(bool(reason))
+        if bool(reason) != (self.edit.property("wrong") == "true"):
+            self.edit.setProperty("wrong", "true" if reason else "false")
+            restyle(self.edit)
+
+
+class ChoiceField(QWidget):
+    """A few values side by side, the chosen one underlined."""
+
+    chosen = Signal(object)
+
+    def __init__(self, name: str, choices: Sequence[tuple[Enum, str]], label_width: int = LABEL_WIDTH) -> None:
+        super().__init__()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 1, 0, 1)
+        row.setSpacing(12)
+        if name:
+            label = muted(name)
+            label.setFixedWidth(label_width - 4)
+            row.addWidget(label)
+        self._group = QButtonGroup(self)
+        self.buttons: dict[Enum, QToolButton] = {}
+        for value, text in choices:
+            button = QToolButton()
+            button.setText(text)
+            button.setCheckable(True)
+            button.setProperty("role", "choice")
+            button.setMinimumWidth(button.fontMetrics().horizontalAdvance(text) + 10)
+            button.clicked.connect(lambda _=False, v=value: self.chosen.emit(v))
+            self._group.addButton(button)
+            self.buttons[value] = button
+            row.addWidget(button)
+        row.addStretch(1)
+
+    def show_value(self, value: Enum) -> None:
+        """Underline the job's value."""
+        self.buttons[value].setChecked(True)
+
+
+class ListField(QWidget):
+    """Many values: a drop-down list."""
+
+    chosen = Signal(object)
+
+    def __init__(self, name: str, choices: Sequence[tuple[object, str]]) -> None:
+        super().__init__()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 1, 0, 1)
+        row.setSpacing(8)
+        label = muted(name)
+        label.setFixedWidth(LABEL_WIDTH)
+        self.box = QComboBox()
+        self.box.setFixedHeight(ROW_HEIGHT)
+        self.box.setAccessibleName(name)
+        label.setBuddy(self.box)
+        self._values: list[object] = []
+        self.set_choices(choices)
+        self.box.activated.connect(lambda at: self.chosen.emit(self._values[at]))
+        row.addWidget(label)
+        row.addWidget(self.box, 1)
+
+    def set_choices(self, choices: Sequence[tuple[object, str]]) -> None:
+        """Offer other values, each with its text."""
+        if [c[0] for c in choices] != self._values or [c[1] for c in choices] != [self.box.itemText(i) for i in range(self.box.count())]:
+            self._values = [value for value, _ in choices]
+            self.box.clear()
+            self.box.addItems([text for _, text in choices])
+
+    def show_value(self, value: object) -> None:
+        """Show the job's value."""
+        self.box.setCurrentIndex(self._values.index(value) if value in self._values else -1)

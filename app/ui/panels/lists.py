@@ -1,0 +1,190 @@
+"""The lists of the side panel: the job in two lines, its tools, its operations."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QLabel, QMenu, QWidget
+
+from app.model.job import Job
+from app.model.operation import ContourOperation, Operation, PocketOperation
+from app.model.tool import Tool
+from app.ui.figures import TIMES, clock, grouped
+from app.ui.icons import IconButton
+from app.ui.panels.changes import Subject, SubjectKind, operation_name
+from app.ui.panels.fields import muted
+from app.ui.panels.section import Row, Section
+from app.ui.samples import LineSample, Sample, Switch
+from app.ui.theme import Theme
+
+
+def _bold(text: str) -> QLabel:
+    made = QLabel(text)
+    made.setStyleSheet("font-weight: 600;")
+    return made
+
+
+class ListSection(Section):
+    """A heading and rows, each with its own subject.
+
+    Signals:
+        chosen: the user chose a subject. removed: wants it gone.
+    """
+
+    chosen = Signal(Subject)
+    removed = Signal(Subject)
+
+    def __init__(self, title: str) -> None:
+        super().__init__(title)
+        self._rows: dict[Subject, Row] = {}
+        self._theme: Theme | None = None
+
+    def clear_rows(self) -> None:
+        """Take every row away."""
+        for row in self._rows.values():
+            self.rows.removeWidget(row)
+            row.hide()
+            row.deleteLater()
+        self._rows = {}
+
+    def add_row(self, subject: Subject, row: Row) -> None:
+        """Put a row at the end."""
+        self._rows[subject] = row
+        row.clicked.connect(lambda: self.chosen.emit(subject))
+        row.removed.connect(lambda: self.removed.emit(subject))
+        row.stepped.connect(lambda way: self._step(subject, way))
+        self.rows.addWidget(row)
+        if self._theme is not None:
+            _theme_children(row, self._theme)
+
+    def show_chosen(self, subject: Subject) -> None:
+        """Mark the row whose properties are shown."""
+        for key, row in self._rows.items():
+            row.set_chosen(key == subject)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Remember the theme for rows to come."""
+        self._theme = theme
+
+    def _step(self, subject: Subject, way: int) -> None:
+        keys = list(self._rows)
+        at = keys.index(subject) + way
+        if 0 <= at < len(keys):
+            self._rows[keys[at]].setFocus()
+            self.chosen.emit(keys[at])
+
+
+def _theme_children(parent: QWidget, theme: Theme) -> None:
+    for child in parent.findChildren(QWidget):
+        if hasattr(child, "set_theme"):
+            child.set_theme(theme)
+
+
+class JobSection(ListSection):
+    """Stock and origin; a click shows the job's properties."""
+
+    def __init__(self) -> None:
+        super().__init__("Job")
+        self.stock, self.origin = QLabel(), QLabel()
+        for name, value in (("Stock", self.stock), ("Origin", self.origin)):
+            label = muted(name)
+            label.setFixedWidth(56)
+            row = Row(label, value, stretch_after=1)
+            row.setFixedHeight(27)
+            self._add_job_row(row)
+
+    def _add_job_row(self, row: Row) -> None:
+        subject = Subject(SubjectKind.JOB, len(self._rows))
+        self._rows[subject] = row
+        row.clicked.connect(lambda: self.chosen.emit(Subject(SubjectKind.JOB)))
+        row.stepped.connect(lambda way: self._step(subject, way))
+        self.rows.addWidget(row)
+
+    def show_chosen(self, subject: Subject) -> None:
+        """Mark both rows when the job is chosen."""
+        for row in self._rows.values():
+            row.set_chosen(subject.kind is SubjectKind.JOB)
+
+    def show_job(self, job: Job, size: tuple[float, float] | None) -> None:
+        """Show the stock's size, mm, and where the work origin is.
+
+        Args:
+            job: whose stock and origin to show.
+            size: of the stock in the plane, mm, or None while nothing is drawn.
+        """
+        if size is None:
+            self.stock.setText(f"nothing drawn · {job.stock.thickness:.3f} mm thick")
+        else:
+            self.stock.setText(f" {TIMES} ".join(grouped(v, 3) for v in (*size, job.stock.thickness)) + " mm")
+        self.origin.setText(f"{job.origin_xy.value.capitalize()}, {job.origin_z.value}")
+
+
+class ToolSection(ListSection):
+    """Every tool of the job."""
+
+    added = Signal()
+
+    def __init__(self) -> None:
+        super().__init__("Tools")
+        self.add_button = IconButton("add", "Add a tool")
+        self.add_button.clicked.connect(self.added)
+        self.head.addWidget(self.add_button)
+        self._tools: tuple[Tool, ...] = ()
+
+    def show_job(self, job: Job) -> None:
+        """Rebuild the rows when the tools have changed."""
+        if job.tools == self._tools and self._rows:
+            return
+        self._tools = job.tools
+        self.clear_rows()
+        for tool in job.tools:
+            number = _bold(f"T{tool.number}")
+            number.setMinimumWidth(24)
+            row = Row(number, QLabel(tool.label), muted(f"{grouped(tool.spindle_speed, 0)} rpm"), stretch_after=1)
+            self.add_row(Subject(SubjectKind.TOOL, tool.number), row)
+
+
+class OperationSection(ListSection):
+    """Every operation: switch, line sample, name, tool, time."""
+
+    added = Signal(type)
+    switched = Signal(int, bool)
+
+    def __init__(self) -> None:
+        super().__init__("Operations")
+        self.add_button = IconButton("add", "Add an operation")
+        menu = QMenu(self.add_button)
+        for kind, text in ((PocketOperation, "Pocket"), (ContourOperation, "Contour")):
+            action = QAction(text, menu)
+            action.triggered.connect(lambda _=False, k=kind: self.added.emit(k))
+            menu.addAction(action)
+        self.add_button.clicked.connect(lambda: menu.popup(self.add_button.mapToGlobal(self.add_button.rect().bottomLeft())))
+        self.head.addWidget(self.add_button)
+        self._shown: object = None
+        self.switches: list[Switch] = []
+
+    def show_job(self, job: Job, times: dict[int, float]) -> None:
+        """Rebuild the rows when operations, tools or times (seconds by index) have changed."""
+        shown = (job.operations, job.tools, tuple(times.items()))
+        if shown == self._shown:
+            return
+        self._shown = shown
+        self.clear_rows()
+        self.switches = []
+        for index, operation in enumerate(job.operations):
+            time = QLabel(clock(times[index])) if index in times and operation.cut.enabled else muted("-")
+            row = self._operation_row(index, operation, job, time)
+            self.add_row(Subject(SubjectKind.OPERATION, index), row)
+
+    def _operation_row(self, index: int, operation: Operation, job: Job, time: QLabel) -> Row:
+        cut = operation.cut
+        name = operation_name(operation)
+        switch = Switch(f"{name} on or off")
+        switch.setChecked(cut.enabled)
+        switch.toggled.connect(lambda on: self.switched.emit(index, on))
+        self.switches.append(switch)
+        sample = LineSample(Sample.POCKET if isinstance(operation, PocketOperation) else Sample.CONTOUR)
+        sample.setEnabled(cut.enabled)
+        tool = next((t for t in job.tools if t.number == cut.tool), None)
+        text = f"T{cut.tool} {tool.label}" if tool is not None else f"T{cut.tool} is missing"
+        return Row(switch, sample, QLabel(name), muted(text), time, stretch_after=3)

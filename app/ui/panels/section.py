@@ -1,0 +1,104 @@
+"""A part of the side panel: a heading, perhaps a button beside it, and rows."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+
+from app.ui.panels.fields import restyle
+from app.ui.theme import HEADING_PX, text_font
+
+EDGE = 16
+
+
+def heading(text: str) -> QLabel:
+    """Return a label in the heading's type."""
+    made = QLabel(text)
+    made.setFont(text_font(HEADING_PX, semibold=True))
+    made.setStyleSheet(f"font-size: {HEADING_PX}px; font-weight: 600;")
+    return made
+
+
+def hairline() -> QFrame:
+    """Return a separator, 1 px high."""
+    made = QFrame()
+    made.setObjectName("hairline")
+    made.setFixedHeight(1)
+    return made
+
+
+class Section(QWidget):
+    """Heading and rows, 16 px from the panel's edges."""
+
+    def __init__(self, title: str) -> None:
+        super().__init__()
+        self.title = heading(title)
+        self.head = QHBoxLayout()
+        self.head.setContentsMargins(EDGE, 0, EDGE - 4, 0)
+        self.head.setSpacing(4)
+        self.head.addWidget(self.title)
+        self.head.addStretch(1)
+        self.rows = QVBoxLayout(self)
+        self.rows.setContentsMargins(0, 10, 0, 10)
+        self.rows.setSpacing(0)
+        self.rows.addLayout(self.head)
+        self.rows.addSpacing(4)
+
+    def add_indented(self, widget: QWidget) -> None:
+        """Add a row that keeps the panel's margins."""
+        line = QHBoxLayout()
+        line.setContentsMargins(EDGE, 0, EDGE, 0)
+        line.addWidget(widget)
+        self.rows.addLayout(line)
+
+
+class Row(QWidget):
+    """A line of a list that can be chosen with the mouse or the keyboard; `widgets` fill it from the left."""
+
+    clicked = Signal()
+    removed = Signal()
+    stepped = Signal(int)
+
+    def __init__(self, *widgets: QWidget, stretch_after: int = 0) -> None:
+        super().__init__()
+        self.setProperty("row", "true")
+        self.setProperty("chosen", "false")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.setFixedHeight(30)
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        line = QHBoxLayout(self)
+        line.setContentsMargins(EDGE, 0, EDGE, 0)
+        line.setSpacing(8)
+        for at, widget in enumerate(widgets):
+            line.addWidget(widget)
+            if at == stretch_after:
+                line.addStretch(1)
+
+    def set_chosen(self, chosen: bool) -> None:
+        """Show whether this row's properties are the ones below."""
+        if (self.property("chosen") == "true") != chosen:
+            self.setProperty("chosen", "true" if chosen else "false")
+            restyle(self)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Choose."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.clicked.emit()
+            self.setFocus(Qt.FocusReason.MouseFocusReason)
+
+    def focusInEvent(self, event: QFocusEvent) -> None:  # noqa: N802 (Qt's name)
+        """Choose when Tab comes here."""
+        super().focusInEvent(event)
+        if event.reason() in (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason):
+            self.clicked.emit()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
+        """Up and Down choose the neighbour, Delete removes."""
+        steps = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1}
+        if event.key() in steps:
+            self.stepped.emit(steps[Qt.Key(event.key())])
+        elif event.key() == Qt.Key.Key_Delete:
+            self.removed.emit()
+        else:
+            super().keyPressEvent(event)

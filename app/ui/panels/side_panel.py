@@ -1,0 +1,156 @@
+"""The right side of the window: lists of job, tools and operations, and the form of what is chosen in them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QScrollArea, QVBoxLayout, QWidget
+
+from app.edit.document import Change, Document
+from app.errors import HitofudeError
+from app.model.job import Job
+from app.model.operation import PocketOperation
+from app.ui.panels import changes
+from app.ui.panels.changes import Subject, SubjectKind
+from app.ui.panels.fields import NumberField
+from app.ui.panels.forms import JobForm, OperationForm, ToolForm
+from app.ui.panels.lists import JobSection, OperationSection, ToolSection
+from app.ui.panels.section import hairline
+
+WIDTH = 320
+
+
+class SidePanel(QScrollArea):
+    """Shows the document's job and turns what the user does into undoable changes of it.
+
+    Signals:
+        refused(sentence): a change that the job does not allow.
+    """
+
+    refused = Signal(str)
+
+    def __init__(self, document: Document) -> None:
+        super().__init__()
+        self._document = document
+        self._size: tuple[float, float] | None = None
+        self._times: dict[int, float] = {}
+        self._strokes: int | None = None
+        self.subject = Subject(SubjectKind.OPERATION, 0)
+        self.job, self.tools, self.operations = JobSection(), ToolSection(), OperationSection()
+        self.job_form, self.tool_form, self.operation_form = JobForm(), ToolForm(), OperationForm()
+        self._lay_out()
+        self._connect()
+        self.refresh()
+
+    def _lay_out(self) -> None:
+        inner = QWidget()
+        inner.setObjectName("sidePanel")
+        column = QVBoxLayout(inner)
+        column.setContentsMargins(1, 0, 0, 8)
+        column.setSpacing(0)
+        for section in (self.job, self.tools, self.operations):
+            column.addWidget(section)
+            column.addWidget(hairline())
+        for form in (self.job_form, self.tool_form, self.operation_form):
+            column.addWidget(form)
+        column.addStretch(1)
+        self.setWidget(inner)
+        self.setWidgetResizable(True)
+        self.setFixedWidth(WIDTH)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+
+    def _connect(self) -> None:
+        for section in (self.job, self.tools, self.operations):
+            section.chosen.connect(self.choose)
+        self.tools.added.connect(self._add_tool)
+        self.tools.removed.connect(lambda s: self.change("Remove tool", lambda job: changes.without_tool(job, s.key)))
+        self.operations.added.connect(self._add_operation)
+        self.operations.removed.connect(lambda s: self.change("Remove operation", lambda job: changes.without_operation(job, s.key)))
+        self.operations.switched.connect(self._switch)
+        for form in (self.job_form, self.tool_form, self.operation_form):
+            form.edited.connect(self._on_edited)
+        self._unsubscribe = self._document.subscribe(self._on_change)
+
+    def choose(self, subject: Subject) -> None:
+        """Show the properties of a subject."""
+        self.subject = subject
+        self.refresh()
+
+    def show_results(self, times: dict[int, float], strokes: int | None) -> None:
+        """Show what was computed: seconds by index of the operation, and pocket strokes; None = not computed."""
+        self._times, self._strokes = times, strokes
+        self.refresh()
+
+    def show_size(self, size: tuple[float, float] | None) -> None:
+        """Show the stock's size in the plane, mm."""
+        self._size = size
+        self.job.show_job(self._document.job, size)
+
+    def change(self, name: str, make: Callable[[Job], Job], field: NumberField | None = None) -> None:
+        """Change the job, undoably; what it does not allow is said at the field, or by `refused`."""
+        try:
+            job = make(self._document.job)
+            if job != self._document.job:
+                self._document.change_job(name, job)
+        except HitofudeError as wrong:
+            if field is not None:
+                field.refuse(str(wrong))
+            else:
+                self.refused.emit(str(wrong))
+
+    def refresh(self) -> None:
+        """Show the job as it is now."""
+        job = self._document.job
+        self.subject = self.subject.in_job(job)
+        self.job.show_job(job, self._size)
+        self.tools.show_job(job)
+        self.operations.show_job(job, self._times)
+        for section in (self.job, self.tools, self.operations):
+            section.show_chosen(self.subject)
+        kind = self.subject.kind
+        if kind is SubjectKind.JOB:
+            self.job_form.show_job(job)
+        elif kind is SubjectKind.TOOL:
+            self.tool_form.show_tool(job, self.subject.key)
+        else:
+            pocket = isinstance(job.operations[self.subject.key], PocketOperation)
+            self.operation_form.show_operation(job, self.subject.key, self._strokes if pocket else None)
+        self.job_form.setVisible(kind is SubjectKind.JOB)
+        self.tool_form.setVisible(kind is SubjectKind.TOOL)
+        self.operation_form.setVisible(kind is SubjectKind.OPERATION)
+
+    def _on_change(self, change: Change) -> None:
+        if change & Change.JOB:
+            self.refresh()
+
+    def _on_edited(self, name: str, edit: tuple[NumberField | None, Callable[[Job], Job]]) -> None:
+        field, make = edit
+        before = self.subject
+        if field is self.tool_form.number:
+            self.subject = Subject(SubjectKind.TOOL, int(field.value))
+        revision = self._document.revision
+        self.change(name, make, field)
+        if self._document.revision == revision:
+            self.subject = before
+
+    def _add_tool(self) -> None:
+        def make(job: Job) -> Job:
+            new, number = changes.with_new_tool(job)
+            self.subject = Subject(SubjectKind.TOOL, number)
+            return new
+
+        self.change("Add tool", make)
+
+    def _add_operation(self, kind: type) -> None:
+        def make(job: Job) -> Job:
+            self.subject = Subject(SubjectKind.OPERATION, len(job.operations))
+            return changes.with_new_operation(job, kind)
+
+        self.change("Add operation", make)
+
+    def _switch(self, index: int, on: bool) -> None:
+        name = "Switch operation on" if on else "Switch operation off"
+        self.change(name, lambda job: changes.with_cut(job, index, replace(job.operations[index].cut, enabled=on)))

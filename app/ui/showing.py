@@ -1,0 +1,167 @@
+"""Keeps what the window shows in step with the document and the computation: views, badge, titles, enabled actions."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject
+
+from app.edit.document import Change
+from app.edit.sample import bounds, union
+from app.model.finding import Finding
+from app.ui.canvas.canvas import ColourBy, PathLayers
+from app.ui.computation import State
+from app.ui.main_window import MainWindow
+from app.ui.opening import Opening
+from app.ui.samples import Sample
+from app.ui.verdict import Level, Verdict, verdict
+from app.ui.views import View
+
+_LAYERS = {
+    Sample.PART: PathLayers.PART, Sample.POCKET: PathLayers.POCKET, Sample.CONTOUR: PathLayers.CONTOUR,
+    Sample.LINK: PathLayers.LINK, Sample.RAPID: PathLayers.RAPID, Sample.PLUNGE: PathLayers.PLUNGE,
+}
+
+
+class Showing(QObject):
+    """Reads the state and shows it; changes nothing but the window."""
+
+    def __init__(self, window: MainWindow, opening: Opening) -> None:
+        super().__init__(window)
+        self._window, self._opening = window, opening
+        self._document, self._computation = window.document, window.computation
+        self.view = View.DRAW
+        self._layers = PathLayers.ALL
+        self._shown_program: object = None
+        self._computation.changed.connect(self._on_computation)
+        window.worker.progress.connect(window.status.show_progress)
+        window.worker.busy_changed.connect(self._on_busy)
+        window.status.badge.clicked.connect(self.open_findings)
+        window.findings_list.picked.connect(self.go_to)
+        window.views.nc.line_picked.connect(self._on_line_picked)
+        window.views.empty.pressed.connect(lambda: window.actions_[self._empty_action].trigger())
+        window.views.legend.layer_switched.connect(self._on_layer)
+        window.views.legend.colour_chosen.connect(lambda by: window.canvas.set_colour_by(ColourBy(by)))
+        self._empty_action = "open"
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """Everything there is to say about the drawing and its paths, each sentence once."""
+        made = self._computation.made
+        all_findings = (*self._opening.findings, *(made.findings if made is not None else ()))
+        return tuple({f.text: f for f in all_findings}.values())
+
+    def part_size(self) -> tuple[float, float] | None:
+        """Return width and height of the drawing, mm; None when it is empty."""
+        box = union([bounds(e.curve) for e in self._document.part.entities])
+        return None if box is None else (box[2] - box[0], box[3] - box[1])
+
+    def show_view(self, view: View) -> None:
+        """Bring a view to the front."""
+        self.view = view
+        self._window.actions_[view.value].setChecked(True)
+        self._window.views.show_view(view)
+        self._show_missing()
+
+    def refresh(self, change: Change) -> None:
+        """Show what changed in the document."""
+        if change & (Change.PART | Change.JOB):
+            size = self.part_size()
+            margin = 2 * self._document.job.stock.margin
+            self._window.panel.show_size(None if size is None else (size[0] + margin, size[1] + margin))
+            self._window.views.legend.show_job(self._document.job)
+            self._show_missing()
+        self._show_titles()
+
+    def _show_titles(self) -> None:
+        document, actions = self._document, self._window.actions_
+        name = document.path.name if document.path else document.part.name
+        self._window.file_label.setText(f"{name}{' *' if document.modified else ''}")
+        self._window.menuBar().setCornerWidget(self._window.file_label)
+        self._window.setWindowTitle(f"{name} - Hitofude")
+        for action, what, verb in (("undo", document.undo_name, "&Undo"), ("redo", document.redo_name, "&Redo")):
+            text = f"{verb} {what[0].lower()}{what[1:]}" if what else verb
+            actions[action].setText(text)
+            actions[action].setToolTip(f"{text.replace('&', '')} ({actions[action].shortcut().toString()})")
+            actions[action].setEnabled(what is not None)
+        actions["delete"].setEnabled(bool(document.selection))
+        drawn = bool(document.part.entities)
+        for action in ("export", "select_all"):
+            actions[action].setEnabled(drawn)
+        actions["compute"].setEnabled(drawn)
+
+    def _show_missing(self) -> None:
+        made, drawn = self._computation.made, bool(self._document.part.entities)
+        sentence, button = "", ""
+        if self._computation.state is State.RUNNING and made is None and self.view is not View.DRAW:
+            sentence, button, self._empty_action = "The paths are being computed.", "Cancel  Shift+F5", "cancel"
+        elif not drawn:
+            sentence, button = "Nothing is drawn yet. Pick a tool at the left, type  line 0,0 60,0  or open a drawing.", "Open a drawing"
+            self._empty_action = "open"
+        elif made is None and self.view is not View.DRAW:
+            what = "tool paths" if self.view is View.PATHS else "NC program"
+            sentence, button, self._empty_action = f"There {'are' if what[-1] == 's' else 'is'} no {what} yet.", "Compute  F5", "compute"
+        self._window.views.show_missing(sentence, button, made is not None)
+
+    def show_hovered(self, text: str) -> None:
+        """Show what the mouse is over, or else where the paths stand."""
+        self._window.status.show_message(text or self._computation.state.value)
+
+    def _on_computation(self) -> None:
+        made, state = self._computation.made, self._computation.state
+        if made is not self._shown_program:
+            self._shown_program = made
+            self._window.canvas.set_program(made.program if made is not None else None)
+            if made is not None:
+                self._window.views.nc.show_program(made.nc.text, made.nc.lines, made.program.moves)
+            self._window.canvas.set_findings(self.findings)
+        strokes = made.program.strokes if made is not None and state is State.CURRENT else None
+        self._window.panel.show_results(self._computation.operation_times(), strokes)
+        self._show_badge()
+        self._show_missing()
+        self._window.status.show_message(state.value)
+        self._window.actions_["cancel"].setEnabled(self._window.worker.busy)
+
+    def _show_badge(self) -> None:
+        badge, state, made = self._window.status.badge, self._computation.state, self._computation.made
+        if state is State.RUNNING:
+            badge.show_running()
+        elif state is State.CURRENT and made is not None:
+            badge.show_verdict(verdict(self.findings, made.report.data))
+        elif state is State.FAILED:
+            badge.show_verdict(Verdict(Level.REMARK, "Could not be computed"))
+        else:
+            badge.show_verdict(Verdict(Level.NONE, "Not computed" if state is State.NONE else "Out of date"))
+
+    def _on_busy(self, busy: bool) -> None:
+        self._window.status.show_progress(0.0 if busy else None)
+        self._window.actions_["cancel"].setEnabled(busy)
+
+    def _on_layer(self, sample: Sample, on: bool) -> None:
+        flag = _LAYERS[sample]
+        self._layers = self._layers | flag if on else self._layers & ~flag
+        self._window.canvas.set_visible_layers(self._layers)
+
+    def open_findings(self) -> None:
+        """List every finding above the badge."""
+        sentences = {
+            State.NONE: "Nothing was computed yet. Press F5.", State.STALE: "The paths are out of date. Press F5.",
+            State.FAILED: self._computation.error, State.RUNNING: "The paths are being computed.",
+        }
+        empty = sentences.get(self._computation.state, "No gouge, nothing left that a tool could reach, no rapid in material.")
+        self._window.findings_list.show_findings(self.findings, self._window.status.badge, empty)
+
+    def go_to(self, finding: Finding) -> None:
+        """Show the place of a finding on the canvas."""
+        if finding.x is None or finding.y is None:
+            return
+        if self.view is View.NC:
+            self.show_view(View.PATHS)
+        self._window.canvas.go_to(finding.x, finding.y)
+        self._document.select(finding.entity_ids)
+
+    def _on_line_picked(self, move: int) -> None:
+        program = self._computation.program
+        if program is not None:
+            x, y, z = (float(v) for v in program.moves.end[move])
+            self._window.canvas.go_to(x, y)
+            self._window.status.show_message(f"Ends at X {x:.3f} Y {y:.3f} Z {z:.3f}, part coordinates.")
+

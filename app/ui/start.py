@@ -1,0 +1,51 @@
+"""Starts the window."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication
+
+from app.edit.document import Document
+from app.progress import Progress
+from app.settings import load_settings
+from app.ui.icons import pixmap
+from app.ui.main_window import MainWindow
+from app.ui.wiring import Wiring
+from app.ui.worker import Worker
+
+
+def _warm(progress: Progress) -> None:
+    from app.kernels import warm  # compiles or loads the inner loops: never on the window's thread
+
+    warm(progress)
+
+
+def build() -> tuple[MainWindow, Wiring]:
+    """Return a window with an empty document, not shown yet, and its wiring."""
+    window = MainWindow(Document(), load_settings())
+    wiring = Wiring(window)
+    window.setWindowIcon(pixmap("app", window.theme.accent_text, 3))
+    return window, wiring
+
+
+def start(path: Path | None = None) -> int:
+    """Open the window with a drawing, or with the sample part, and stay until it is closed.
+
+    Returns:
+        Exit status.
+    """
+    application = QApplication(sys.argv[:1])
+    application.setApplicationName("Hitofude")
+    application.setDesktopFileName("hitofude")
+    window, wiring = build()
+    wiring.restore_geometry()
+    window.show()
+    warmer = Worker(window)
+    warmer.start(_warm, 0)
+    QTimer.singleShot(0, lambda: wiring.open_file(path) if path is not None else wiring.open_sample())
+    status = application.exec()
+    warmer.finish()
+    return status

@@ -1,0 +1,95 @@
+"""The bottom line: where the mouse is, what it snaps to, how far the job is, and the verdict."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QProgressBar, QSizePolicy, QToolButton, QWidget
+
+from app.ui.badge import Badge
+from app.ui.icons import IconButton
+from app.ui.panels.fields import muted
+
+
+def _separator() -> QFrame:
+    made = QFrame()
+    made.setObjectName("hairline")
+    made.setFixedSize(1, 16)
+    return made
+
+
+class StatusBar(QWidget):
+    """Coordinates, toggles, message, progress with cancel, badge.
+
+    Signals:
+        cancelled(): the user leaves the running job.
+    """
+
+    cancelled = Signal()
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setObjectName("statusBar")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.setFixedHeight(34)
+        self.x, self.y = QLabel(), QLabel()
+        self.snap, self.ortho, self.grid = (self._toggle(text) for text in ("Snap", "Ortho", "Grid"))
+        self.message = muted()
+        self.message.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.bar, self.step = QProgressBar(), muted()
+        self.cancel = IconButton("cancel", "Cancel the job (Esc)")
+        self.badge = Badge()
+        self._lay_out()
+        self.show_place(0.0, 0.0)
+        self.show_progress(None)
+        self.cancel.clicked.connect(self.cancelled)
+
+    def _toggle(self, text: str) -> QToolButton:
+        button = QToolButton()
+        button.setText(text)
+        button.setCheckable(True)
+        button.setProperty("role", "toggle")
+        button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        return button
+
+    def _lay_out(self) -> None:
+        row = QHBoxLayout(self)
+        row.setContentsMargins(16, 0, 8, 0)
+        row.setSpacing(8)
+        for label in (self.x, self.y):
+            label.setFixedWidth(label.fontMetrics().horizontalAdvance("X -9999.999") + 12)
+            row.addWidget(label)
+        row.addWidget(muted("mm"))
+        row.addSpacing(4)
+        row.addWidget(_separator())
+        for button in (self.snap, self.ortho, self.grid):
+            row.addWidget(button)
+        row.addWidget(_separator())
+        row.addSpacing(4)
+        row.addWidget(self.message, 1)
+        self.bar.setFixedSize(120, 4)
+        self.bar.setTextVisible(False)
+        self.bar.setRange(0, 1000)
+        for widget in (self.step, self.bar, self.cancel, self.badge):
+            row.addWidget(widget)
+
+    def show_place(self, x: float, y: float) -> None:
+        """Show where the mouse is, mm."""
+        self.x.setText(f"X {x:.3f}")
+        self.y.setText(f"Y {y:.3f}")
+
+    def show_message(self, text: str, error: bool = False) -> None:
+        """Show one sentence; the whole of it is in the tool tip."""
+        self.message.setText(text)
+        self.message.setToolTip(text)
+        role = "error" if error else "muted"
+        if self.message.property("role") != role:
+            self.message.setProperty("role", role)
+            self.message.style().unpolish(self.message)
+            self.message.style().polish(self.message)
+
+    def show_progress(self, fraction: float | None, text: str = "") -> None:
+        """Show how far the job is, in [0, 1]; None = no job."""
+        for widget in (self.step, self.bar, self.cancel):
+            widget.setVisible(fraction is not None)
+        self.bar.setValue(round(1000 * (fraction or 0.0)))
+        self.step.setText(text)

@@ -1,0 +1,93 @@
+"""The verdict in one line: figures that were measured, or the worst finding. No Qt."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+from app.model.finding import Finding, FindingKind
+from app.ui.figures import clock, counted
+
+
+class Level(Enum):
+    """How a verdict is coloured; the value is what the style sheet looks at."""
+
+    NONE = "none"
+    OK = "ok"
+    REMARK = "remark"
+    BAD = "bad"
+
+
+_WORST_FIRST = (
+    FindingKind.GOUGE, FindingKind.RAPID_IN_MATERIAL, FindingKind.LEFT_REACHABLE, FindingKind.TOLERANCE, FindingKind.OPEN_CONTOUR,
+    FindingKind.SELF_INTERSECTION, FindingKind.OVERLAP, FindingKind.REGION_TOO_SMALL, FindingKind.NECK_TOO_NARROW,
+    FindingKind.ENGAGEMENT, FindingKind.TINY_ENTITY, FindingKind.LEFT_OUT, FindingKind.LEFT_UNREACHABLE,
+)
+_RED = {FindingKind.GOUGE, FindingKind.RAPID_IN_MATERIAL, FindingKind.LEFT_REACHABLE}
+
+_NAMES = {
+    FindingKind.GOUGE: "gouge", FindingKind.RAPID_IN_MATERIAL: "rapid in material", FindingKind.LEFT_REACHABLE: "material left",
+    FindingKind.TOLERANCE: "tolerance not met", FindingKind.OPEN_CONTOUR: "open contour",
+    FindingKind.SELF_INTERSECTION: "crossing contours", FindingKind.OVERLAP: "overlap",
+    FindingKind.REGION_TOO_SMALL: "region too small", FindingKind.NECK_TOO_NARROW: "neck too narrow",
+    FindingKind.ENGAGEMENT: "full slot", FindingKind.TINY_ENTITY: "tiny entity", FindingKind.LEFT_OUT: "left out",
+    FindingKind.LEFT_UNREACHABLE: "corners out of reach",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """A level and the line that the badge shows."""
+
+    level: Level
+    text: str
+
+
+def worst_first(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """Return the findings in the order in which they matter: those that count, then remarks."""
+    return tuple(sorted(findings, key=lambda f: (not f.counts, _WORST_FIRST.index(f.kind))))
+
+
+def finding_level(finding: Finding) -> Level:
+    """Return the colour of one finding."""
+    if not finding.counts:
+        return Level.NONE
+    return Level.BAD if finding.kind in _RED else Level.REMARK
+
+
+def short(finding: Finding) -> str:
+    """Return what was found and where, without the sentence: "gouge 0.120 mm at (41.2, 8.0)"."""
+    amount = ""
+    if finding.amount is not None and finding.kind is FindingKind.LEFT_REACHABLE:
+        amount = f" {finding.amount:.3g} mm²"
+    elif finding.amount is not None and finding.kind in (FindingKind.GOUGE, FindingKind.OPEN_CONTOUR):
+        amount = f" {finding.amount:.3f} mm"
+    place = "" if finding.x is None or finding.y is None else f" at ({finding.x:.1f}, {finding.y:.1f})"
+    return f"{_NAMES[finding.kind]}{amount}{place}"
+
+
+def figures(data: Mapping[str, Any]) -> str:
+    """Return the measured figures of a report: "0 gouge · 0 left · 2 strokes · 4:12". What was not measured is not said."""
+    parts = []
+    gouge, left = data.get("gouge"), data.get("left")
+    if gouge is not None:
+        parts.append(f"{gouge.get('count', 0)} gouge")
+    if left is not None and left.get("reachable_mm2") is not None:
+        area = left["reachable_mm2"]
+        parts.append("0 left" if area < 5e-4 else f"{area:.3f} mm² left")
+    if data.get("strokes") is not None:
+        parts.append(counted(data["strokes"], "stroke"))
+    if data.get("time_s") is not None:
+        parts.append(clock(data["time_s"]))
+    return " · ".join(parts)
+
+
+def verdict(findings: tuple[Finding, ...], data: Mapping[str, Any]) -> Verdict:
+    """Return the verdict on a computed program from its findings and its report."""
+    counting = [f for f in worst_first(findings) if f.counts]
+    if not counting:
+        return Verdict(Level.OK, f"✓ {figures(data)}")
+    more = f"  +{len(counting) - 1}" if len(counting) > 1 else ""
+    return Verdict(finding_level(counting[0]), short(counting[0]) + more)

@@ -1,0 +1,112 @@
+"""The middle of the window: Draw and Paths on one canvas, NC as text; a view with nothing to show says what is missing."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtGui import QColor, QPainter, QPaintEvent
+from PySide6.QtWidgets import QLabel, QPushButton, QStackedWidget, QVBoxLayout, QWidget
+
+from app.ui.canvas.canvas import Canvas, CanvasMode
+from app.ui.legend import Legend
+from app.ui.nc_view import NcView
+from app.ui.theme import LIGHT, Theme
+
+_RULER_PX = 24
+
+
+class View(Enum):
+    """The way from drawing to machine; the value is the action's name."""
+
+    DRAW = "view_draw"
+    PATHS = "view_paths"
+    NC = "view_nc"
+
+
+class EmptyState(QWidget):
+    """One sentence that says what is missing, and the button that makes it."""
+
+    pressed = Signal()
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._theme = LIGHT
+        self.sentence, self.button = QLabel(), QPushButton()
+        self.sentence.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.button.clicked.connect(self.pressed)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(24, 16, 24, 16)
+        column.setSpacing(12)
+        column.addWidget(self.sentence)
+        column.addWidget(self.button, 0, Qt.AlignmentFlag.AlignHCenter)
+        self.hide()
+
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme."""
+        self._theme = theme
+        self.update()
+
+    def say(self, sentence: str, button: str) -> None:
+        """Show a sentence and a button."""
+        self.sentence.setText(sentence)
+        self.button.setText(button)
+        self.adjustSize()
+        self.show()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Paint the canvas' ground, so that the grid does not run through the words."""
+        ground = QColor(self._theme.canvas)
+        ground.setAlphaF(0.92)
+        QPainter(self).fillRect(self.rect(), ground)
+
+
+class Views(QStackedWidget):
+    """Canvas and NC text, with legend and empty state laid over them."""
+
+    def __init__(self, canvas: Canvas) -> None:
+        super().__init__()
+        self.canvas, self.nc = canvas, NcView()
+        self.view = View.DRAW
+        self.addWidget(canvas)
+        self.addWidget(self.nc)
+        self.legend, self.empty = Legend(self), EmptyState(self)
+        self.legend.hide()
+        self.installEventFilter(self)
+
+    def show_view(self, view: View) -> None:
+        """Bring a view to the front; zoom and selection stay."""
+        self.view = view
+        if view is View.NC:
+            self.setCurrentWidget(self.nc)
+        else:
+            self.setCurrentWidget(self.canvas)
+            self.canvas.set_mode(CanvasMode.PATHS if view is View.PATHS else CanvasMode.DRAW)
+
+    def show_missing(self, sentence: str, button: str, shows_paths: bool) -> None:
+        """Say what is missing in the view, or nothing when `sentence` is empty.
+
+        Args:
+            sentence, button: of the empty state.
+            shows_paths: there are paths, so the legend belongs beside them.
+        """
+        self.empty.setVisible(bool(sentence))
+        if sentence:
+            self.empty.say(sentence, button)
+            self.empty.raise_()
+        self.legend.setVisible(self.view is View.PATHS and shows_paths)
+        self.legend.raise_()
+        self.place()
+
+    def place(self) -> None:
+        """Put the overlays where they belong."""
+        self.legend.adjustSize()
+        self.legend.move(self.width() - self.legend.width() - 16, _RULER_PX + 12)
+        self.empty.adjustSize()
+        self.empty.move((self.width() - self.empty.width()) // 2, (self.height() - self.empty.height()) // 2)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Keep the overlays in place when the size changes."""
+        if event.type() == QEvent.Type.Resize:
+            self.place()
+        return super().eventFilter(watched, event)
