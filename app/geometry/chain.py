@@ -1,0 +1,84 @@
+"""Chain loose curves, in any order and direction, into contours; say where they do not meet, overlap or cross."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from app import tolerances
+from app.geometry.chain_crossings import crossings
+from app.geometry.chain_findings import branch_findings, gap_findings, open_findings, overlap_findings, repeat_findings
+from app.geometry.chain_join import Nodes, brought_together, nodes_of
+from app.geometry.chain_overlap import Overlap, covered, repeated, shared_stretches, twin_contours
+from app.geometry.chain_pieces import Piece, pieces_from
+from app.geometry.chain_trace import Step, paths
+from app.model.finding import Finding
+from app.model.part import Contour, Entity
+
+
+@dataclass(frozen=True, slots=True)
+class Chaining:
+    """What a drawing's curves chain into.
+
+    Attributes:
+        contours: closed and open ones, by their first curve; not turned to any orientation.
+        findings: what was removed, joined, left open, or crosses.
+    """
+
+    contours: tuple[Contour, ...] = ()
+    findings: tuple[Finding, ...] = ()
+
+
+def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -> Chaining:
+    """Return the contours that some curves form.
+
+    Ellipses and splines become lines and arcs within 1 um. Curves drawn twice, and curves that lie wholly on another,
+    are removed unless an outline needs them. Ends nearer than the join tolerance are moved to meet exactly; arcs stay
+    true arcs. Where three or more ends meet, loops are closed first, then the smallest turn wins.
+
+    Args:
+        entities: curves in any order and direction.
+        join_tolerance: loose ends within this distance are joined, mm, >= 0.
+
+    Returns:
+        Closed contours end exactly where they begin, and every primitive begins exactly where the one before ends.
+        Overlaps that are longer than the tolerance are left as they are and reported.
+    """
+    pieces, findings = pieces_from(entities)
+    reach = min(tolerances.CURVE, max(join_tolerance, tolerances.WELD))
+    nodes = nodes_of(pieces, join_tolerance)
+    repeats = repeated(pieces, nodes, max(join_tolerance, tolerances.WELD))
+    findings += overlap_findings(pieces, repeats, join_tolerance)
+    known = {(pieces[o.first].entity, pieces[o.second].entity) for o in repeats}
+    pieces, nodes = _without(pieces, nodes, repeats)
+    overlaps = covered(pieces, nodes, _new(pieces, shared_stretches(pieces, reach), known), reach)
+    findings += overlap_findings(pieces, overlaps, join_tolerance)
+    pieces, nodes = _without(pieces, nodes, overlaps)
+    pieces, gaps = brought_together(pieces, nodes)
+    found, branches = paths(pieces, nodes)
+    contours, doubles = _once([_contour(pieces, steps, closed) for steps, closed in found])
+    findings += [*gap_findings(gaps), *branch_findings(branches), *repeat_findings(doubles), *open_findings(contours), *crossings(contours)]
+    return Chaining(tuple(contours), tuple(findings))
+
+
+def _without(pieces: list[Piece], nodes: Nodes, overlaps: Sequence[Overlap]) -> tuple[list[Piece], Nodes]:
+    gone = {overlap.second for overlap in overlaps if overlap.removed}
+    kept = [k for k in range(len(pieces)) if k not in gone]
+    return [pieces[k] for k in kept], nodes[kept] if len(nodes) else nodes
+
+
+def _contour(pieces: Sequence[Piece], steps: Sequence[Step], closed: bool) -> Contour:
+    members = [pieces[k] if forward else pieces[k].reversed() for k, forward in steps]
+    return Contour(tuple(p for piece in members for p in piece.primitives), closed, pieces[min(steps)[0]].layer,
+                   tuple(piece.entity for piece in members), max(piece.deviation for piece in members))
+
+
+def _new(pieces: Sequence[Piece], overlaps: Sequence[Overlap], known: set[tuple[int, int]]) -> list[Overlap]:
+    """Return the overlaps of entities that were not reported yet."""
+    return [o for o in overlaps if (pieces[o.first].entity, pieces[o.second].entity) not in known]
+
+
+def _once(contours: list[Contour]) -> tuple[list[Contour], list[tuple[Contour, Contour]]]:
+    """Return the contours without closed ones that repeat another, and the (kept, removed) pairs."""
+    twins = twin_contours(contours, tolerances.CURVE)
+    return [c for k, c in enumerate(contours) if k not in twins], [(contours[j], contours[k]) for k, j in twins.items()]

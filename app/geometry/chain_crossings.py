@@ -1,0 +1,215 @@
+"""Where contours cross or touch themselves and one another: closed forms on pairs whose boxes meet."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app import tolerances
+from app.geometry.chain_findings import LIMIT, at, limited
+from app.geometry.chain_overlap import near_pairs
+from app.geometry.primitives import CX, R, TURN, X1, Rows, curve_rows, sweeps
+from app.model.finding import Finding, FindingKind
+from app.model.part import Contour
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+_NAMED = 3
+"""So many places of one pair of contours are named in its sentence."""
+
+
+@dataclass(frozen=True)
+class _Table:
+    """All rows of some contours.
+
+    Attributes:
+        contour: (n,) index of the contour of each row.
+        before, after: (n,) neighbouring rows in the contour, -1 at an open end.
+        entity: (n,) entity id, or 0 where it is not known.
+    """
+
+    rows: Rows
+    contour: Indices
+    before: Indices
+    after: Indices
+
+
+def crossings(contours: Sequence[Contour]) -> list[Finding]:
+    """Return a finding for each pair of contours, or contour with itself, that cross (counts) or touch (a remark)."""
+    table = _table(contours)
+    i, j = near_pairs(table.rows, tolerances.WELD)
+    points, i, j = _contacts(table.rows, i, j)
+    keep = ~_is_joint(table, points, i, j)
+    points, i, j = points[keep], i[keep], j[keep]
+    crossing = _crosses(table, points, i, j)
+    found = []
+    for sort in (True, False):
+        groups: dict[tuple[int, int], list[tuple[float, float]]] = {}
+        for k in np.flatnonzero(crossing == sort):
+            pair = sorted((int(table.contour[i[k]]), int(table.contour[j[k]])))
+            groups.setdefault((pair[0], pair[1]), []).append((float(points[k, 0]), float(points[k, 1])))
+        sentences = [_sentence(contours, pair, _distinct(places), sort) for pair, places in sorted(groups.items())]
+        found += limited(sentences, "places where contours cross" if sort else "places where contours touch")
+    return found
+
+
+def _sentence(contours: Sequence[Contour], pair: tuple[int, int], places: list[tuple[float, float]], crossing: bool) -> Finding:
+    a, b = pair
+    verb = "cross" if crossing else "touch"
+    who = f"Contour {a + 1} {verb}es itself" if a == b else f"Contours {a + 1} and {b + 1} {verb}"
+    where = ", ".join(at(place) for place in places[:_NAMED])
+    more = f" and {len(places) - _NAMED} more places" if len(places) > _NAMED else ""
+    advice = " Trim or move one of them." if crossing else ""
+    ids = contours[a].entity_ids if a == b else contours[a].entity_ids + contours[b].entity_ids
+    return Finding(FindingKind.SELF_INTERSECTION, f"{who} at {where}{more}.{advice}", *places[0], crossing, ids[: 10 * LIMIT], float(len(places)))
+
+
+def _distinct(places: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Return each place once; one contact is found in up to four pairs of rows."""
+    return list({(round(x, 4), round(y, 4)): (x, y) for x, y in places}.values())
+
+
+def _table(contours: Sequence[Contour]) -> _Table:
+    rows, contour, before, after = [], [], [], []
+    for number, each in enumerate(contours):
+        first = len(rows)
+        for primitive in each.primitives:
+            rows += curve_rows(primitive)
+        count = len(rows) - first
+        contour += [number] * count
+        before += [first + count - 1 if each.closed else -1, *range(first, first + count - 1)]
+        after += [*range(first + 1, first + count), first if each.closed else -1]
+    whole = np.array(rows, dtype=np.float64).reshape(-1, 8)
+    return _Table(whole, np.array(contour, np.int64), np.array(before, np.int64), np.array(after, np.int64))
+
+
+def _contacts(rows: Rows, i: Indices, j: Indices) -> tuple[Floats, Indices, Indices]:
+    """Return the points (m, 2) where rows i and j meet, with their rows; a pair may meet twice."""
+    line_i, line_j = rows[i, TURN] == 0, rows[j, TURN] == 0
+    found: list[tuple[Floats, Indices, Indices]] = []
+    both = line_i & line_j
+    found.append((_lines_meet(rows[i[both]], rows[j[both]]), i[both], j[both]))
+    for mask, a, b in ((line_i & ~line_j, i, j), (line_j & ~line_i, j, i)):
+        found += [(points, a[mask], b[mask]) for points in _line_meets_arc(rows[a[mask]], rows[b[mask]])]
+    arcs = ~line_i & ~line_j
+    found += [(points, i[arcs], j[arcs]) for points in _arcs_meet(rows[i[arcs]], rows[j[arcs]])]
+    points = np.concatenate([p for p, _, _ in found])
+    a, b = np.concatenate([a for _, a, _ in found]), np.concatenate([b for _, _, b in found])
+    good = np.isfinite(points).all(axis=1)
+    points, a, b = points[good], a[good], b[good]
+    good = _on(rows[a], points) & _on(rows[b], points)
+    return points[good], a[good], b[good]
+
+
+def _lines_meet(a: Rows, b: Rows) -> Floats:
+    """Return where the endless lines meet, NaN where they are parallel."""
+    u, v, w = a[:, 2:4] - a[:, :2], b[:, 2:4] - b[:, :2], b[:, :2] - a[:, :2]
+    across = _cross(u, v)
+    flat = np.abs(across) <= 1e-9 * np.hypot(*u.T) * np.hypot(*v.T)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        points = a[:, :2] + u * (_cross(w, v) / across)[:, None]
+    return np.where(flat[:, None], np.nan, points)
+
+
+def _line_meets_arc(line: Rows, arc: Rows) -> list[Floats]:
+    along = line[:, 2:4] - line[:, :2]
+    unit = along / np.maximum(np.hypot(*along.T), 1e-300)[:, None]
+    arm = arc[:, CX:R] - line[:, :2]
+    foot = line[:, :2] + unit * (arm * unit).sum(axis=1)[:, None]
+    return _either_side(foot, unit, arc[:, R] ** 2 - _cross(unit, arm) ** 2, arc[:, R])
+
+
+def _arcs_meet(a: Rows, b: Rows) -> list[Floats]:
+    between = b[:, CX:R] - a[:, CX:R]
+    gap = np.hypot(*between.T)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        unit = between / gap[:, None]
+        reach = (gap**2 + a[:, R] ** 2 - b[:, R] ** 2) / (2 * gap)
+    foot = a[:, CX:R] + unit * reach[:, None]
+    apart = gap > 1e-9 * (a[:, R] + b[:, R])
+    height2 = np.where(apart, a[:, R] ** 2 - reach**2, np.nan)
+    return _either_side(foot, np.stack([-unit[:, 1], unit[:, 0]], axis=1), height2, np.minimum(a[:, R], b[:, R]))
+
+
+def _either_side(foot: Floats, unit: Floats, height2: Floats, radius: Floats) -> list[Floats]:
+    """Return foot - h unit and foot + h unit; curves that miss one another by less than WELD touch at the foot."""
+    height2 = np.where((height2 < 0) & (height2 > -2 * radius * tolerances.WELD), 0.0, height2)
+    with np.errstate(invalid="ignore"):
+        height = np.sqrt(height2)[:, None]
+    return [foot - height * unit, np.where(height > 0, foot + height * unit, np.nan)]
+
+
+def _on(rows: Rows, points: Floats) -> NDArray[np.bool_]:
+    """Return whether points on the carriers of rows lie on the rows themselves, ends included, to within WELD."""
+    near_end = np.minimum(np.hypot(*(points - rows[:, :2]).T), np.hypot(*(points - rows[:, X1 : X1 + 2]).T)) <= tolerances.WELD
+    along = rows[:, 2:4] - rows[:, :2]
+    share = ((points - rows[:, :2]) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300)
+    middle = (rows[:, :2] + rows[:, X1 : X1 + 2]) / 2 - rows[:, CX:R]
+    short = np.abs(sweeps(rows)) < np.pi
+    beyond_chord = ((points - rows[:, CX:R]) * middle).sum(axis=1) >= (middle**2).sum(axis=1)
+    between = np.where(rows[:, TURN] == 0, (share >= 0) & (share <= 1), beyond_chord & short)
+    result: NDArray[np.bool_] = near_end | between
+    return result
+
+
+def _is_joint(table: _Table, points: Floats, i: Indices, j: Indices) -> NDArray[np.bool_]:
+    """Return which contacts are just the joint of neighbours, or a lens beside it thinner than 1 um."""
+    bend = _curvature(table.rows[i]) + _curvature(table.rows[j])
+    result = np.zeros(len(i), dtype=bool)
+    for a, b in ((i, j), (j, i)):
+        away = np.hypot(*(points - table.rows[a, X1 : X1 + 2]).T)
+        thin = (away <= 2 * tolerances.WELD) | (away**2 * bend / 8 <= tolerances.CURVE)
+        result |= (table.after[a] == b) & thin
+    return result
+
+
+def _curvature(rows: Rows) -> Floats:
+    return np.where(rows[:, TURN] == 0, 0.0, 1.0 / np.maximum(rows[:, R], 1e-300))
+
+
+def _crosses(table: _Table, points: Floats, i: Indices, j: Indices) -> NDArray[np.bool_]:
+    """Return which contacts are crossings: one contour leaves on either side of the other, deeper than 1 um."""
+    a_in, a_out = _ways(table, points, i)
+    b_in, b_out = _ways(table, points, j)
+    sides = _within(a_out, a_in, b_out) != _within(a_out, a_in, b_in)
+    slant = np.min([np.abs(_cross(p, q)) for p in (a_in, a_out) for q in (b_in, b_out)], axis=0) if len(i) else np.zeros(0)
+    bend = np.maximum(_curvature(table.rows[i]) + _curvature(table.rows[j]), 1e-9)
+    result: NDArray[np.bool_] = sides & (slant > 1e-6) & (slant**2 / (2 * bend) > tolerances.CURVE)
+    return result
+
+
+def _ways(table: _Table, points: Floats, i: Indices) -> tuple[Floats, Floats]:
+    """Return the unit directions away from a point of row i, backward and forward; NaN where an open contour ends."""
+    rows = table.rows[i]
+    forward, backward = _tangent(rows, points), -_tangent(rows, points)
+    at_start = np.hypot(*(points - rows[:, :2]).T) <= 2 * tolerances.WELD
+    at_end = np.hypot(*(points - rows[:, X1 : X1 + 2]).T) <= 2 * tolerances.WELD
+    before, after = table.before[i], table.after[i]
+    backward = np.where(at_start[:, None], np.where((before >= 0)[:, None], -_tangent(table.rows[before], points), np.nan), backward)
+    forward = np.where(at_end[:, None], np.where((after >= 0)[:, None], _tangent(table.rows[after], points), np.nan), forward)
+    return backward, forward
+
+
+def _tangent(rows: Rows, points: Floats) -> Floats:
+    arm = points - rows[:, CX:R]
+    along = np.where((rows[:, TURN] == 0)[:, None], rows[:, 2:4] - rows[:, :2], np.stack([-arm[:, 1], arm[:, 0]], axis=1) * rows[:, [TURN]])
+    result: Floats = along / np.maximum(np.hypot(*along.T), 1e-300)[:, None]
+    return result
+
+
+def _within(first: Floats, last: Floats, way: Floats) -> NDArray[np.bool_]:
+    """Return whether directions lie in the sector that opens counter-clockwise from first to last."""
+    def turn(v: Floats) -> Floats:
+        angle: Floats = np.arctan2(_cross(first, v), (first * v).sum(axis=1)) % (2 * np.pi)
+        return angle
+
+    result: NDArray[np.bool_] = turn(way) < turn(last)
+    return result
+
+
+def _cross(u: Floats, v: Floats) -> Floats:
+    result: Floats = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+    return result

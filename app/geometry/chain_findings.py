@@ -1,0 +1,113 @@
+"""Sentences about what chaining removed, joined, or left open."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+from app import tolerances
+from app.geometry.chain_overlap import Overlap
+from app.geometry.chain_pieces import Piece, length_of
+from app.model.curves import Circle, Line, Point, Primitive
+from app.model.finding import Finding, FindingKind
+from app.model.part import Contour
+
+LIMIT = 20
+"""So many places of one kind are named one by one; the rest is counted."""
+
+
+def at(point: Point) -> str:
+    """Return a place as text, mm."""
+    return f"({point[0]:.3f}, {point[1]:.3f})".replace("-0.000", "0.000")
+
+
+def limited(findings: Sequence[Finding], what: str) -> list[Finding]:
+    """Return the first findings of a kind and one more that counts the rest."""
+    rest = findings[LIMIT:]
+    if not rest:
+        return list(findings)
+    ids = tuple(dict.fromkeys(k for finding in rest for k in finding.entity_ids))
+    more = Finding(rest[0].kind, f"{len(rest)} more {what}.", rest[0].x, rest[0].y, any(f.counts for f in rest), ids, float(len(rest)))
+    return [*findings[:LIMIT], more]
+
+
+def _noun(primitive: Primitive) -> str:
+    return "line" if isinstance(primitive, Line) else "circle" if isinstance(primitive, Circle) else "arc"
+
+
+def _names(a: Piece, b: Piece) -> str:
+    one, other = _noun(a.primitives[0]), _noun(b.primitives[0])
+    if one == other:
+        return f"{one.capitalize()}s {a.entity} and {b.entity}"
+    return f"{one.capitalize()} {a.entity} and {other} {b.entity}"
+
+
+def overlap_findings(pieces: Sequence[Piece], overlaps: Iterable[Overlap], join_tolerance: float) -> list[Finding]:
+    """Return a finding for each overlap; one that was removed, is a shared wall, or has been joined is a remark."""
+    found = []
+    for overlap in overlaps:
+        a, b = pieces[overlap.first], pieces[overlap.second]
+        middle = ((overlap.start[0] + overlap.end[0]) / 2, (overlap.start[1] + overlap.end[1]) / 2)
+        text = f"{_names(a, b)} overlap by {overlap.length:.3f} mm from {at(overlap.start)} to {at(overlap.end)}"
+        counts = False
+        if overlap.removed:
+            text += f"; {_noun(b.primitives[0])} {b.entity} adds nothing and is left out."
+        elif overlap.length <= join_tolerance + tolerances.WELD:
+            text += "; their ends were joined."
+        else:
+            text += f"; trim one, or join with a tolerance above {overlap.length:.3g} mm if that is small enough for the part."
+            counts = True
+        found.append(Finding(FindingKind.OVERLAP, text, *middle, counts, (a.entity, b.entity), overlap.length))
+    return limited(found, "overlapping curves")
+
+
+def repeat_findings(doubles: Sequence[tuple[Contour, Contour]]) -> list[Finding]:
+    """Return a remark for each closed contour that was drawn twice, (kept, removed)."""
+    found = []
+    for _, double in doubles:
+        x, y = double.primitives[0].start
+        length = sum(length_of(p) for p in double.primitives)
+        found.append(Finding(FindingKind.OVERLAP, f"The contour at {at((x, y))}, {length:.3f} mm long, is drawn twice; one is left out.",
+                             x, y, False, double.entity_ids, length))
+    return limited(found, "contours that are drawn twice")
+
+
+def gap_findings(gaps: Sequence[tuple[float, Point]]) -> list[Finding]:
+    """Return one remark on all gaps that were closed."""
+    if not gaps:
+        return []
+    widest, place = max(gaps)
+    count = "1 gap was" if len(gaps) == 1 else f"{len(gaps)} gaps were"
+    return [Finding(FindingKind.TOLERANCE, f"{count} closed; the widest, {widest:.4f} mm, is at {at(place)}.", *place, False, (), widest)]
+
+
+def branch_findings(branches: Sequence[tuple[Point, int]]) -> list[Finding]:
+    """Return a finding for each point where three or more ends meet; an odd number leaves one over, which counts."""
+    found = []
+    for place, ends in branches:
+        text = f"{ends} ends meet at {at(place)}; " + ("one of them belongs to no outline: delete it or complete it." if ends % 2
+                                                       else "outlines touch there.")
+        found.append(Finding(FindingKind.SELF_INTERSECTION, text, *place, ends % 2 == 1, (), float(ends)))
+    return limited(found, "points where more than two ends meet")
+
+
+def open_findings(contours: Sequence[Contour]) -> list[Finding]:
+    """Return a finding for each open contour: how wide, where both loose ends are, what to do."""
+    found = []
+    for number, contour in enumerate(contours, 1):
+        if contour.closed:
+            continue
+        start, end = contour.primitives[0].start, contour.primitives[-1].end
+        gap = math.dist(start, end)
+        length = sum(length_of(p) for p in contour.primitives)
+        advice = (f"Join with tolerance {_rounded_up(gap)} or edit the ends." if gap < 0.1 * length
+                  else "Complete it, or move it to a layer that is not machined.")
+        text = f"Contour {number} is open by {gap:.3g} mm: its loose ends are at {at(start)} and {at(end)}. {advice}"
+        found.append(Finding(FindingKind.OPEN_CONTOUR, text, *start, True, contour.entity_ids, gap))
+    return limited(found, "open contours")
+
+
+def _rounded_up(gap: float) -> str:
+    """Return the next of 1, 2, 5 times a power of ten above the gap, as text."""
+    scale = 10.0 ** math.floor(math.log10(max(gap, tolerances.WELD)))
+    return f"{next((m * scale for m in (1, 2, 5) if m * scale >= gap - tolerances.WELD), 10 * scale):g}"

@@ -1,0 +1,117 @@
+"""Which ends of curves are one point: equal ends, and loose ends within the join tolerance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app import tolerances
+from app.geometry.chain_pieces import Piece, length_of, with_ends
+from app.model.curves import Arc, Line, Point
+
+Nodes = NDArray[np.int64]
+
+
+def nodes_of(pieces: Sequence[Piece], join_tolerance: float) -> Nodes:
+    """Return (n, 2) numbers of the points at which each piece starts and ends; -1 for circles.
+
+    Ends within WELD of one another are one point. Of what is loose then, the nearest two within the tolerance are
+    joined first, so that joining never swallows a detail that is already connected; a loose end without such a
+    partner is joined to the nearest point within the tolerance.
+    """
+    ends = np.array([(*p.start, *p.end) for p in pieces], dtype=np.float64).reshape(-1, 2)
+    nodes = _welded(ends)
+    circles = np.array([p.is_circle for p in pieces], dtype=bool)
+    nodes[np.repeat(circles, 2)] = -1
+    if join_tolerance > tolerances.WELD and len(pieces):
+        _join_loose(pieces, ends, nodes, join_tolerance + tolerances.WELD)
+    return nodes.reshape(-1, 2)
+
+
+def _welded(ends: NDArray[np.float64]) -> Nodes:
+    if len(ends) == 0:
+        return np.zeros(0, np.int64)
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    points, nodes = np.unique(ends, axis=0, return_inverse=True)
+    pairs = cKDTree(points).query_pairs(tolerances.WELD, output_type="ndarray")
+    if len(pairs):
+        graph = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(points), len(points)))
+        nodes = connected_components(graph, directed=False)[1][nodes.ravel()]
+    return nodes.ravel().astype(np.int64)
+
+
+def _join_loose(pieces: Sequence[Piece], ends: NDArray[np.float64], nodes: Nodes, reach: float) -> None:
+    """Give loose ends that belong together the same number, in place."""
+    from scipy.spatial import cKDTree
+
+    loose = _loose(nodes)
+    if len(loose) == 0:
+        return
+    pairs = cKDTree(ends[loose]).query_pairs(reach, output_type="ndarray")
+    gaps = np.hypot(*(ends[loose[pairs[:, 0]]] - ends[loose[pairs[:, 1]]]).T)
+    free = set(loose.tolist())
+    for k in np.lexsort((pairs[:, 1], pairs[:, 0], np.round(gaps, 9))):
+        a, b = int(loose[pairs[k, 0]]), int(loose[pairs[k, 1]])
+        if a in free and b in free and _may_meet(pieces, a, b, float(gaps[k])):
+            nodes[b] = nodes[a]
+            free -= {a, b}
+    if not free:
+        return
+    joined = np.flatnonzero(nodes >= 0)
+    tree = cKDTree(ends[joined])
+    for a in sorted(free):
+        near = [(math.dist(ends[a], ends[b]), int(b)) for b in joined[tree.query_ball_point(ends[a], reach)] if nodes[b] != nodes[a]]
+        allowed = [(gap, b) for gap, b in near if _may_meet(pieces, a, b, gap)]
+        if allowed:
+            nodes[a] = nodes[min(allowed)[1]]
+
+
+def _loose(nodes: Nodes) -> Nodes:
+    """Return the ends whose point no other end shares."""
+    counts = np.bincount(nodes[nodes >= 0], minlength=1)
+    return np.flatnonzero((nodes >= 0) & (counts[np.maximum(nodes, 0)] == 1))
+
+
+def _may_meet(pieces: Sequence[Piece], a: int, b: int, gap: float) -> bool:
+    """A curve may close on itself only when it is much longer than its gap."""
+    if a // 2 != b // 2:
+        return True
+    piece = pieces[a // 2]
+    return not (len(piece.primitives) == 1 and isinstance(piece.primitives[0], Line)) and sum(map(length_of, piece.primitives)) > 3 * gap
+
+
+def brought_together(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[Piece], list[tuple[float, Point]]]:
+    """Return the pieces with ends that meet exactly at each point, and (size, place) of every gap wider than 1 um.
+
+    Lines give way to arcs: the point is the mean of the arcs' ends there, or of all ends when there are only lines.
+    """
+    ends: dict[int, list[tuple[Point, bool]]] = {}
+    for piece, (a, b) in zip(pieces, nodes.tolist(), strict=True):
+        if a >= 0:
+            ends.setdefault(a, []).append((piece.start, isinstance(piece.primitives[0], Arc)))
+            ends.setdefault(b, []).append((piece.end, isinstance(piece.primitives[-1], Arc)))
+    target: dict[int, Point] = {}
+    gaps: list[tuple[float, Point]] = []
+    for node, members in ends.items():
+        points = {point for point, _ in members}
+        if len(points) == 1:
+            target[node] = members[0][0]
+            continue
+        target[node] = _mean([point for point, is_arc in members if is_arc] or [point for point, _ in members])
+        gap = max(math.dist(p, q) for p in points for q in points)
+        if gap > tolerances.CURVE:
+            gaps.append((gap, target[node]))
+    moved = [piece if a < 0 else with_ends(piece, target[a], target[b]) for piece, (a, b) in zip(pieces, nodes.tolist(), strict=True)]
+    return moved, gaps
+
+
+def _mean(points: list[Point]) -> Point:
+    if len(set(points)) == 1:
+        return points[0]
+    return sum(p[0] for p in points) / len(points), sum(p[1] for p in points) / len(points)

@@ -1,0 +1,151 @@
+"""What contours are chained from: one drawn curve as lines and arcs, and ends that are moved so that neighbours meet."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from app import tolerances
+from app.errors import GeometryError
+from app.fit.arcs import lines_and_arcs
+from app.model.curves import Arc, Circle, Ellipse, Line, Point, Primitive, Spline, reversed_curve
+from app.model.finding import Finding, FindingKind
+from app.model.part import Entity
+
+_AMPLIFIED = 2.0
+"""An arc that would leave its circle by more than this many gaps is not moved; a line bridges the gap instead."""
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """One drawn curve as primitives that join exactly.
+
+    Attributes:
+        entity: id of the entity that it came from.
+        layer: the entity's layer.
+        deviation: greatest distance between the drawn curve and the primitives, mm.
+    """
+
+    primitives: tuple[Primitive, ...]
+    entity: int
+    layer: str = "0"
+    deviation: float = 0.0
+
+    @property
+    def start(self) -> Point:
+        """Where it begins."""
+        return self.primitives[0].start
+
+    @property
+    def end(self) -> Point:
+        """Where it ends."""
+        return self.primitives[-1].end
+
+    @property
+    def is_circle(self) -> bool:
+        """True for a full circle, which has no ends to join."""
+        return isinstance(self.primitives[0], Circle)
+
+    def reversed(self) -> Piece:
+        """Return the same piece, travelled the other way."""
+        back = tuple(reversed_curve(p) for p in reversed(self.primitives))
+        return replace(self, primitives=back)  # type: ignore[arg-type]
+
+
+def length_of(primitive: Primitive) -> float:
+    """Return the length of a line, arc or circle, mm."""
+    if isinstance(primitive, Line):
+        return math.dist(primitive.start, primitive.end)
+    if isinstance(primitive, Circle):
+        return math.tau * primitive.radius
+    return abs(primitive.sweep) * primitive.radius
+
+
+def pieces_from(entities: Sequence[Entity]) -> tuple[list[Piece], list[Finding]]:
+    """Return a piece for every entity that has a length, and findings on those that have none."""
+    pieces: list[Piece] = []
+    findings: list[Finding] = []
+    for entity in entities:
+        try:
+            primitives, deviation = _primitives(entity)
+        except GeometryError as error:
+            findings.append(Finding(FindingKind.TINY_ENTITY, f"Entity {entity.id} is left out: {error}", entity_ids=(entity.id,)))
+            continue
+        if primitives:
+            pieces.append(Piece(primitives, entity.id, entity.layer, deviation))
+        else:
+            x, y = entity.curve.start
+            findings.append(Finding(FindingKind.TINY_ENTITY, f"Entity {entity.id} at ({x:.3f}, {y:.3f}) has no length; it is left out.",
+                                    x, y, False, (entity.id,), 0.0))
+    return pieces, findings
+
+
+def _primitives(entity: Entity) -> tuple[tuple[Primitive, ...], float]:
+    curve = entity.curve
+    if isinstance(curve, Ellipse | Spline):
+        made = lines_and_arcs(curve)
+        return made.primitives, made.deviation
+    if not all(map(math.isfinite, (*curve.start, *curve.end))):
+        raise GeometryError("it has a coordinate that is not a number; delete it or draw it again.")
+    if length_of(curve) < tolerances.WELD:
+        return (), 0.0
+    return (curve,), 0.0
+
+
+def with_ends(piece: Piece, start: Point, end: Point) -> Piece:
+    """Return the piece with its ends moved to meet its neighbours exactly.
+
+    Lines turn; arcs stay true arcs, with the centre nearest to the old one that is equally far from both ends. Where
+    an arc would leave its circle by more than twice the gap, or a line would be turned round, the piece stays and a
+    short line bridges the gap.
+    """
+    if piece.is_circle or (start == piece.start and end == piece.end):
+        return piece
+    if start == end and len(piece.primitives) == 1:
+        return _closed_on_itself(piece, start)
+    ends = (start, end) if len(piece.primitives) == 1 else (start, piece.primitives[0].end)
+    first, off = _moved(piece.primitives[0], *ends)
+    body, deviation = [*first, *piece.primitives[1:]], off
+    if len(piece.primitives) > 1:
+        last, off = _moved(piece.primitives[-1], piece.primitives[-1].start, end)
+        body, deviation = [*first, *piece.primitives[1:-1], *last], max(deviation, off)
+    return replace(piece, primitives=tuple(body), deviation=piece.deviation + deviation)
+
+
+def _closed_on_itself(piece: Piece, place: Point) -> Piece:
+    """Return an arc whose ends meet as a full circle."""
+    arc = piece.primitives[0]
+    if not isinstance(arc, Arc):
+        return piece
+    gap = math.dist(arc.start, arc.end)
+    return replace(piece, primitives=(Circle(arc.centre, arc.radius, arc.ccw),), deviation=piece.deviation + gap)
+
+
+def _moved(primitive: Primitive, start: Point, end: Point) -> tuple[list[Primitive], float]:
+    """Return primitives from start to end in place of one, and how far they leave it, mm."""
+    gaps = math.dist(primitive.start, start), math.dist(primitive.end, end)
+    gap = max(gaps)
+    if gap == 0.0:
+        return [primitive], 0.0
+    if isinstance(primitive, Line):
+        if math.dist(primitive.start, primitive.end) > 2 * (gaps[0] + gaps[1]):
+            return [Line(start, end)], gap
+    elif isinstance(primitive, Arc) and start != end:
+        arc = Arc(start, end, equally_far(start, end, primitive.centre), primitive.ccw)
+        off = max(math.dist(arc.centre, primitive.centre) + abs(arc.radius - primitive.radius), gap)
+        if off <= max(_AMPLIFIED * gap, tolerances.WELD) and abs(arc.sweep - primitive.sweep) < math.pi:
+            return [arc], off
+    bridges: list[Primitive] = [primitive]
+    if gaps[0] > 0:
+        bridges.insert(0, Line(start, primitive.start))
+    if gaps[1] > 0:
+        bridges.append(Line(primitive.end, end))
+    return bridges, gap
+
+
+def equally_far(start: Point, end: Point, centre: Point) -> Point:
+    """Return the point nearest to centre that is equally far from start and end, which differ."""
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    along = ((centre[0] - (start[0] + end[0]) / 2) * dx + (centre[1] - (start[1] + end[1]) / 2) * dy) / (dx * dx + dy * dy)
+    return centre[0] - along * dx, centre[1] - along * dy
