@@ -5,10 +5,10 @@ from __future__ import annotations
 from enum import Enum
 from typing import TYPE_CHECKING
 
-import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from app.edit.document import Change, Document
+from app.model.finding import Finding
 from app.model.job import Job
 from app.model.moves import Program
 from app.progress import Progress
@@ -28,10 +28,10 @@ class State(Enum):
     FAILED = "Could not be computed"
 
 
-def _export(job: Job, progress: Progress) -> Made:
+def _export(job: Job, drawing_findings: tuple[Finding, ...], progress: Progress) -> Made:
     from app.workflow.make import export  # imports the engines: never on the window's thread
 
-    return export(job, progress)
+    return export(job, progress, drawing_findings)
 
 
 class Computation(QObject):
@@ -43,6 +43,7 @@ class Computation(QObject):
     Attributes:
         made: the last result of this document, also when it is out of date; None before the first.
         error: why the last run failed, or "".
+        drawing_findings: what reading the drawing had to say.
     """
 
     changed = Signal()
@@ -57,6 +58,7 @@ class Computation(QObject):
         self._made_for: Job | None = None
         self.made: Made | None = None
         self.error = ""
+        self.drawing_findings: tuple[Finding, ...] = ()
         worker.done.connect(self._on_done)
         worker.failed.connect(self._on_failed)
         worker.cancelled.connect(self._on_cancelled)
@@ -80,25 +82,23 @@ class Computation(QObject):
 
     def start(self) -> None:
         """Compute the job as it is now; a run that is on its way is left."""
-        job = self._document.job
+        job, findings = self._document.job, self.drawing_findings
         self.error = ""
         self._snapshot = job
-        self._job_id = self._worker.start(lambda progress: _export(job, progress), self._document.revision)
+        self._job_id = self._worker.start(lambda progress: _export(job, findings, progress), self._document.revision)
         self.changed.emit()
 
-    def forget(self) -> None:
-        """Drop the result: another document was opened."""
+    def forget(self, drawing_findings: tuple[Finding, ...] = ()) -> None:
+        """Drop the result: another document was opened, and reading it had this to say."""
         self.made, self._made_for, self.error = None, None, ""
+        self.drawing_findings = drawing_findings
         self.changed.emit()
 
     def operation_times(self) -> dict[int, float]:
-        """Return the cutting time of each operation, seconds, from lengths and feeds of the last result."""
-        program = self.program
-        if program is None or self.state is not State.CURRENT:
+        """Return the time of each operation, seconds, by its index; nothing while the result is out of date."""
+        if self.made is None or self.state is not State.CURRENT:
             return {}
-        moves = program.moves
-        seconds = np.divide(moves.lengths() * 60, moves.feed, out=np.zeros(len(moves)), where=moves.feed > 0)
-        return {int(op): float(seconds[moves.operation == op].sum()) for op in np.unique(moves.operation) if op >= 0}
+        return {index: each["time_s"] for index, each in enumerate(self.made.report.data["operations"]) if each["enabled"]}
 
     def _on_change(self, change: Change) -> None:
         if not change & (Change.PART | Change.JOB):

@@ -59,7 +59,10 @@ class Exporting(QObject):
 
     def _ask(self) -> None:
         made = self._computation.made
-        counting = [f for f in worst_first(made.findings) if f.counts] if made is not None else []
+        if made is None or not len(made.program.moves):
+            self.failed.emit("There is no path to write: the drawing has no closed contour that the tools fit into.")
+            return
+        counting = [f for f in worst_first(made.findings) if f.counts]
         if not counting:
             self._write()
             return

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QToolButton, QVBoxLay
 
 from app.model.job import Job
 from app.model.operation import ContourOperation, Operation, PocketOperation
-from app.ui.canvas.canvas import ColourBy
+from app.ui.canvas.modes import ColourBy
 from app.ui.panels.fields import ChoiceField, muted
 from app.ui.panels.section import hairline, heading
 from app.ui.samples import LineSample, Sample

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
@@ -10,6 +11,10 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
 from app.ui.icons import IconButton
 
 Answers = Sequence[tuple[str, Callable[[], None]]]
+
+
+def _call(act: Callable[[], None], *_: object) -> None:
+    act()
 
 
 class Notice(QWidget):
@@ -44,7 +49,8 @@ class Notice(QWidget):
         self.text.style().polish(self.text)
         for at, (text, act) in enumerate(answers):
             button = QPushButton(text)
-            button.clicked.connect(lambda _=False, a=act: (self.hide(), a()))
+            button.clicked.connect(self.hide)
+            button.clicked.connect(partial(_call, act))
             self.buttons.append(button)
             self._row.insertWidget(1 + at, button)
         self.show()

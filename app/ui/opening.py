@@ -10,7 +10,6 @@ from PySide6.QtCore import QObject, Signal
 
 from app.edit.document import Document
 from app.errors import InputError
-from app.model.finding import Finding
 from app.model.job import Job
 from app.model.part import Units
 from app.progress import Progress
@@ -73,7 +72,6 @@ class Opening(QObject):
         super().__init__()
         self._document, self._worker = document, worker
         self._job_id: int | None = None
-        self.findings: tuple[Finding, ...] = ()
         worker.done.connect(self._on_done)
         worker.failed.connect(self._on_failed)
 
@@ -90,7 +88,6 @@ class Opening(QObject):
     def _on_done(self, answer: Answer) -> None:
         if answer.job_id != self._job_id or not isinstance(answer.value, Opened):
             return
-        self.findings = answer.value.drawing.findings
         self._document.load(answer.value.job, answer.value.path)
         self.opened.emit(answer.value)
 

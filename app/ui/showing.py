@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from PySide6.QtCore import QObject
 
 from app.edit.document import Change
 from app.edit.sample import bounds, union
 from app.model.finding import Finding
-from app.ui.canvas.canvas import ColourBy, PathLayers
+from app.ui.canvas.modes import ColourBy, PathLayers
 from app.ui.computation import State
 from app.ui.main_window import MainWindow
-from app.ui.opening import Opening
 from app.ui.samples import Sample
 from app.ui.verdict import Level, Verdict, verdict
 from app.ui.views import View
@@ -21,16 +22,33 @@ _LAYERS = {
 }
 
 
+@dataclass(frozen=True, slots=True)
+class Missing:
+    """What a view lacks: a sentence, and the button (with the name of its action) that makes it."""
+
+    sentence: str = ""
+    button: str = ""
+    action: str = "open"
+
+
+NOTHING = Missing()
+NO_DRAWING = Missing("Nothing is drawn yet. Pick a tool at the left, type  rect 0,0 60,40  or open a drawing.", "Open a drawing")
+NO_PATHS = Missing("There are no tool paths yet.", "Compute  F5", "compute")
+NO_NC = Missing("There is no NC program yet.", "Compute  F5", "compute")
+COMPUTING = Missing("The paths are being computed.", "Cancel  Shift+F5", "cancel")
+
+
 class Showing(QObject):
     """Reads the state and shows it; changes nothing but the window."""
 
-    def __init__(self, window: MainWindow, opening: Opening) -> None:
+    def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
-        self._window, self._opening = window, opening
+        self._window = window
         self._document, self._computation = window.document, window.computation
         self.view = View.DRAW
         self._layers = PathLayers.ALL
         self._shown_program: object = None
+        self._empty_action = "open"
         self._computation.changed.connect(self._on_computation)
         window.worker.progress.connect(window.status.show_progress)
         window.worker.busy_changed.connect(self._on_busy)
@@ -40,14 +58,12 @@ class Showing(QObject):
         window.views.empty.pressed.connect(lambda: window.actions_[self._empty_action].trigger())
         window.views.legend.layer_switched.connect(self._on_layer)
         window.views.legend.colour_chosen.connect(lambda by: window.canvas.set_colour_by(ColourBy(by)))
-        self._empty_action = "open"
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """Everything there is to say about the drawing and its paths, each sentence once."""
+        """Everything there is to say about the drawing and, once computed, its paths."""
         made = self._computation.made
-        all_findings = (*self._opening.findings, *(made.findings if made is not None else ()))
-        return tuple({f.text: f for f in all_findings}.values())
+        return made.findings if made is not None else self._computation.drawing_findings
 
     def part_size(self) -> tuple[float, float] | None:
         """Return width and height of the drawing, mm; None when it is empty."""
@@ -89,17 +105,19 @@ class Showing(QObject):
         actions["compute"].setEnabled(drawn)
 
     def _show_missing(self) -> None:
-        made, drawn = self._computation.made, bool(self._document.part.entities)
-        sentence, button = "", ""
-        if self._computation.state is State.RUNNING and made is None and self.view is not View.DRAW:
-            sentence, button, self._empty_action = "The paths are being computed.", "Cancel  Shift+F5", "cancel"
-        elif not drawn:
-            sentence, button = "Nothing is drawn yet. Pick a tool at the left, type  line 0,0 60,0  or open a drawing.", "Open a drawing"
-            self._empty_action = "open"
-        elif made is None and self.view is not View.DRAW:
-            what = "tool paths" if self.view is View.PATHS else "NC program"
-            sentence, button, self._empty_action = f"There {'are' if what[-1] == 's' else 'is'} no {what} yet.", "Compute  F5", "compute"
-        self._window.views.show_missing(sentence, button, made is not None)
+        made = self._computation.made
+        missing = self._missing()
+        self._empty_action = missing.action
+        self._window.views.show_missing(missing.sentence, missing.button, made is not None)
+
+    def _missing(self) -> Missing:
+        if self._computation.made is not None:
+            return NOTHING
+        if self._computation.state is State.RUNNING:
+            return COMPUTING if self.view is not View.DRAW else NOTHING
+        if not self._document.part.entities:
+            return NO_DRAWING
+        return {View.PATHS: NO_PATHS, View.NC: NO_NC}.get(self.view, NOTHING)
 
     def show_hovered(self, text: str) -> None:
         """Show what the mouse is over, or else where the paths stand."""
@@ -125,7 +143,7 @@ class Showing(QObject):
         if state is State.RUNNING:
             badge.show_running()
         elif state is State.CURRENT and made is not None:
-            badge.show_verdict(verdict(self.findings, made.report.data))
+            badge.show_verdict(verdict(made.findings, made.report.data))
         elif state is State.FAILED:
             badge.show_verdict(Verdict(Level.REMARK, "Could not be computed"))
         else:

@@ -31,7 +31,7 @@ class StatusBar(QWidget):
         self.setObjectName("statusBar")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setFixedHeight(34)
-        self.x, self.y = QLabel(), QLabel()
+        self.place_x, self.place_y = QLabel(), QLabel()
         self.snap, self.ortho, self.grid = (self._toggle(text) for text in ("Snap", "Ortho", "Grid"))
         self.message = muted()
         self.message.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
@@ -55,7 +55,7 @@ class StatusBar(QWidget):
         row = QHBoxLayout(self)
         row.setContentsMargins(16, 0, 8, 0)
         row.setSpacing(8)
-        for label in (self.x, self.y):
+        for label in (self.place_x, self.place_y):
             label.setFixedWidth(label.fontMetrics().horizontalAdvance("X -9999.999") + 12)
             row.addWidget(label)
         row.addWidget(muted("mm"))
@@ -74,8 +74,8 @@ class StatusBar(QWidget):
 
     def show_place(self, x: float, y: float) -> None:
         """Show where the mouse is, mm."""
-        self.x.setText(f"X {x:.3f}")
-        self.y.setText(f"Y {y:.3f}")
+        self.place_x.setText(f"X {x:.3f}")
+        self.place_y.setText(f"Y {y:.3f}")
 
     def show_message(self, text: str, error: bool = False) -> None:
         """Show one sentence; the whole of it is in the tool tip."""

@@ -87,6 +87,8 @@ def figures(data: Mapping[str, Any]) -> str:
 def verdict(findings: tuple[Finding, ...], data: Mapping[str, Any]) -> Verdict:
     """Return the verdict on a computed program from its findings and its report."""
     counting = [f for f in worst_first(findings) if f.counts]
+    if not any(data.get("moves", {}).values()):
+        return Verdict(Level.REMARK, short(counting[0]) if counting else "No closed contour to machine")
     if not counting:
         return Verdict(Level.OK, f"✓ {figures(data)}")
     more = f"  +{len(counting) - 1}" if len(counting) > 1 else ""

@@ -8,7 +8,8 @@ from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QPushButton, QStackedWidget, QVBoxLayout, QWidget
 
-from app.ui.canvas.canvas import Canvas, CanvasMode
+from app.ui.canvas.canvas import Canvas
+from app.ui.canvas.modes import CanvasMode
 from app.ui.legend import Legend
 from app.ui.nc_view import NcView
 from app.ui.theme import LIGHT, Theme

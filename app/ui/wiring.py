@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QByteArray, QObject
@@ -18,7 +19,7 @@ from app.model.part import Part, Units
 from app.settings import ThemeChoice, save_settings
 from app.ui import opening as opening_files
 from app.ui.actions import keys_text
-from app.ui.canvas.tools import CanvasTool
+from app.ui.canvas.modes import CanvasTool
 from app.ui.exporting import FILTER, Exporting
 from app.ui.main_window import MainWindow
 from app.ui.opening import Opened, Opening
@@ -46,7 +47,7 @@ class Wiring(QObject):
         self.window_, self.document, self.computation = window, window.document, window.computation
         self.opening = Opening(window.document, window.worker)
         self.exporting = Exporting(window.computation, window.notice, self._choose_nc_file)
-        self.showing = Showing(window, self.opening)
+        self.showing = Showing(window)
         self._connect_files()
         self._connect_edit()
         self._connect_view()
@@ -87,7 +88,7 @@ class Wiring(QObject):
     def _connect_view(self) -> None:
         canvas, actions = self.window_.canvas, self.window_.actions_
         for view in View:
-            self._on(view.value, lambda v=view: self.showing.show_view(v))
+            self._on(view.value, partial(self.showing.show_view, view))
         self._on("fit", canvas.fit)
         self._on("zoom_in", lambda: canvas.zoom_by(1.5))
         self._on("zoom_out", lambda: canvas.zoom_by(1 / 1.5))
@@ -100,7 +101,7 @@ class Wiring(QObject):
             button.clicked.connect(actions[name].setChecked)
         actions["snap"].setChecked(True)
         for choice in ThemeChoice:
-            self._on(f"theme_{choice.value}", lambda c=choice: self.choose_theme(c))
+            self._on(f"theme_{choice.value}", partial(self.choose_theme, choice))
         self._on("keys", self._show_keys)
         self._on("about", self._show_about)
 
@@ -121,7 +122,7 @@ class Wiring(QObject):
     def _connect_canvas(self) -> None:
         canvas, window = self.window_.canvas, self.window_
         for name, tool in TOOLS.items():
-            self._on(name, lambda t=tool: canvas.set_tool(t))
+            self._on(name, partial(canvas.set_tool, tool))
         window.actions_["tool_select"].setChecked(True)
         canvas.cursor_moved.connect(window.status.show_place)
         canvas.prompt_changed.connect(window.command_line.set_prompt)
@@ -154,7 +155,6 @@ class Wiring(QObject):
     def new(self) -> None:
         """Begin an empty drawing with the same tools."""
         self.document.load(replace(self.document.job, part=Part()))
-        self.opening.findings = ()
         self.computation.forget()
         self.window_.notice.hide()
         self.showing.show_view(View.DRAW)
@@ -200,7 +200,7 @@ class Wiring(QObject):
 
     def _on_opened(self, opened: Opened) -> None:
         self.window_.settings = self.window_.settings.with_recent_file(opened.path)
-        self.computation.forget()
+        self.computation.forget(opened.drawing.findings)
         self.window_.notice.hide()
         self.window_.canvas.fit()
         self.showing.show_view(View.DRAW)

@@ -61,9 +61,9 @@ class JobForm(Form):
             Spec("Thickness", low=0.001, high=10_000, tip="Height of the stock; Z 0 is its top."),
             lambda job, v: replace(job, stock=replace(job.stock, thickness=v)))
         self.origin_xy = ListField("Origin XY", [(o, o.value.capitalize()) for o in OriginXY])
-        self.add_choice("Origin XY", self.origin_xy, lambda job, v: replace(job, origin_xy=v))
+        self.add_choice("Origin XY", self.origin_xy, lambda job, v: replace(job, origin_xy=OriginXY(v)))
         self.origin_z = ListField("Origin Z", [(o, o.value.capitalize()) for o in OriginZ])
-        self.add_choice("Origin Z", self.origin_z, lambda job, v: replace(job, origin_z=v))
+        self.add_choice("Origin Z", self.origin_z, lambda job, v: replace(job, origin_z=OriginZ(v)))
         self.safe_z = self.add_number(
             Spec("Safe Z", low=0.001, high=10_000, tip="Clearance height above the stock's top; rapids in the plane go there."),
             lambda job, v: replace(job, safe_z=v, retract_z=min(job.retract_z, v)))
@@ -71,9 +71,9 @@ class JobForm(Form):
             Spec("Join tolerance", low=0, high=100, tip="Loose ends of the drawing nearer than this are joined."),
             lambda job, v: replace(job, join_tolerance=v))
         self.order = ChoiceField("Cut first", [(Order.POCKET_FIRST, "Pocket"), (Order.PATENT_1986, "Contour (1986)")])
-        self.add_choice("Order", self.order, lambda job, v: replace(job, order=v))
+        self.add_choice("Order", self.order, lambda job, v: replace(job, order=Order(v)))
         self.units = ChoiceField("NC units", [(Units.MM, "mm"), (Units.INCH, "inch")])
-        self.add_choice("NC units", self.units, lambda job, v: replace(job, out_units=v))
+        self.add_choice("NC units", self.units, lambda job, v: replace(job, out_units=Units(v)))
 
     def show_job(self, job: Job) -> None:
         """Show the job's values."""
@@ -95,7 +95,7 @@ class ToolForm(Form):
         self._number = 0
         self.number = self._add(Spec("T number", "", 1, 9999, 0, False), lambda tool, v: replace(tool, number=int(v)))
         self.kind = ListField("Kind", [(ToolKind.FLAT, "Flat end mill")])
-        self.add_choice("Kind", self.kind, lambda job, v: self._edit(job, lambda tool: replace(tool, kind=v)))
+        self.add_choice("Kind", self.kind, lambda job, v: self._edit(job, lambda tool: replace(tool, kind=ToolKind(v))))
         self.diameter = self._add(Spec("Diameter", low=0.001, high=1000), lambda tool, v: replace(tool, diameter=v))
         self.speed = self._add(Spec("Speed", "rpm", 1, 200_000, 0, False), lambda tool, v: replace(tool, spindle_speed=v))
         self.feed = self._add(Spec("Feed", "mm/min", 0.1, 100_000, 0, False), lambda tool, v: replace(tool, feed_rate=v))
@@ -130,7 +130,7 @@ class OperationForm(Form):
         self._index, self._diameter = 0, 1.0
         self.tool = ListField("Tool", [])
         self.add_choice("Tool", self.tool, lambda job, v: self._cut(job, tool=v))
-        self.depth = self.add_number(
+        self.cut_depth = self.add_number(
             Spec("Depth", low=0.001, high=10_000, tip="From the stock's top down to the floor."), lambda job, v: self._cut(job, depth=v))
         self.stepdown = self.add_number(
             Spec("Step down", low=0.001, high=10_000, tip="Largest depth of one pass; passes are made equal."),
@@ -191,7 +191,7 @@ class OperationForm(Form):
         self.tool.set_choices(choices)
         self.tool.show_value(cut.tool)
         passes = max(1, -int(-(cut.depth - 1e-9) // cut.stepdown))
-        self.depth.show_value(cut.depth)
+        self.cut_depth.show_value(cut.depth)
         self.stepdown.show_value(cut.stepdown, counted(passes, "pass", "passes"))
         self.leave.show_value(cut.stock_to_leave)
         self.direction.show_value(cut.direction)
