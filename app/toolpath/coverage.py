@@ -14,13 +14,14 @@ from dataclasses import dataclass, field
 import numpy as np
 import shapely
 from numpy.typing import NDArray
+from shapely import Geometry as Shape
 
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program
 from app.model.operation import Operation, PocketOperation
 from app.progress import NO_PROGRESS, Progress
-from app.toolpath.flat import Shape, flattened, grown, move_rows, region_shape
+from app.toolpath.flat import flattened, grown, move_rows, region_shape
 
 CHORD = 1e-3
 """mm; arcs are measured as chords that stay within this of them."""

@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 import shapely
 from numpy.typing import NDArray
+from shapely import Geometry as Shape
 
-from app.geometry.primitives import R, TURN, Rows, contour_rows, points_at, sample, sweeps
+from app.geometry.primitives import TURN, R, Rows, contour_rows, points_at, sample, sweeps
 from app.model.moves import MoveKind, Moves
 from app.model.part import Region
-
-Shape = shapely.Geometry
 
 
 def move_rows(moves: Moves) -> Rows:

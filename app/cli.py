@@ -1,0 +1,70 @@
+"""The command line: which command, what exit status, one line for every error. Needs neither Qt nor a display."""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+
+from app import __version__
+from app.errors import Cancelled, HitofudeError
+
+DONE, WITH_FINDINGS, BAD_INPUT, CANCELLED = 0, 1, 2, 130
+LATER = ("stages", "cut", "smooth", "surface")
+HELP = """\
+Hitofude: from a line drawing to tool paths that can be trusted on a real machine.
+
+  hitofude [open] [FILE]              the window, with FILE or the sample part
+  hitofude make DRAWING -o OUT.ngc    a drawing into contour and pocket tool paths, as NC (make --help tells all)
+  hitofude --version                  this version
+  hitofude --help                     this text
+
+Exit status: 0 done and clean; 1 done, with findings (gouge, reachable material left, rapid in material, a region
+skipped whole, an open contour); 2 bad input or usage, told in one line; 130 cancelled.
+"""
+
+
+def main(argv: Sequence[str]) -> int:
+    """Run one command and return its exit status.
+
+    Args:
+        argv: the arguments behind the program's name.
+    """
+    try:
+        return _command(list(argv))
+    except (KeyboardInterrupt, Cancelled):
+        _say("cancelled; no file was written")
+        return CANCELLED
+    except HitofudeError as error:
+        _say(str(error))
+        return BAD_INPUT
+    except Exception as error:
+        if os.environ.get("HITOFUDE_DEBUG") == "1":
+            traceback.print_exc()
+        _say(f"this should not have happened ({type(error).__name__}: {error}); "
+             "please report it with the drawing; HITOFUDE_DEBUG=1 shows where")
+        return BAD_INPUT
+
+
+def _command(argv: list[str]) -> int:
+    name, rest = (argv[0], argv[1:]) if argv else ("", [])
+    if name in ("", "-h", "--help", "help"):
+        print(HELP, end="")
+        return DONE
+    if name in ("-V", "--version"):
+        print(f"hitofude {__version__}")
+        return DONE
+    if name == "make":
+        from app.cli_make import make_command
+
+        return make_command(rest)
+    if name in LATER:
+        _say(f"the command '{name}' is not part of this version yet; 'make' is, see hitofude --help")
+        return BAD_INPUT
+    _say(f"there is no command '{name}'; use 'make' or 'open', see hitofude --help")
+    return BAD_INPUT
+
+
+def _say(text: str) -> None:
+    print("hitofude: " + " ".join(text.split()), file=sys.stderr)

@@ -1,0 +1,139 @@
+"""`hitofude make`: reads the files, runs the make workflow, writes the files."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from app.cli_options import make_options, read_arguments
+from app.errors import InputError
+from app.files.atomic import write_atomically
+from app.progress import Progress
+from app.workflow.make import Made, make
+from app.workflow.options import MakeOptions
+
+LARGEST_INPUT = 256 * 2**20
+"""Bytes; a larger file is refused before it is read."""
+
+
+def make_command(argv: Sequence[str]) -> int:
+    """Run `make` and return its exit status: 0 clean, 1 with findings.
+
+    Raises:
+        HitofudeError: bad usage or input; nothing was written.
+        Cancelled: by Ctrl+C.
+    """
+    if any(argument in ("-h", "--help") for argument in argv):
+        from app.cli_options import make_parser
+
+        make_parser().print_help()
+        return 0
+    arguments = read_arguments(argv)
+    outputs = _check_outputs(arguments)
+    options = _with_job(make_options(arguments), arguments.job)
+    made = make(arguments.drawing.name, _read(arguments.drawing), options, _progress(arguments.quiet))
+    _write(made, outputs)
+    if not arguments.quiet:
+        _summary(made, arguments.output)
+    return 0 if made.clean else 1
+
+
+def _with_job(options: MakeOptions, path: Path | None) -> MakeOptions:
+    """Return the options with the job file read, where there is one."""
+    if path is None:
+        return options
+    from app.files.job_toml import read_job
+
+    file = read_job(path.name, _read(path))
+    return replace(options, job=file.job, units=options.units or file.units)
+
+
+def _read(path: Path) -> bytes:
+    """Return a file's bytes.
+
+    Raises:
+        InputError: it is missing, no file, unreadable, empty or too large.
+    """
+    try:
+        if path.is_dir():
+            raise InputError(f"{path} is a folder; name a file in it")
+        if path.stat().st_size > LARGEST_INPUT:
+            raise InputError(f"{path} is larger than {LARGEST_INPUT // 2**20} MB; export less of the drawing")
+        data = path.read_bytes()
+    except FileNotFoundError as error:
+        raise InputError(f"{path} does not exist; check the name") from error
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}; check name and permissions") from error
+    if not data:
+        raise InputError(f"{path} is empty; export the drawing again")
+    return data
+
+
+def _check_outputs(arguments: argparse.Namespace) -> dict[str, Path]:
+    """Return the files to write by what they hold, checked before any work is done."""
+    outputs = {name: path for name in ("output", "report", "image") if (path := getattr(arguments, name)) is not None}
+    if "image" in outputs and outputs["image"].suffix.lower() not in (".svg", ".png"):
+        raise InputError(f"--image {outputs['image']}: a picture is .svg or .png; change the name")
+    inputs = [path for path in (arguments.drawing, arguments.job) if path is not None]
+    taken = [_identity(path) for path in inputs]
+    for name, path in outputs.items():
+        if path.is_dir():
+            raise InputError(f"--{name} {path} is a folder; name a file in it")
+        if not path.parent.is_dir():
+            raise InputError(f"--{name} {path}: there is no folder {path.parent}; make it first")
+        if not os.access(path.parent, os.W_OK) and not path.is_char_device():
+            raise InputError(f"--{name} {path}: the folder {path.parent} cannot be written; choose another or change its permissions")
+        if _identity(path) in taken:
+            raise InputError(f"--{name} {path} is named twice or is also an input; give every file its own name")
+        if not path.is_char_device():
+            taken.append(_identity(path))
+    return outputs
+
+
+def _identity(path: Path) -> object:
+    """Return what tells whether two names mean the same file."""
+    try:
+        status = path.stat()
+    except (OSError, ValueError):
+        return os.path.realpath(path)
+    return (status.st_dev, status.st_ino)
+
+
+def _write(made: Made, outputs: dict[str, Path]) -> None:
+    """Make every picture and text first, then write; the NC program last."""
+    texts = {"report": made.report.text().encode()}
+    if "image" in outputs:
+        from app.files.plot import plot
+
+        texts["image"] = plot(made.program, made.job, made.coverage, outputs["image"].suffix.lower())
+    texts["output"] = made.nc.text.encode("ascii", "replace")
+    for name in ("report", "image", "output"):
+        if name in outputs:
+            write_atomically(outputs[name], texts[name])
+
+
+def _progress(quiet: bool) -> Progress:
+    """Return a progress that shows itself on stderr where that is a terminal."""
+    if quiet or not sys.stderr.isatty():
+        return Progress()
+    shown = [0.0]
+
+    def show(fraction: float, text: str) -> None:
+        if time.monotonic() - shown[0] > 0.1 or fraction >= 1:
+            shown[0] = time.monotonic()
+            end = "\r\x1b[K" if fraction >= 1 else ""
+            print(f"\r\x1b[K{fraction:4.0%} {text}{end}", end="", file=sys.stderr, flush=True)
+
+    return Progress(show)
+
+
+def _summary(made: Made, output: Path) -> None:
+    """Say in a few lines what was made and what there is to know about it."""
+    print(made.report.summary(str(output)))
+    for finding in made.findings:
+        print(f"  {'!' if finding.counts else '-'} {finding.text}")

@@ -1,0 +1,146 @@
+"""From a drawing to an NC program and what there is to know about it: the one place where the rooms are put together.
+
+The command line and the window both call it. Everything is pure: bytes and values in, values out, no file is touched.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.errors import GeometryError
+from app.files.drawing import Drawing, read_drawing
+from app.model.finding import Finding, FindingKind
+from app.model.job import Job
+from app.model.moves import Program
+from app.nc.posts import load_post
+from app.nc.write import NcText, write_program
+from app.progress import NO_PROGRESS, Progress
+from app.tolerances import LEVEL
+from app.toolpath.coverage import Coverage, coverage_findings, measure
+from app.workflow.options import MakeOptions, job_with_options
+from app.workflow.report import Measured, Report, make_report, worst_first
+from app.workflow.verdict import Gouge, RapidInMaterial, gouge, rapids_in_material
+
+
+@dataclass(frozen=True)
+class Made:
+    """What a make job gives.
+
+    Attributes:
+        job: what it was computed from.
+        program: the moves; each knows its line of the NC text.
+        nc: the NC text; empty when no move was made.
+        report: every measured number.
+        findings: everything there is to say, what counts first.
+        coverage: what is left on the floor, with outlines.
+    """
+
+    job: Job
+    program: Program
+    nc: NcText
+    report: Report
+    findings: tuple[Finding, ...]
+    coverage: Coverage
+
+    @property
+    def clean(self) -> bool:
+        """True when no finding counts (exit status 0)."""
+        return not any(finding.counts for finding in self.findings)
+
+
+def job_from_drawing(drawing: Drawing, options: MakeOptions) -> Job:
+    """Return the job for a drawing: the given or the default one with every given option put in.
+
+    Raises:
+        ParameterError: an option is out of its range, or two contradict one another.
+        InputError: there is no such post, or a layer is not in the drawing.
+    """
+    job = job_with_options(drawing.part, options)
+    load_post(job.post)
+    return job
+
+
+def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_PROGRESS) -> Made:
+    """Return NC program and report for the bytes of a drawing.
+
+    Args:
+        name: file name of the drawing; its suffix tells the format.
+        data: its bytes.
+
+    Raises:
+        HitofudeError: the drawing or an option cannot be used, or nothing in it can be cut with these tools.
+        Cancelled: the job was asked to stop.
+    """
+    progress.step(0.0, f"Reading {name}")
+    units = options.units
+    drawing = read_drawing(name, data, units, options.layers or (options.job.layer_names if options.job else ()))
+    job = job_from_drawing(drawing, options)
+    made = export(job, progress.part(0.1, 1.0), drawing.findings)
+    if not len(made.program.moves):
+        raise GeometryError(_nothing(name, made.findings))
+    return made
+
+
+def _nothing(name: str, findings: tuple[Finding, ...]) -> str:
+    """Return why a drawing gave no path."""
+    if not findings:
+        return f"{name}: there is no closed contour to machine; draw one, or choose other layers."
+    more = f" ({len(findings) - 1} more findings)" if len(findings) > 1 else ""
+    return f"{name}: nothing can be cut. {findings[0].text}{more}"
+
+
+def export(job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[Finding, ...] = ()) -> Made:
+    """Compute a job, write its NC text, and measure what was made.
+
+    Args:
+        job: what to compute.
+        progress: steps through all of it.
+        drawing_findings: what reading the drawing had to say; goes into the report with the rest.
+
+    Raises:
+        HitofudeError: the job cannot be computed or written.
+        Cancelled: the job was asked to stop.
+    """
+    from app.toolpath.compute import compute
+
+    return finish(compute(job, progress.part(0.0, 0.6)), job, progress.part(0.6, 1.0), drawing_findings)
+
+
+def finish(program: Program, job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[Finding, ...] = ()) -> Made:
+    """Write the NC text of a computed program and measure it: for a caller that has the program already.
+
+    Raises:
+        HitofudeError: the program cannot be written.
+        Cancelled: the job was asked to stop.
+    """
+    post = load_post(job.post)
+    progress.step(0.0, "Writing NC")
+    nc = write_program(program, job, post, progress.part(0.0, 0.2)) if len(program.moves) else NcText("", np.zeros(0, np.int32))
+    program = replace(program, moves=replace(program.moves, line=nc.lines))
+    progress.step(0.2, "Checking clearance")
+    deepest, rapids = gouge(program, job), rapids_in_material(program, job)
+    coverage = measure(program, job, progress.part(0.4, 0.95))
+    own = (*_gouge_findings(deepest, program), *_rapid_findings(rapids, program), *coverage_findings(coverage))
+    findings = worst_first((*own, *program.findings, *drawing_findings))
+    progress.step(1.0, "Done")
+    report = make_report(Measured(program, job, nc, post, deepest, rapids, coverage, findings))
+    return Made(job, program, nc, report, findings, coverage)
+
+
+def _gouge_findings(gouge: Gouge, program: Program) -> tuple[Finding, ...]:
+    if gouge.max_mm <= LEVEL or gouge.x is None or gouge.y is None:
+        return ()
+    text = (f"{gouge.count} moves cut into the part, the worst by {gouge.max_mm:.4f} mm at ({gouge.x:.3f}, {gouge.y:.3f}), "
+            f"NC line {program.moves.line[gouge.move]}; do not run this program.")
+    return (Finding(FindingKind.GOUGE, text, gouge.x, gouge.y, amount=gouge.max_mm),)
+
+
+def _rapid_findings(rapids: tuple[RapidInMaterial, ...], program: Program) -> tuple[Finding, ...]:
+    if not rapids:
+        return ()
+    first = rapids[0]
+    text = (f"{len(rapids)} rapids go through material, the first to ({first.x:.3f}, {first.y:.3f}, {first.z:.3f}), "
+            f"NC line {program.moves.line[first.move]}; do not run this program.")
+    return (Finding(FindingKind.RAPID_IN_MATERIAL, text, first.x, first.y, amount=float(len(rapids))),)

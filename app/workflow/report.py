@@ -1,0 +1,209 @@
+"""The report of a make job: every number in it is measured on the moves, or says how it was computed."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from app import tolerances
+from app.model.finding import Finding, FindingKind
+from app.model.job import Job
+from app.model.moves import MoveKind, Moves, Program, Purpose
+from app.model.operation import Operation, PocketOperation
+from app.model.stock_box import extent
+from app.nc.post import Post
+from app.nc.write import NcText, blend_mm, writing_tolerance
+from app.toolpath.coverage import CHORD, STRIP, Coverage, Place
+from app.workflow.verdict import Gouge, RapidInMaterial, in_stock
+
+RAPID_RATE = 5000.0
+"""mm/min; what rapids are timed at, as no post tells how fast a machine is."""
+
+ENGINE = "exact lines and arcs; pocket rings are levels of one distance field"
+COVERAGE_METHOD = f"polygons of the emitted moves, arcs as chords within {CHORD:g} mm; strips narrower than {STRIP:g} mm are not counted"
+GOUGE_METHOD = "closed-form distance of every move below Z 0 from every wall, less tool radius and stock to leave"
+TIME_METHOD = f"lengths over feed rates, rapids at {RAPID_RATE:g} mm/min, spin-up dwells; no acceleration"
+
+Json = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What the report is made of.
+
+    Attributes:
+        findings: all of them: of the drawing, the path, the verdict, the floor.
+    """
+
+    program: Program
+    job: Job
+    nc: NcText
+    post: Post
+    gouge: Gouge
+    rapids: tuple[RapidInMaterial, ...]
+    coverage: Coverage
+    findings: tuple[Finding, ...]
+
+
+@dataclass(frozen=True)
+class Report:
+    """A report as plain values.
+
+    Attributes:
+        data: by the keys of the command line's report; units are in the names, positions in part coordinates.
+    """
+
+    data: Json
+
+    def text(self) -> str:
+        """Return it as JSON text."""
+        return json.dumps(self.data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+    def summary(self, output: str) -> str:
+        """Return it in one line for people."""
+        data = self.data
+        minutes, seconds = divmod(round(data["time_s"]), 60)
+        length = sum(data["length_mm"].values())
+        return (f"{output}: {data['gouge']['max_mm']:.4f} mm gouge, {data['left']['reachable_mm2']:.3f} mm2 left within reach, "
+                f"{len(data['rapids_in_material'])} rapids in material; {data['strokes']} pocket strokes, {data['retracts']} retracts, "
+                f"{length:.0f} mm, {minutes}:{seconds:02d} min")
+
+
+def make_report(measured: Measured) -> Report:
+    """Return the report of what was made and measured."""
+    program, job, moves = measured.program, measured.job, measured.program.moves
+    return Report({
+        "gouge": _gouge(measured),
+        "left": {
+            "reachable_mm2": measured.coverage.reachable_left_mm2,
+            "unreachable_mm2": measured.coverage.unreachable_mm2,
+            "largest_disc_mm": measured.coverage.largest_disc_mm,
+            "floor_mm2": measured.coverage.area_mm2,
+            "floor_depth_mm": measured.coverage.floor_mm,
+            "method": COVERAGE_METHOD,
+            "places": [_place(place) for place in measured.coverage.places[:100]],
+            "places_count": len(measured.coverage.places),
+        },
+        "rapids_in_material": [
+            {"x": hit.x, "y": hit.y, "z": hit.z, "line": _line(measured.nc, hit.move)} for hit in measured.rapids
+        ],
+        "strokes": pocket_strokes(moves),
+        "retracts": retracts(moves),
+        "length_mm": path_lengths(moves),
+        "time_s": job_time(moves, measured.post.spindle.dwell_s),
+        "time_method": TIME_METHOD,
+        "moves": {f"G{kind.value}": int(np.sum(moves.kind == kind)) for kind in MoveKind},
+        "skipped": [_finding(each) for each in _of(measured, FindingKind.REGION_TOO_SMALL, FindingKind.LEFT_OUT, FindingKind.TINY_ENTITY)],
+        "open_contours": [_finding(each) for each in _of(measured, FindingKind.OPEN_CONTOUR)],
+        "engine": ENGINE,
+        "polyline_rings": program.polyline_rings,
+        "tolerance": _tolerance(measured),
+        "findings": [_finding(each) for each in measured.findings],
+        "regions": _regions(program),
+        "area_check_mm2": {"exact": program.exact_area_mm2, "bitmap": program.bitmap_area_mm2, "pitch_mm": program.pitch_mm},
+        "tools": [{"number": t.number, "kind": t.kind.value, "diameter_mm": t.diameter, "spindle_rpm": t.spindle_speed,
+                   "feed_mm_min": t.feed_rate, "plunge_mm_min": t.plunge_rate} for t in job.tools],
+        "operations": [_operation(each, index, measured) for index, each in enumerate(job.operations)],
+        "post": job.post,
+        "out_units": "in" if job.out_units.value == 25.4 else "mm",
+    })  # fmt: skip
+
+
+def _of(measured: Measured, *kinds: FindingKind) -> list[Finding]:
+    return [finding for finding in measured.findings if finding.kind in kinds]
+
+
+def _line(nc: NcText, move: int) -> int | None:
+    return int(nc.lines[move]) if 0 <= move < len(nc.lines) else None
+
+
+def _gouge(measured: Measured) -> Json:
+    gouge = measured.gouge
+    return {"max_mm": gouge.max_mm, "x": gouge.x, "y": gouge.y, "z": gouge.z, "line": _line(measured.nc, gouge.move),
+            "count": gouge.count, "counts_from_mm": tolerances.LEVEL, "method": GOUGE_METHOD}
+
+
+def _place(place: Place) -> Json:
+    return {"x": place.x, "y": place.y, "area_mm2": place.area_mm2, "disc_mm": place.disc_mm, "reachable": place.reachable}
+
+
+def _finding(finding: Finding) -> Json:
+    return {"kind": finding.kind.value, "text": finding.text, "x": finding.x, "y": finding.y, "counts": finding.counts,
+            "amount": finding.amount}
+
+
+def _tolerance(measured: Measured) -> Json:
+    contours = [contour for region in measured.program.regions for contour in region.contours]
+    return {
+        "path_mm": tolerances.LEVEL, "path": "checked",
+        "curves_mm": max((contour.deviation for contour in contours), default=0.0), "curves": "measured",
+        "join_mm": measured.job.join_tolerance,
+        "writing_mm": writing_tolerance(measured.job, measured.post), "writing": "bound",
+        "blend_mm": blend_mm(measured.job, measured.post), "blend": "proven on the path; the control may blend by up to this",
+        "floor_strip_mm": STRIP,
+    }  # fmt: skip
+
+
+def _regions(program: Program) -> list[Json]:
+    found = []
+    for region in program.regions:
+        x0, y0, x1, y1 = extent(region.contours) or (0.0, 0.0, 0.0, 0.0)
+        cut = (program.moves.region == region.number) & (program.moves.kind != MoveKind.RAPID)
+        found.append({"number": region.number, "islands": len(region.islands), "layer": region.boundary.layer,
+                      "x0": x0, "y0": y0, "x1": x1, "y1": y1, "cut_mm": float(np.sum(program.moves.lengths()[cut]))})
+    return found
+
+
+def _operation(operation: Operation, index: int, measured: Measured) -> Json:
+    moves, cut = measured.program.moves, operation.cut
+    mine = moves.operation == index
+    pocket = isinstance(operation, PocketOperation)
+    result: Json = {"kind": "pocket" if pocket else "contour", "tool": cut.tool, "depth_mm": cut.depth, "stepdown_mm": cut.stepdown,
+                    "stock_to_leave_mm": cut.stock_to_leave, "direction": cut.direction.value, "enabled": cut.enabled,
+                    "time_s": float(np.sum(move_times(moves)[mine]))}
+    if isinstance(operation, PocketOperation):
+        result["stepover_mm"] = operation.stepover or measured.job.tool(cut.tool).diameter / 2
+    return result
+
+
+def path_lengths(moves: Moves) -> dict[str, float]:
+    """Return lengths in mm: cut, link (links and leads), plunge, rapid. The way to the first point is not in it."""
+    length, rapid = moves.lengths(), moves.kind == MoveKind.RAPID
+    link = ~rapid & np.isin(moves.purpose, (Purpose.LINK, Purpose.LEAD))
+    plunge = ~rapid & (moves.purpose == Purpose.PLUNGE)
+    chosen = {"cut": ~rapid & ~link & ~plunge, "link": link, "plunge": plunge, "rapid": rapid}
+    return {name: float(np.sum(length[mask])) for name, mask in chosen.items()}
+
+
+def move_times(moves: Moves) -> np.ndarray:
+    """Return (n,) seconds that each move takes at its feed rate, rapids at RAPID_RATE."""
+    rate = np.where(moves.kind == MoveKind.RAPID, RAPID_RATE, np.where(moves.feed > 0, moves.feed, np.inf))
+    return np.asarray(60 * moves.lengths() / rate)
+
+
+def job_time(moves: Moves, dwell_s: float) -> float:
+    """Return how long the program runs, s, with a spin-up dwell of `dwell_s` for every tool taken."""
+    taken = int(np.sum(np.diff(moves.tool) != 0)) + 1 if len(moves) else 0
+    return float(np.sum(move_times(moves))) + taken * dwell_s
+
+
+def retracts(moves: Moves) -> int:
+    """Return how often the tool leaves the stock."""
+    below = in_stock(moves)
+    return int(np.sum(below & (moves.end[:, 2] >= 0)))
+
+
+def pocket_strokes(moves: Moves) -> int:
+    """Return how many unbroken runs of feed moves hold pocket moves."""
+    feed = moves.kind != MoveKind.RAPID
+    run = np.cumsum(~feed)
+    return len(np.unique(run[feed & (moves.purpose == Purpose.POCKET)]))
+
+
+def worst_first(findings: Iterable[Finding]) -> tuple[Finding, ...]:
+    """Return each finding once, those that count first, otherwise in order."""
+    return tuple(sorted(dict.fromkeys(findings), key=lambda finding: not finding.counts))
