@@ -52,7 +52,7 @@ class ArcRules:
         centre_decimals: of I and J, not less.
         tolerance: largest distance between the written and the meant arc, point by point, out units.
         largest_sweep: radians, < 2 pi.
-        largest_radius: out units.
+        smallest_radius, largest_radius: out units; the smallest is > 0.
         radius_mismatch: largest difference of the two radii, out units.
     """
 
@@ -60,6 +60,7 @@ class ArcRules:
     centre_decimals: int
     tolerance: float
     largest_sweep: float
+    smallest_radius: float
     largest_radius: float
     radius_mismatch: float
 
@@ -138,7 +139,8 @@ def _fits(arc: MeantArc, span: tuple[float, float], block: tuple[tuple[Grid, Gri
     start, end = (complex(*point) / 10**rules.decimals for point in ends)
     centre = start + complex(*offset) / 10**rules.centre_decimals
     first, last = start - centre, end - centre
-    if first == 0 or last == 0 or abs(first) > rules.largest_radius or abs(abs(first) - abs(last)) > rules.radius_mismatch:
+    least, most = sorted((abs(first), abs(last)))
+    if least < rules.smallest_radius or most > rules.largest_radius or most - least > rules.radius_mismatch:
         return False
     turn = (cmath.phase(last) - cmath.phase(first)) % math.tau
     written = MeantArc(centre, abs(first), abs(last), cmath.phase(first), turn if arc.sweep > 0 else turn - math.tau)

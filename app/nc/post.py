@@ -102,12 +102,13 @@ class Arcs:
     Attributes:
         centre: what I and J count from.
         largest_sweep_deg: longer arcs are split into equal pieces, in [60, 359]; full circles always are.
-        largest_radius_mm: flatter arcs become lines.
+        smallest_radius_mm, largest_radius_mm: arcs of other radii become lines.
         radius_mismatch_mm: the control refuses arcs whose two radii differ by more.
     """
 
     centre: ArcCentre
     largest_sweep_deg: float
+    smallest_radius_mm: float
     largest_radius_mm: float
     radius_mismatch_mm: float
 

@@ -24,6 +24,7 @@ RANGES = {
     "numbers.start": (0, 99999),
     "numbers.step": (1, 1000),
     "arcs.largest_sweep_deg": (60, 359),
+    "arcs.smallest_radius_mm": (1e-6, 1),
     "arcs.largest_radius_mm": (10, 1e9),
     "arcs.radius_mismatch_mm": (0.0005, 10),
     "blending.tolerance_mm": (0, 10),

@@ -98,7 +98,7 @@ class _Writer:
         self.z_scale = 10.0**digits.Z
         self.arc_rules = ArcRules(
             digits.X, digits.I, writing_tolerance(job, post) / unit, math.radians(post.arcs.largest_sweep_deg),
-            post.arcs.largest_radius_mm / unit, post.arcs.radius_mismatch_mm / unit,
+            post.arcs.smallest_radius_mm / unit, post.arcs.largest_radius_mm / unit, post.arcs.radius_mismatch_mm / unit,
         )  # fmt: skip
 
     def write(self, progress: Progress) -> list[int]:
