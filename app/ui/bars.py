@@ -27,6 +27,7 @@ def _button(actions: Actions, name: str, size: int) -> QToolButton:
     button.setIconSize(QSize(20, 20))
     button.setFixedSize(size, size)
     button.setAutoRaise(True)
+    button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
     return button
 
 
@@ -39,7 +40,7 @@ class TopBar(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setFixedHeight(TOP_HEIGHT)
         self._actions = actions
-        self.compute, self.export = QPushButton("Compute  F5"), QPushButton("Export NC")
+        self.compute, self.export = QPushButton(" Compute  F5"), QPushButton(" Export NC")
         row = QHBoxLayout(self)
         row.setContentsMargins(10, 0, 12, 0)
         row.setSpacing(4)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QByteArray, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap
 from PySide6.QtSvg import QSvgRenderer
-from PySide6.QtWidgets import QToolButton, QWidget
+from PySide6.QtWidgets import QLabel, QToolButton, QWidget
 
 from app.resources import resource
 from app.ui.theme import Theme
@@ -46,6 +46,20 @@ def _faded(picture: QPixmap) -> QPixmap:
     painter.drawPixmap(0, 0, picture)
     painter.end()
     return out
+
+
+class IconLabel(QLabel):
+    """An icon of 16 px that follows the theme and does nothing."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__()
+        self._name = name
+        self.setFixedSize(16, 16)
+        self.setScaledContents(True)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Draw the icon in the theme's ink."""
+        self.setPixmap(pixmap(self._name, theme.ink, 3))
 
 
 class IconButton(QToolButton):

@@ -58,7 +58,7 @@ class MainWindow(QMainWindow):
     def _lay_out(self) -> None:
         self.actions_.fill(self.menuBar())
         self.file_label.setProperty("role", "muted")
-        self.file_label.setContentsMargins(0, 0, 16, 0)
+        self.file_label.setContentsMargins(0, 6, 16, 0)
         self.menuBar().setCornerWidget(self.file_label)
         centre = QVBoxLayout()
         centre.setSpacing(0)
@@ -82,6 +82,7 @@ class MainWindow(QMainWindow):
         self.setAcceptDrops(True)
         self.setMinimumSize(960, 640)
         self.resize(*SIZE)
+        self.canvas.setFocus()
 
     def _theme_for(self, choice: ThemeChoice) -> Theme:
         if choice is ThemeChoice.SYSTEM:

@@ -56,7 +56,7 @@ class StatusBar(QWidget):
         row.setContentsMargins(16, 0, 8, 0)
         row.setSpacing(8)
         for label in (self.place_x, self.place_y):
-            label.setFixedWidth(label.fontMetrics().horizontalAdvance("X -9999.999") + 12)
+            label.setFixedWidth(label.fontMetrics().horizontalAdvance("X -999.999"))
             row.addWidget(label)
         row.addWidget(muted("mm"))
         row.addSpacing(4)

@@ -14,6 +14,7 @@ from app.model.operation import Direction, Operation, Order, PocketOperation
 from app.model.part import Units
 from app.model.tool import Tool, ToolKind
 from app.ui.figures import counted
+from app.ui.icons import IconButton
 from app.ui.panels.changes import operation_name, stepover_of, with_cut, with_operation, with_tool
 from app.ui.panels.fields import ChoiceField, ListField, NumberField, Spec, muted
 from app.ui.panels.section import Section
@@ -26,15 +27,23 @@ class Form(Section):
     """A section of fields.
 
     Signals:
-        edited(name, make): the user wants `make(job)` instead of the job; `name` is for the undo list.
+        edited(name, (field, make)): the user wants `make(job)` instead of the job; `name` is for the undo list.
+        removed(): the user wants what the form shows gone.
     """
 
     edited = Signal(str, object)
+    removed = Signal()
 
-    def __init__(self, title: str) -> None:
+    def __init__(self, title: str, removable: str = "") -> None:
         super().__init__(title)
         self.remark = muted()
         self.head.addWidget(self.remark)
+        if removable:
+            self.remove_button = IconButton("remove", f"Remove this {removable} (Del in the list)")
+            self.remove_button.clicked.connect(self.removed)
+            self.head.addWidget(self.remove_button)
+        else:
+            self.head.addSpacing(4)
 
     def add_number(self, spec: Spec, edit: Edit, read: Callable[[str], float] | None = None) -> NumberField:
         """Add a number field; `edit(job, value)` gives the job with that value."""
@@ -91,7 +100,7 @@ class ToolForm(Form):
     """Number, kind, diameter, speed and feeds of one tool."""
 
     def __init__(self) -> None:
-        super().__init__("Tool")
+        super().__init__("Tool", removable="tool")
         self._number = 0
         self.number = self._add(Spec("T number", "", 1, 9999, 0, False), lambda tool, v: replace(tool, number=int(v)))
         self.kind = ListField("Kind", [(ToolKind.FLAT, "Flat end mill")])
@@ -126,7 +135,7 @@ class OperationForm(Form):
     """Tool, depth, stepdown, stepover, stock to leave, direction of one operation."""
 
     def __init__(self) -> None:
-        super().__init__("Operation")
+        super().__init__("Operation", removable="operation")
         self._index, self._diameter = 0, 1.0
         self.tool = ListField("Tool", [])
         self.add_choice("Tool", self.tool, lambda job, v: self._cut(job, tool=v))

@@ -10,7 +10,7 @@ from app.model.job import Job
 from app.model.operation import ContourOperation, Operation, PocketOperation
 from app.model.tool import Tool
 from app.ui.figures import TIMES, clock, grouped
-from app.ui.icons import IconButton
+from app.ui.icons import IconButton, IconLabel
 from app.ui.panels.changes import Subject, SubjectKind, operation_name
 from app.ui.panels.fields import muted
 from app.ui.panels.section import Row, Section
@@ -90,7 +90,7 @@ class JobSection(ListSection):
             label = muted(name)
             label.setFixedWidth(56)
             row = Row(label, value, stretch_after=1)
-            row.setFixedHeight(27)
+            row.setFixedHeight(24)
             self._add_job_row(row)
 
     def _add_job_row(self, row: Row) -> None:
@@ -140,7 +140,7 @@ class ToolSection(ListSection):
         for tool in job.tools:
             number = _bold(f"T{tool.number}")
             number.setMinimumWidth(24)
-            row = Row(number, QLabel(tool.label), muted(f"{grouped(tool.spindle_speed, 0)} rpm"), stretch_after=1)
+            row = Row(IconLabel("cutter"), number, QLabel(tool.label), muted(f"{grouped(tool.spindle_speed, 0)} rpm"), stretch_after=2)
             self.add_row(Subject(SubjectKind.TOOL, tool.number), row)
 
 

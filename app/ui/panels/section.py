@@ -40,10 +40,10 @@ class Section(QWidget):
         self.head.addWidget(self.title)
         self.head.addStretch(1)
         self.rows = QVBoxLayout(self)
-        self.rows.setContentsMargins(0, 10, 0, 10)
+        self.rows.setContentsMargins(0, 8, 0, 8)
         self.rows.setSpacing(0)
         self.rows.addLayout(self.head)
-        self.rows.addSpacing(4)
+        self.rows.addSpacing(2)
 
     def add_indented(self, widget: QWidget) -> None:
         """Add a row that keeps the panel's margins."""
@@ -65,7 +65,7 @@ class Row(QWidget):
         self.setProperty("row", "true")
         self.setProperty("chosen", "false")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        self.setFixedHeight(30)
+        self.setFixedHeight(28)
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         line = QHBoxLayout(self)
         line.setContentsMargins(EDGE, 0, EDGE, 0)

@@ -48,7 +48,7 @@ class SidePanel(QScrollArea):
         inner = QWidget()
         inner.setObjectName("sidePanel")
         column = QVBoxLayout(inner)
-        column.setContentsMargins(1, 0, 0, 8)
+        column.setContentsMargins(1, 4, 0, 8)
         column.setSpacing(0)
         for section in (self.job, self.tools, self.operations):
             column.addWidget(section)
@@ -66,9 +66,11 @@ class SidePanel(QScrollArea):
         for section in (self.job, self.tools, self.operations):
             section.chosen.connect(self.choose)
         self.tools.added.connect(self._add_tool)
-        self.tools.removed.connect(lambda s: self.change("Remove tool", lambda job: changes.without_tool(job, s.key)))
+        self.tools.removed.connect(self._remove)
+        self.tool_form.removed.connect(lambda: self._remove(self.subject))
+        self.operation_form.removed.connect(lambda: self._remove(self.subject))
         self.operations.added.connect(self._add_operation)
-        self.operations.removed.connect(lambda s: self.change("Remove operation", lambda job: changes.without_operation(job, s.key)))
+        self.operations.removed.connect(self._remove)
         self.operations.switched.connect(self._switch)
         for form in (self.job_form, self.tool_form, self.operation_form):
             form.edited.connect(self._on_edited)
@@ -135,6 +137,10 @@ class SidePanel(QScrollArea):
         self.change(name, make, field)
         if self._document.revision == revision:
             self.subject = before
+
+    def _remove(self, subject: Subject) -> None:
+        remove = changes.without_tool if subject.kind is SubjectKind.TOOL else changes.without_operation
+        self.change(f"Remove {subject.kind.value}", lambda job: remove(job, subject.key))
 
     def _add_tool(self) -> None:
         def make(job: Job) -> Job:
