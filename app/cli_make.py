@@ -109,8 +109,9 @@ def _write(made: Made, outputs: dict[str, Path]) -> None:
     texts = {"report": made.report.text().encode()}
     if "image" in outputs:
         from app.files.plot import plot
+        from app.workflow.picture import picture_of
 
-        texts["image"] = plot(made.program, made.job, made.coverage, outputs["image"].suffix.lower())
+        texts["image"] = plot(picture_of(made.job.part.name, made.program, made.coverage), outputs["image"].suffix.lower())
     texts["output"] = made.nc.text.encode("ascii", "replace")
     for name in ("report", "image", "output"):
         if name in outputs:

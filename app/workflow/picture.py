@@ -1,0 +1,40 @@
+"""What a made program looks like: part, paths by what they are for, what is left."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.files.plot import CONTOUR, LINK, POCKET, RAPID, Picture, Style
+from app.geometry.primitives import contour_rows
+from app.model.moves import MoveKind, Moves, Program, Purpose
+from app.toolpath.coverage import Coverage
+from app.toolpath.flat import move_rows
+
+_STYLES = {Purpose.RAPID: RAPID, Purpose.LINK: LINK, Purpose.LEAD: LINK, Purpose.POCKET: POCKET, Purpose.CONTOUR: CONTOUR}
+_ORDER = (RAPID, LINK, POCKET, CONTOUR)
+
+
+def picture_of(name: str, program: Program, coverage: Coverage) -> Picture:
+    """Return the picture of a program, seen from above."""
+    moves = program.moves
+    plunge = (moves.purpose == Purpose.PLUNGE) & (moves.end[:, 2] < moves.start[:, 2])
+    return Picture(
+        title=name,
+        contours=tuple(contour_rows(contour) for region in program.regions for contour in region.contours),
+        paths=tuple(sorted(_runs(moves), key=lambda run: _ORDER.index(run[0]))),
+        plunges=np.unique(moves.end[plunge, :2], axis=0),
+        left=tuple(place.outline for place in coverage.places if place.reachable),
+        unreachable=tuple(place.outline for place in coverage.places if not place.reachable),
+    )
+
+
+def _runs(moves: Moves) -> list[tuple[Style, np.ndarray]]:
+    """Return style and rows of each run of moves of one purpose; moves straight up or down are left out."""
+    if not len(moves):
+        return []
+    rows, purpose = move_rows(moves), np.where(moves.kind == MoveKind.RAPID, Purpose.RAPID, moves.purpose)
+    arc = rows[:, 7] != 0
+    shown = ((rows[:, 0] != rows[:, 2]) | (rows[:, 1] != rows[:, 3]) | arc) & (purpose != Purpose.PLUNGE)
+    cuts = np.flatnonzero((np.diff(purpose) != 0) | (np.diff(shown.astype(int)) != 0)) + 1
+    runs = np.split(np.arange(len(moves)), cuts)
+    return [(_STYLES[Purpose(int(purpose[run[0]]))], rows[run]) for run in runs if shown[run[0]]]
