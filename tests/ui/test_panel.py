@@ -1,0 +1,152 @@
+"""The side panel: fields that accept arithmetic and units, mark what is wrong at once, and change the job undoably."""
+
+import pytest
+from PySide6.QtCore import Qt
+
+from app.edit.document import Document
+from app.model.job import Job, OriginXY
+from app.model.operation import ContourOperation, Cut, PocketOperation
+from app.model.part import Part
+from app.model.tool import Tool
+from app.ui.panels.changes import Subject, SubjectKind
+from app.ui.panels.side_panel import SidePanel
+
+
+@pytest.fixture
+def document() -> Document:
+    return Document(Job(Part()))
+
+
+@pytest.fixture
+def panel(qtbot, document):
+    made = SidePanel(document)
+    qtbot.addWidget(made)
+    made.show()
+    return made
+
+
+def enter(qtbot, field, text: str) -> None:
+    """Replace what stands in a field, as a person does."""
+    field.edit.setFocus()
+    field.edit.selectAll()
+    qtbot.keyClicks(field.edit, text)
+    qtbot.keyClick(field.edit, Qt.Key.Key_Return)
+
+
+def test_arithmetic_and_units_are_read(qtbot, document, panel):
+    enter(qtbot, panel.operation_form.cut_depth, "1in + 8mm")
+    assert document.job.operations[0].cut.depth == pytest.approx(33.4)
+    assert panel.operation_form.cut_depth.edit.text() == "33.400"
+
+
+@pytest.mark.parametrize(("text", "reason"), [
+    ("-1", "use 0.001 to 10000"), ("0", "use 0.001"), ("2 furlongs", "is no unit"), ("3+", "ends too early"), ("", "ends too early"),
+])
+def test_wrong_input_is_marked_at_once_with_the_reason_and_changes_nothing(qtbot, document, panel, text, reason):
+    field, before = panel.operation_form.cut_depth, document.job
+    field.edit.setFocus()
+    field.edit.selectAll()
+    qtbot.keyClick(field.edit, Qt.Key.Key_Backspace)
+    qtbot.keyClicks(field.edit, text)
+    assert field.edit.property("wrong") == "true", "not marked while typing"
+    assert reason in field.reason.text()
+    assert field.reason.isVisible()
+    qtbot.keyClick(field.edit, Qt.Key.Key_Return)
+    assert document.job is before
+
+
+def test_escape_brings_the_old_value_back(qtbot, document, panel):
+    field = panel.operation_form.cut_depth
+    field.edit.setFocus()
+    field.edit.selectAll()
+    qtbot.keyClicks(field.edit, "nonsense")
+    qtbot.keyClick(field.edit, Qt.Key.Key_Escape)
+    assert field.edit.text() == "2.000"
+    assert not field.reason.isVisible()
+
+
+def test_stepover_by_per_cent_shows_overlap(qtbot, document, panel):
+    form = panel.operation_form
+    enter(qtbot, form.stepover, "40%")
+    assert document.job.operations[0].stepover == pytest.approx(2.4)
+    assert form.stepover.note.text() == "40.0 %"
+    assert form.overlap.text() == "3.600 mm"
+
+
+def test_stepover_larger_than_the_tool_is_refused(qtbot, document, panel):
+    enter(qtbot, panel.operation_form.stepover, "7")
+    assert document.job.operations[0].stepover is None
+    assert "less than the tool's diameter, 6 mm" in panel.operation_form.stepover.reason.text()
+
+
+def test_every_change_is_undone_by_its_name(qtbot, document, panel):
+    enter(qtbot, panel.operation_form.cut_depth, "5")
+    panel.choose(Subject(SubjectKind.TOOL, 1))
+    enter(qtbot, panel.tool_form.diameter, "1/4in")
+    assert document.job.tool(1).diameter == pytest.approx(6.35)
+    assert document.undo_name == "Change diameter"
+    document.undo()
+    assert document.job.tool(1).diameter == 6.0
+    assert panel.tool_form.diameter.edit.text() == "6.000"
+    assert document.undo_name == "Change depth"
+
+
+def test_tools_are_added_and_removed_but_not_while_in_use(qtbot, document, panel):
+    qtbot.mouseClick(panel.tools.add_button, Qt.MouseButton.LeftButton)
+    assert [t.number for t in document.job.tools] == [1, 2, 3]
+    assert panel.subject == Subject(SubjectKind.TOOL, 3)
+    qtbot.mouseClick(panel.tool_form.remove_button, Qt.MouseButton.LeftButton)
+    assert [t.number for t in document.job.tools] == [1, 2]
+    panel.choose(Subject(SubjectKind.TOOL, 1))
+    with qtbot.waitSignal(panel.refused) as caught:
+        qtbot.mouseClick(panel.tool_form.remove_button, Qt.MouseButton.LeftButton)
+    assert caught.args[0] == "T1 is used by Pocket; give that operation another tool first."
+
+
+def test_new_number_of_a_tool_follows_into_its_operation(qtbot, document, panel):
+    panel.choose(Subject(SubjectKind.TOOL, 1))
+    enter(qtbot, panel.tool_form.number, "7")
+    assert document.job.operations[0].cut.tool == 7
+    assert panel.subject == Subject(SubjectKind.TOOL, 7)
+    enter(qtbot, panel.tool_form.number, "2")
+    assert "T2 is another tool" in panel.tool_form.number.reason.text()
+    assert panel.subject == Subject(SubjectKind.TOOL, 7)
+
+
+def test_switch_turns_an_operation_off(qtbot, document, panel):
+    qtbot.mouseClick(panel.operations.switches[1], Qt.MouseButton.LeftButton)
+    assert [op.cut.enabled for op in document.job.operations] == [True, False]
+    assert document.undo_name == "Switch operation off"
+
+
+def test_operations_are_added_and_removed(qtbot, document, panel):
+    panel.operations.added.emit(ContourOperation)
+    assert isinstance(document.job.operations[2], ContourOperation)
+    qtbot.mouseClick(panel.operation_form.remove_button, Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(panel.operation_form.remove_button, Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(panel.operation_form.remove_button, Qt.MouseButton.LeftButton)
+    assert document.job.operations == ()
+    assert panel.subject.kind is SubjectKind.JOB
+
+
+def test_contour_has_no_stepover(qtbot, document, panel):
+    panel.choose(Subject(SubjectKind.OPERATION, 1))
+    assert panel.operation_form.title.text() == "Contour"
+    assert not panel.operation_form.stepover.isVisible()
+
+
+def test_stock_and_origin(qtbot, document, panel):
+    panel.choose(Subject(SubjectKind.JOB))
+    enter(qtbot, panel.job_form.margin, "5")
+    panel.job_form.origin_xy.box.setCurrentIndex(1)
+    panel.job_form.origin_xy.box.activated.emit(1)
+    assert document.job.stock.margin == 5.0
+    assert document.job.origin_xy is OriginXY.LOWER_LEFT
+    assert panel.job.origin.text() == "Lower left of stock, top of stock"
+
+
+def test_what_only_the_job_knows_is_said_at_the_field(qtbot, document, panel):
+    document.change_job("Tools", Job(Part(), tools=(Tool(1, 6.0),), operations=(PocketOperation(Cut(1)),)))
+    panel.choose(Subject(SubjectKind.TOOL, 1))
+    enter(qtbot, panel.tool_form.speed, "12in")
+    assert "type the number alone" in panel.tool_form.speed.reason.text()

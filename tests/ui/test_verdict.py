@@ -1,0 +1,40 @@
+"""The verdict's line: measured figures only, the worst finding first."""
+
+from app.model.finding import Finding, FindingKind
+from app.ui.figures import clock, counted, grouped
+from app.ui.verdict import Level, figures, verdict, worst_first
+
+CLEAN = {"gouge": {"count": 0, "max_mm": 0.0}, "left": {"reachable_mm2": 0.0}, "strokes": 2, "time_s": 252.4, "moves": {"G1": 5}}
+GOUGE = Finding(FindingKind.GOUGE, "Cut 0.12 mm into the part.", 41.2, 8.0, amount=0.12)
+OPEN = Finding(FindingKind.OPEN_CONTOUR, "Contour 3 is open.", 1.0, 2.0, amount=0.5)
+CORNER = Finding(FindingKind.LEFT_UNREACHABLE, "Corners stay.", 0.0, 0.0, counts=False)
+
+
+def test_clean_program_shows_its_figures():
+    assert verdict((CORNER,), CLEAN).text == "✓ 0 gouge · 0 left · 2 strokes · 4:12"
+    assert verdict((CORNER,), CLEAN).level is Level.OK
+
+
+def test_what_was_not_measured_is_not_said():
+    assert figures({"strokes": 1}) == "1 stroke"
+
+
+def test_worst_finding_stands_first():
+    shown = verdict((OPEN, CORNER, GOUGE), CLEAN)
+    assert shown.level is Level.BAD
+    assert shown.text == "gouge 0.120 mm at (41.2, 8.0)  +1"
+    assert worst_first((CORNER, OPEN, GOUGE)) == (GOUGE, OPEN, CORNER)
+
+
+def test_finding_of_the_drawing_is_amber():
+    assert verdict((OPEN,), CLEAN).level is Level.REMARK
+
+
+def test_program_without_moves_is_never_green():
+    assert verdict((), CLEAN | {"moves": {"G0": 0, "G1": 0}}).level is Level.REMARK
+
+
+def test_figures_for_people():
+    assert grouped(12000.5, 1) == "12\u2009000.5"
+    assert [clock(s) for s in (5, 252.4, 3725)] == ["0:05", "4:12", "1:02:05"]
+    assert [counted(1, "pass", "passes"), counted(3, "pass", "passes")] == ["1 pass", "3 passes"]
