@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
@@ -40,7 +41,13 @@ def _open(files: list[str]) -> int:
     return _window(Path(files[0]) if files else None)
 
 
+def _has_screen() -> bool:
+    return not sys.platform.startswith("linux") or any(os.environ.get(n) for n in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"))
+
+
 def _window(path: Path | None) -> int:
+    if not _has_screen():
+        return _refuse("there is no screen here to open a window on; start it on a desktop, or use: hitofude make DRAWING -o OUT.ngc")
     try:
         from app.ui.start import start
     except ImportError as error:

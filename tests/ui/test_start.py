@@ -1,0 +1,40 @@
+"""Starting: files that are not there, libraries that are missing and screens that are not there end in one clear line."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+
+def hitofude(*arguments: str, before: str = "pass", **environment: str) -> subprocess.CompletedProcess[str]:
+    program = f"import sys; {before}; sys.argv = ['hitofude', *{list(arguments)!r}]; from app.__main__ import main; sys.exit(main())"
+    surroundings = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")} | environment
+    return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, env=surroundings, timeout=60)
+
+
+@pytest.mark.parametrize(("arguments", "words"), [
+    (("open", "nothing.dxf"), "nothing.dxf: there is no such file"),
+    (("nothing.dxf",), "nothing.dxf: there is no such file"),
+    (("open", "a.dxf", "b.dxf"), "open takes one drawing, not 2"),
+    (("open", "--fast"), "open has no option --fast"),
+    ((), "no screen here"),
+])
+def test_one_line_and_status_2(arguments, words):
+    done = hitofude(*arguments)
+    assert done.returncode == 2
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_missing_libraries_name_the_line_that_installs_them():
+    done = hitofude(before="sys.modules['PySide6.QtCore'] = None", QT_QPA_PLATFORM="offscreen")
+    assert done.returncode == 2
+    assert "apt-get install libegl1" in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_commands_go_to_the_command_line_without_the_window():
+    done = hitofude("--version", before="sys.modules['PySide6'] = None")
+    assert done.returncode == 0
+    assert done.stdout.startswith("hitofude ")
