@@ -120,8 +120,8 @@ class _Engine:
         room = 4 * len(self._active) + 64
         while True:
             pieces = np.empty((room, 3))
-            count = offset_kernels.trim(self._rows, self._primitives.previous, self._vertices, order, nodes, self._boxes,
-                                        self._active, np.array([distance, self._slack]), pieces)
+            count = offset_kernels.trim(self._rows, self._vertices, order, nodes, self._boxes, self._active,
+                                        np.array([distance, self._slack]), pieces)
             if count < room:
                 return self._inside(np.ascontiguousarray(pieces[:count]), distance)
             room *= 4

@@ -214,11 +214,11 @@ def _keep_rest(blocked, blocks, e, limits, pieces, count):  # type: ignore[no-un
     return count
 
 
-_TRIM = "int64(float64[:, ::1], int64[::1], float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1], float64[::1], float64[:, ::1])"
+_TREE = "int64[::1], float64[:, ::1], float64[:, ::1]"
 
 
-@kernel(_TRIM)
-def trim(rows, previous, vertices, order, nodes, boxes, active, level_slack, pieces):  # type: ignore[no-untyped-def]
+@kernel(f"int64(float64[:, ::1], float64[:, ::1], {_TREE}, float64[:, ::1], float64[::1], float64[:, ::1])")
+def trim(rows, vertices, order, nodes, boxes, active, level_slack, pieces):  # type: ignore[no-untyped-def]
     """Write the pieces (element, u0, u1) of a level that no row comes nearer to; return how many.
 
     Args:
@@ -227,9 +227,9 @@ def trim(rows, previous, vertices, order, nodes, boxes, active, level_slack, pie
         level_slack: level and slack, mm: nearer than level - slack is blocked.
         pieces: where to write; a return value of len(pieces) means that there was not enough room.
     """
-    n, count = len(rows), 0
+    count = 0
     shape, box, limits = np.empty(6), np.empty(4), np.empty(5)
-    near = np.empty(n, np.int64)
+    near = np.empty(len(rows), np.int64)
     limits[0], limits[1] = level_slack[0], level_slack[1]
     for a in range(len(active)):
         e, limits[2], limits[3] = int(active[a, 0]), active[a, 1], active[a, 2]
@@ -240,7 +240,7 @@ def trim(rows, previous, vertices, order, nodes, boxes, active, level_slack, pie
         _reach(shape, limits[2], limits[3], limits[0], box)
         found = query_box(order, nodes, boxes, box, near)
         for c in range(found):
-            if near[c] == e or (e >= n and (near[c] == e - n or near[c] == previous[e - n])):
+            if near[c] == e:
                 near[c] = -1
         blocked, blocks = blocked_parts(shape, rows, near, found, limits)
         count = _keep_rest(blocked, blocks, e, limits, pieces, count)

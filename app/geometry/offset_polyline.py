@@ -12,6 +12,7 @@ from app.geometry.primitives import Primitives, Rows, sample
 
 _STEP = 0.05  # mm between points; the chord of a 0.3 mm arc then sags by 1 um
 _CHORD = 1e-4
+_SMALL = 1e-6  # mm; step of the numeric slope
 
 
 def polyline_loops(field: DistanceField, rows: Rows, primitives: Primitives, distance: float) -> list[tuple[NDArray[np.float64], int]]:
@@ -24,10 +25,11 @@ def polyline_loops(field: DistanceField, rows: Rows, primitives: Primitives, dis
     for number in np.unique(primitives.region):
         area = _area(rows, primitives, int(number)).buffer(-distance, quad_segs=32)
         for polygon in getattr(area, "geoms", [area]):
-            for line in (polygon.exterior, *polygon.interiors) if not polygon.is_empty else ():
+            for hole, line in enumerate((polygon.exterior, *polygon.interiors) if not polygon.is_empty else ()):
                 points = _on_level(field, shapely.get_coordinates(shapely.segmentize(line, _STEP))[:-1], distance)
                 if len(points) > 2 and _measures_right(field, points, distance):
-                    loops.append((points if shapely.LinearRing(points).is_ccw == (line is polygon.exterior) else points[::-1], int(number)))
+                    ahead = shapely.LinearRing(points).is_ccw == (hole == 0)
+                    loops.append((points if ahead else points[::-1], int(number)))
     return loops
 
 
@@ -46,8 +48,8 @@ def _on_level(field: DistanceField, points: NDArray[np.float64], distance: float
     """Move points (m, 2) to the given distance from the drawing by Newton steps along the field's slope."""
     for _ in range(3):
         found, _ = field.nearest(points)
-        small = 1e-6
-        slope = np.stack([field.nearest(points + [small, 0])[0] - found, field.nearest(points + [0, small])[0] - found], 1) / small
+        right, up = (field.nearest(points + step)[0] for step in np.eye(2) * _SMALL)
+        slope = np.stack([right - found, up - found], 1) / _SMALL
         size = np.maximum(np.hypot(slope[:, 0], slope[:, 1]), 0.5)
         points = points + slope / size[:, None] ** 2 * (distance - found)[:, None]
     return points

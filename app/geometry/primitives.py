@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,7 +67,7 @@ def _arc_rows(start: tuple[float, float], end: tuple[float, float], centre: tupl
         points.append((centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)))
     points.append(end)
     turn = 1.0 if sweep > 0 else -1.0
-    return [_arc_row(a, b, centre, turn) for a, b in zip(points, points[1:], strict=False)]
+    return [_arc_row(a, b, centre, turn) for a, b in pairwise(points)]
 
 
 def _arc_row(a: tuple[float, float], b: tuple[float, float], centre: tuple[float, float], turn: float) -> tuple[float, ...]:
@@ -90,7 +91,10 @@ def pack(regions: Sequence[Region], even_odd: bool = False) -> Primitives:
         regions: boundaries counter-clockwise, islands clockwise.
         even_odd: contours cross: both sides of each are kept, for the caller to decide by even-odd counting.
     """
-    rows, previous, numbers, forward = [np.zeros((0, 8))], [], [], []
+    rows = [np.zeros((0, 8))]
+    previous: list[int] = []
+    numbers: list[int] = []
+    forward: list[bool] = []
     count = 0
     for region in regions:
         for contour in region.contours:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.spatial import Delaunay, QhullError
@@ -49,7 +50,7 @@ def inward_bridges(levels: Sequence[Level], field: DistanceField) -> list[Bridge
     """
     bridges: list[Bridge] = []
     first = 0
-    for outer, inner in zip(levels, levels[1:], strict=False):
+    for outer, inner in pairwise(levels):
         if not inner.rings:
             break
         target = _Target.of(outer.rings, first)
@@ -135,7 +136,8 @@ def level_bridges(rings: Sequence[Ring], groups: Sequence[int], spacing: float) 
     group = np.array(groups)[ring]
     edges = edges[group[edges[:, 0]] != group[edges[:, 1]]]
     size = np.hypot(*(points[edges[:, 0]] - points[edges[:, 1]]).T)
-    return [Bridge(*(Place(int(ring[i]), int(row[i]), float(part[i])) for i in edges[k]), float(size[k])) for k in np.argsort(size)]
+    places = [Place(int(a), int(b), float(c)) for a, b, c in zip(ring, row, part, strict=True)]
+    return [Bridge(places[edges[k, 0]], places[edges[k, 1]], float(size[k])) for k in np.argsort(size)]
 
 
 def is_clear(field: DistanceField, a: np.ndarray, b: np.ndarray, distance: float) -> bool:

@@ -81,14 +81,12 @@ class MovesBuilder:
     def moves(self) -> Moves:
         """Return everything appended so far."""
         counts = [len(c[2]) for c in self._columns]
-        if not counts:
-            return Moves(np.zeros((0, 3)), np.zeros((0, 2)), *(np.zeros(0, t) for t in (np.uint8, np.uint8, np.int16, np.int16, np.int16)),
-                         np.zeros(0), np.zeros(0, np.int32))
+        purposes = [np.broadcast_to(np.asarray(c[3], np.uint8), n) for c, n in zip(self._columns, counts, strict=True)]
         return Moves(
-            end=np.concatenate([c[0] for c in self._columns]),
-            centre=np.concatenate([c[1] for c in self._columns]),
-            kind=np.concatenate([c[2] for c in self._columns]),
-            purpose=np.concatenate([np.broadcast_to(np.asarray(c[3], np.uint8), n) for c, n in zip(self._columns, counts, strict=True)]),
+            end=np.concatenate([np.zeros((0, 3)), *(c[0] for c in self._columns)]),
+            centre=np.concatenate([np.zeros((0, 2)), *(c[1] for c in self._columns)]),
+            kind=np.concatenate([np.zeros(0, np.uint8), *(c[2] for c in self._columns)]),
+            purpose=np.concatenate([np.zeros(0, np.uint8), *purposes]),
             operation=np.repeat(np.array([c[4].operation for c in self._columns], np.int16), counts),
             tool=np.repeat(np.array([c[4].tool for c in self._columns], np.int16), counts),
             region=np.repeat(np.array([c[5] for c in self._columns], np.int16), counts),

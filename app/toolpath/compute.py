@@ -31,14 +31,14 @@ class Setting:
     """What all operations of one computation share.
 
     Attributes:
-        primitives, field: the drawing's regions as rows, and distances from them.
+        primitives, distances: the drawing's regions as rows, and distances from them.
         findings, polyline_rings, strokes: collected while operations run.
     """
 
     job: Job
     regions: tuple[Region, ...]
     primitives: Primitives
-    field: DistanceField
+    distances: DistanceField
     builder: MovesBuilder
     findings: list[Finding] = field(default_factory=list)
     polyline_rings: int = 0
@@ -106,7 +106,7 @@ def _contour(setting: Setting, index: int, progress: Progress) -> None:
     levels = offset_levels(setting.primitives, [tool.radius + operation.cut.stock_to_leave], progress)
     setting.note(levels)
     setting.findings.extend(too_small(setting.regions, levels[0], tool, counts=True))
-    setting.findings.extend(necks(levels[0], setting.field, tool))
+    setting.findings.extend(necks(levels[0], setting.distances, tool))
     _emit(setting, index, contour_strokes(levels[0].rings, operation.cut.direction))
 
 
@@ -117,14 +117,14 @@ def _pocket(setting: Setting, index: int, progress: Progress) -> None:
     tool = setting.job.tool(operation.cut.tool)
     wall = wall_distance(setting.job)
     outermost = max(wall, operation.cut.stock_to_leave) + tool.radius
-    distances = pocket_distances(outermost, stepover_of(operation, tool), setting.field)
+    distances = pocket_distances(outermost, stepover_of(operation, tool), setting.distances)
     levels = without_empty(offset_levels(setting.primitives, distances, progress.part(0, 0.7))) if distances else ()
     setting.note(levels)
     first = levels[0] if levels else Level(outermost, ())
     setting.findings.extend(too_small(setting.regions, first, tool, counts=wall == 0))
-    setting.findings.extend(necks(first, setting.field, tool))
+    setting.findings.extend(necks(first, setting.distances, tool))
     progress.step(0.7, "Link rings")
-    strokes = link(levels, setting.field, operation.cut.direction)
+    strokes = link(levels, setting.distances, operation.cut.direction)
     setting.strokes += len(strokes) * len(pass_heights(operation.cut.depth, operation.cut.stepdown))
     _emit(setting, index, strokes)
 

@@ -46,8 +46,9 @@ def link(levels: Sequence[Level], field: DistanceField, direction: Direction) ->
     return tuple(walk.stroke(root) for root in _roots(tree, depth))
 
 
-def _point(rings: Sequence[Ring], place: Place) -> np.ndarray:
-    return points_at(rings[place.ring].rows[place.row][None], np.array([place.fraction]))[0]
+def _point(rings: Sequence[Ring], place: Place) -> Rows:
+    point: Rows = points_at(rings[place.ring].rows[place.row][None], np.array([place.fraction]))[0]
+    return point
 
 
 def _roots(tree: _Tree, depth: Sequence[int]) -> list[int]:

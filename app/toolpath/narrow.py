@@ -81,4 +81,4 @@ def _nearest_pairs(parts: Sequence[shapely.Polygon]) -> list[tuple[np.ndarray, n
         part = rest.pop(int(own[k]))
         pairs.append(tuple(shapely.get_coordinates(shapely.shortest_line(part, joined[int(other[k])]))))
         joined.append(part)
-    return pairs  # type: ignore[return-value]  # two points each
+    return pairs
