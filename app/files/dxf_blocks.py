@@ -1,0 +1,147 @@
+"""Walk a DXF space: curves of its entities and of all blocks inserted in it, nested, turned, mirrored, in rows and columns."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from math import cos, isfinite, radians, sin
+from typing import Any
+
+from app.errors import InputError
+from app.files.dxf_affine import Affine, transformed
+from app.files.dxf_curves import NoLength, curves_of, heights_of, plane_of
+from app.model.curves import Curve, Point
+
+MOST_CURVES = 500_000
+"""A drawing that unfolds to more curves than this is refused before it fills the memory."""
+DEEPEST = 64
+"""Blocks nested deeper than this are refused."""
+
+
+@dataclass
+class Sheet:
+    """What a space or a block draws.
+
+    Attributes:
+        curves: (curve, layer) in the sheet's own coordinates, drawing units.
+        left_out: entities that are no curves, by type.
+        without_length: places of entities that draw nothing, None where there is no place.
+        heights: least and greatest Z seen, drawing units.
+    """
+
+    curves: list[tuple[Curve, str]] = field(default_factory=list)
+    left_out: Counter[str] = field(default_factory=Counter)
+    without_length: list[Point | None] = field(default_factory=list)
+    heights: tuple[float, float] = (0.0, 0.0)
+    any_height: bool = False
+
+    def see(self, heights: Iterable[float]) -> None:
+        """Note some Z."""
+        for z in heights:
+            self.heights = (min(self.heights[0], z), max(self.heights[1], z)) if self.any_height else (z, z)
+            self.any_height = True
+
+
+class Walker:
+    """Reads spaces of one document; every block is read once."""
+
+    def __init__(self, document: Any, name: str) -> None:
+        self._document = document
+        self._name = name
+        self._blocks: dict[str, Sheet] = {}
+        self._open: list[str] = []
+
+    def sheet(self, entities: Iterable[Any]) -> Sheet:
+        """Return what some entities draw.
+
+        Raises:
+            InputError: blocks insert themselves, are nested too deep, or unfold to too many curves.
+        """
+        sheet = Sheet()
+        for entity in entities:
+            kind = entity.dxftype()
+            if entity.dxf.hasattr("invisible") and entity.dxf.invisible:
+                sheet.left_out[f"{kind} (invisible)"] += 1
+            elif kind == "INSERT":
+                self._insert(entity, sheet)
+            else:
+                self._draw(entity, kind, sheet)
+            self._bounded(len(sheet.curves))
+        return sheet
+
+    def _draw(self, entity: Any, kind: str, sheet: Sheet) -> None:
+        try:
+            curves = curves_of(entity)
+        except NoLength as nothing:
+            sheet.without_length.append(nothing.args[0])
+            return
+        except (ValueError, ArithmeticError):
+            sheet.without_length.append(None)
+            return
+        if curves is None:
+            sheet.left_out[kind] += 1
+            return
+        sheet.curves += [(curve, entity.dxf.layer) for curve in curves]
+        sheet.see(heights_of(entity))
+
+    def _insert(self, insert: Any, sheet: Sheet) -> None:
+        """Add every copy of a block; what is on its layer 0 takes the layer of the insert."""
+        if insert.attribs:
+            sheet.left_out["ATTRIB"] += len(insert.attribs)
+        if insert.block() is None:
+            sheet.left_out["INSERT of a missing block"] += 1
+            return
+        inner = self._block(insert.dxf.name, insert)
+        places = max(insert.dxf.row_count, 1) * max(insert.dxf.column_count, 1)
+        self._bounded(len(sheet.curves) + len(inner.curves) * places, insert)
+        self._bounded(places, insert)
+        for kind, count in inner.left_out.items():
+            sheet.left_out[kind] += count * places
+        if inner.any_height:
+            sheet.see(z + insert.dxf.insert.z for z in inner.heights)
+        if not inner.curves and not inner.without_length:
+            return
+        for place in _places(insert):
+            sheet.without_length += [None if p is None else place.point(p) for p in inner.without_length]
+            for curve, layer in inner.curves:
+                moved = transformed(curve, place)
+                if moved is None:
+                    sheet.without_length.append(place.point(curve.start))
+                else:
+                    sheet.curves.append((moved, insert.dxf.layer if layer == "0" else layer))
+
+    def _block(self, name: str, insert: Any) -> Sheet:
+        key = name.casefold()
+        if key in self._open:
+            raise InputError(f"{self._name}: block {name} is inserted in itself; break the loop in the CAD program and save again.")
+        if len(self._open) >= DEEPEST:
+            raise InputError(f"{self._name}: blocks are nested deeper than {DEEPEST} levels at block {name}; explode some and save again.")
+        if key not in self._blocks:
+            self._open.append(key)
+            self._blocks[key] = self.sheet(insert.block())
+            self._open.pop()
+        return self._blocks[key]
+
+    def _bounded(self, count: int, insert: Any = None) -> None:
+        if count > MOST_CURVES:
+            where = f" at block {insert.dxf.name}" if insert is not None else ""
+            raise InputError(f"{self._name}: the drawing unfolds to more than {MOST_CURVES} curves{where}; "
+                             "reduce the rows and columns of its inserted blocks.")
+
+
+def _places(insert: Any) -> list[Affine]:
+    """Return the map from block to drawing for each row and column."""
+    matrix = insert.matrix44()
+    origin, x, y = matrix.transform((0, 0, 0)), matrix.transform((1, 0, 0)), matrix.transform((0, 1, 0))
+    numbers = (*origin, *x, *y)
+    if not all(map(isfinite, numbers)):
+        return []
+    plane, angle = plane_of(insert, 0.0), radians(insert.dxf.rotation)
+    places = []
+    for row in range(max(insert.dxf.row_count, 1)):
+        for column in range(max(insert.dxf.column_count, 1)):
+            along, across = column * insert.dxf.column_spacing, row * insert.dxf.row_spacing
+            dx, dy = plane.vector((along * cos(angle) - across * sin(angle), along * sin(angle) + across * cos(angle)))
+            places.append(Affine(x.x - origin.x, y.x - origin.x, x.y - origin.y, y.y - origin.y, origin.x + dx, origin.y + dy))
+    return places

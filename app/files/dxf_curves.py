@@ -1,0 +1,160 @@
+"""One DXF entity to the curves that it draws, seen from above."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from itertools import pairwise
+from typing import Any
+
+from app.files.dxf_affine import IDENTITY, Affine, ellipse, transformed
+from app.files.dxf_splines import spline_curve
+from app.model.curves import Arc, Circle, Curve, Line, Point
+
+_STRAIGHT = 1e-9
+"""A bulge below this bends a segment by less than its length's rounding."""
+_SPLINE_FRAME = 16
+"""Flag of a POLYLINE vertex that only steers the curve and is not on it."""
+
+
+class NoLength(Exception):
+    """An entity draws nothing: zero length or radius, or numbers that are none. The argument is its place or None."""
+
+
+def curves_of(entity: Any) -> list[Curve] | None:
+    """Return the curves of a DXF entity in drawing units, projected along Z; None for a type that is no curve.
+
+    Raises:
+        NoLength: the entity is of a known type but draws nothing.
+    """
+    reader = _READERS.get(entity.dxftype())
+    return None if reader is None else reader(entity)
+
+
+def heights_of(entity: Any) -> Iterable[float]:
+    """Return Z of some points of the entity, drawing units, to tell a flat drawing from a solid one."""
+    kind = entity.dxftype()
+    if kind == "LINE":
+        return entity.dxf.start.z, entity.dxf.end.z
+    if kind == "LWPOLYLINE":
+        return (entity.dxf.elevation * entity.dxf.extrusion.z,)
+    if kind == "POLYLINE":
+        return [v.dxf.location.z for v in entity.vertices] if entity.is_3d_polyline else (entity.dxf.elevation.z,)
+    if kind == "SPLINE":
+        return [p[2] for p in (entity.control_points or entity.fit_points)]
+    return (entity.dxf.center.z * entity.dxf.extrusion.z,) if kind in ("ARC", "CIRCLE") else (entity.dxf.center.z,)
+
+
+def plane_of(entity: Any, height: float) -> Affine:
+    """Return the map from the plane in which a flat entity is drawn (its OCS) to the drawing, seen from above."""
+    extrusion = entity.dxf.extrusion
+    if extrusion.x == 0 and extrusion.y == 0 and extrusion.z > 0:
+        return IDENTITY
+    ocs = entity.ocs()
+    return Affine(ocs.ux.x, ocs.uy.x, ocs.ux.y, ocs.uy.y, ocs.uz.x * height, ocs.uz.y * height)
+
+
+def _line(entity: Any) -> list[Curve]:
+    return [Line(_flat(entity.dxf.start), _flat(entity.dxf.end))]
+
+
+def _circle(entity: Any) -> list[Curve]:
+    centre, radius = entity.dxf.center, abs(entity.dxf.radius)
+    if not radius > 0:
+        raise NoLength(_flat(centre))
+    return _placed(entity, centre.z, [Circle(_flat(centre), radius)])
+
+
+def _arc(entity: Any) -> list[Curve]:
+    centre, radius = entity.dxf.center, abs(entity.dxf.radius)
+    if not radius > 0:
+        raise NoLength(_flat(centre))
+    sweep = (entity.dxf.end_angle - entity.dxf.start_angle) % 360.0
+    if sweep < 1e-9 or sweep > 360.0 - 1e-9:
+        return _placed(entity, centre.z, [Circle(_flat(centre), radius)])
+    start, end = (_polar(_flat(centre), radius, angle) for angle in (entity.dxf.start_angle, entity.dxf.end_angle))
+    return _placed(entity, centre.z, [Arc(start, end, _flat(centre))])
+
+
+def _ellipse(entity: Any) -> list[Curve]:
+    """The minor axis lies across the major one in the plane of the entity, which need not be level."""
+    first, last = entity.dxf.start_param, entity.dxf.end_param
+    sweep = (last - first) % math.tau
+    if sweep < 1e-9 or sweep > math.tau - 1e-9:
+        sweep = math.tau
+    minor = entity.dxf.extrusion.normalize().cross(entity.dxf.major_axis) * entity.dxf.ratio
+    made = ellipse((_flat(entity.dxf.center), _flat(entity.dxf.major_axis), _flat(minor)), first, first + sweep)
+    if made is None:
+        raise NoLength(_flat(entity.dxf.center))
+    return [made]
+
+
+def _lwpolyline(entity: Any) -> list[Curve]:
+    vertices = [((float(x), float(y)), float(bulge)) for x, y, bulge in entity.get_points("xyb")]
+    return _placed(entity, entity.dxf.elevation, _segments(vertices, entity.closed))
+
+
+def _polyline(entity: Any) -> list[Curve] | None:
+    if not (entity.is_2d_polyline or entity.is_3d_polyline):
+        return None
+    shown = [v.dxf for v in entity.vertices if not v.dxf.flags & _SPLINE_FRAME]
+    flat = entity.is_2d_polyline
+    vertices = [(_flat(v.location), float(v.bulge) if flat else 0.0) for v in shown]
+    segments = _segments(vertices, entity.is_closed)
+    return _placed(entity, entity.dxf.elevation.z, segments) if flat else segments
+
+
+def _spline(entity: Any) -> list[Curve]:
+    made = spline_curve(entity)
+    if made is None:
+        points = list(entity.control_points or entity.fit_points)
+        raise NoLength((float(points[0][0]), float(points[0][1])) if points else None)
+    return [made]
+
+
+def _segments(vertices: list[tuple[Point, float]], closed: bool) -> list[Curve]:
+    """Return lines and arcs between vertices; repeated vertices are passed over."""
+    if not vertices:
+        raise NoLength(None)
+    ring = [*vertices, vertices[0]] if closed else vertices
+    found = [_bulged(a, b, bulge) for (a, bulge), (b, _) in pairwise(ring) if a != b]
+    if not found:
+        raise NoLength(vertices[0][0])
+    return found
+
+
+def _bulged(a: Point, b: Point, bulge: float) -> Curve:
+    """Return the segment from a to b; the bulge is the tangent of a quarter of its sweep, positive counter-clockwise."""
+    if abs(bulge) < _STRAIGHT:
+        return Line(a, b)
+    height = (1 / bulge - bulge) / 4
+    centre = ((a[0] + b[0]) / 2 - (b[1] - a[1]) * height, (a[1] + b[1]) / 2 + (b[0] - a[0]) * height)
+    return Arc(a, b, centre, bulge > 0)
+
+
+def _placed(entity: Any, height: float, curves: list[Curve]) -> list[Curve]:
+    plane = plane_of(entity, height)
+    return curves if plane is IDENTITY else list(_seen(curves, plane))
+
+
+def _seen(curves: list[Curve], plane: Affine) -> Iterator[Curve]:
+    for curve in curves:
+        seen = transformed(curve, plane)
+        if seen is None:
+            raise NoLength(plane.point(curve.start))
+        yield seen
+
+
+def _flat(v: Any) -> Point:
+    return float(v.x), float(v.y)
+
+
+def _polar(centre: Point, radius: float, degrees: float) -> Point:
+    angle = math.radians(degrees)
+    return centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)
+
+
+_READERS: dict[str, Callable[[Any], list[Curve] | None]] = {
+    "LINE": _line, "CIRCLE": _circle, "ARC": _arc, "ELLIPSE": _ellipse,
+    "LWPOLYLINE": _lwpolyline, "POLYLINE": _polyline, "SPLINE": _spline,
+}

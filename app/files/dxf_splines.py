@@ -1,0 +1,62 @@
+"""DXF splines of every sort to splines that begin and end on their control points."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from app.model.curves import Spline
+
+Homogeneous = tuple[float, float, float]
+
+
+def spline_curve(entity: Any) -> Spline | None:
+    """Return a SPLINE as a clamped (rational) spline in drawing units; None when it is not a curve at all.
+
+    One given by fit points alone becomes the interpolating cubic that CAD programs draw. One whose knots are not
+    clamped (closed and periodic ones) gets knots inserted at both ends, which leaves its shape as it is.
+    """
+    try:
+        tool = entity.construction_tool()
+    except (ValueError, IndexError, ZeroDivisionError, ArithmeticError):
+        return None
+    points = [(float(p.x), float(p.y)) for p in tool.control_points]
+    knots, degree = [float(k) for k in tool.knots()], tool.order - 1
+    weights = [float(w) for w in tool.weights()] or [1.0] * len(points)
+    if not _sound(points, knots, weights, degree):
+        return None
+    control = [(x * w, y * w, w) for (x, y), w in zip(points, weights, strict=True)]
+    for _ in range(2):
+        control, knots = _clamped_start(control, knots, degree)
+        control, knots = control[::-1], [knots[0] + knots[-1] - k for k in reversed(knots)]
+    rational = any(abs(w - weights[0]) > 1e-12 * weights[0] for w in weights)
+    return Spline(degree, tuple((x / w, y / w) for x, y, w in control), tuple(knots), tuple(w for _, _, w in control) if rational else ())
+
+
+def _sound(points: list[tuple[float, float]], knots: list[float], weights: list[float], degree: int) -> bool:
+    numbers = [v for p in points for v in p] + knots + weights
+    return (degree >= 1 and len(points) > degree and len(knots) == len(points) + degree + 1 and len(weights) == len(points)
+            and all(map(math.isfinite, numbers)) and all(w > 0 for w in weights)
+            and all(a <= b for a, b in zip(knots, knots[1:], strict=False)) and knots[degree] < knots[len(points)])
+
+
+def _clamped_start(control: list[Homogeneous], knots: list[float], degree: int) -> tuple[list[Homogeneous], list[float]]:
+    """Return the same spline from the first knot of its range on, with that knot repeated degree + 1 times.
+
+    References:
+        Knot insertion: Boehm (1980), "Inserting new knots into B-spline curves".
+    """
+    at = knots[degree]
+    while knots.count(at) < degree:
+        k = max(i for i, knot in enumerate(knots) if knot == at)
+        low = [knots[i] for i in range(k - degree + 1, k + 1)]
+        shares = [(at - a) / (b - a) if b > a else 0.0 for a, b in zip(low, knots[k + 1 : k + degree + 1], strict=True)]
+        mixed = [_mix(control[i - 1], control[i], share) for i, share in zip(range(k - degree + 1, k + 1), shares, strict=True)]
+        control = [*control[: k - degree + 1], *mixed, *control[k:]]
+        knots = [*knots[: k + 1], at, *knots[k + 1 :]]
+    last = max(i for i, knot in enumerate(knots) if knot == at)
+    return control[last - degree :], [at, *knots[last - degree + 1 :]]
+
+
+def _mix(a: Homogeneous, b: Homogeneous, share: float) -> Homogeneous:
+    return a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share, a[2] + (b[2] - a[2]) * share
