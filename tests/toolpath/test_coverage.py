@@ -1,0 +1,119 @@
+"""What is left, against areas known by hand and against a fine grid of exact distances."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.model.curves import Circle
+from app.model.finding import FindingKind
+from app.model.job import Job
+from app.model.operation import ContourOperation, Cut, PocketOperation
+from app.model.part import Contour, Part, Region
+from app.model.tool import Tool
+from app.toolpath.coverage import coverage_findings, measure
+from tests.nc.programs import Path, square
+
+DISC = Region(1, Contour((Circle((0.0, 0.0), 10.0),)))
+
+
+def one_tool(diameter: float = 6.0, **cut: float) -> Job:
+    """A job whose only operation is a pocket, 2 mm deep."""
+    return Job(Part(), tools=(Tool(1, diameter),), operations=(PocketOperation(Cut(1, **cut)),))
+
+
+def rings(*radii: float, z: float = -2.0) -> Path:
+    """Full circles about the origin."""
+    path = Path()
+    for radius in radii:
+        path.into_work(radius, 0, z).arc((radius, 0.0, z), (0.0, 0.0)).out_of_work()
+    return path
+
+
+def test_a_round_pocket_that_is_cleared() -> None:
+    found = measure(rings(7.0, 4.0, 1.0).program(DISC), one_tool())
+    assert (found.reachable_left_mm2, found.unreachable_mm2, found.largest_disc_mm, found.places) == (0, 0, 0, ())
+    assert found.area_mm2 == pytest.approx(math.pi * 100, rel=1e-3)
+    assert found.floor_mm == 2.0
+    assert coverage_findings(found) == ()
+
+
+def test_a_ring_that_is_missing_leaves_its_band() -> None:
+    found = measure(rings(7.0).program(DISC), one_tool())
+    assert found.reachable_left_mm2 == pytest.approx(math.pi * 16, rel=1e-3)
+    assert found.places[0].disc_mm == pytest.approx(8, abs=0.01)
+    assert math.hypot(found.places[0].x, found.places[0].y) < 0.01
+    (finding,) = coverage_findings(found)
+    assert finding.kind is FindingKind.LEFT_REACHABLE
+    assert finding.counts
+    assert "50.2" in finding.text
+
+
+def test_a_pass_that_is_not_deep_enough_clears_nothing() -> None:
+    found = measure(rings(7.0, 4.0, 1.0, z=-1.99).program(DISC), one_tool())
+    assert found.reachable_left_mm2 == pytest.approx(math.pi * 100, rel=1e-3)
+
+
+def test_corners_are_out_of_reach_and_no_finding_that_counts() -> None:
+    path = Path().into_work(3, 3, -2)
+    for x, y in ((37, 3), (37, 27), (3, 27), (3, 3), (3, 7), (37, 7), (37, 11), (3, 11), (3, 15), (37, 15), (37, 19), (3, 19), (3, 23), (37, 23)):
+        path.line(x, y, -2)
+    found = measure(path.out_of_work().program(square()), one_tool())
+    assert found.reachable_left_mm2 == 0
+    assert found.unreachable_mm2 == pytest.approx((4 - math.pi) * 9, abs=0.02)
+    assert len(found.places) == 4
+    corner_disc = 2 * 3 * (math.sqrt(2) - 1) / (math.sqrt(2) + 1)
+    assert found.largest_disc_mm == pytest.approx(corner_disc, abs=0.01)
+    assert [(f.kind, f.counts) for f in coverage_findings(found)] == [(FindingKind.LEFT_UNREACHABLE, False)]
+
+
+def test_a_smaller_tool_of_the_job_reaches_the_corners_so_what_it_leaves_counts() -> None:
+    path = rings(7.0, 4.0, 1.0)
+    task = Job(Part(), tools=(Tool(1, 6.0), Tool(2, 1.0)), operations=(PocketOperation(Cut(1)), ContourOperation(Cut(2))))
+    region = replace(square(-10, -10, 10, 10), islands=())
+    found = measure(path.program(region), task)
+    assert found.unreachable_mm2 == pytest.approx((4 - math.pi) * 0.25, abs=0.005)
+    assert found.reachable_left_mm2 == pytest.approx(400 - math.pi * 100 - (4 - math.pi) * 0.25, rel=1e-3)
+
+
+def test_stock_to_leave_is_not_left_by_mistake() -> None:
+    found = measure(rings(6.5, 4.0, 1.0).program(DISC), one_tool(stock_to_leave=0.5))
+    assert (found.reachable_left_mm2, found.unreachable_mm2) == (0, 0)
+    assert found.area_mm2 == pytest.approx(math.pi * 9.5**2, rel=1e-3)
+
+
+def test_a_contour_alone_is_asked_for_its_band_only() -> None:
+    task = Job(Part(), tools=(Tool(1, 6.0),), operations=(ContourOperation(Cut(1)),))
+    assert measure(rings(7.0).program(DISC), task).reachable_left_mm2 == 0
+    assert measure(rings(6.8).program(DISC), task).reachable_left_mm2 == pytest.approx(math.pi * (100 - 9.8**2), rel=1e-2)
+
+
+def test_a_region_too_small_for_every_tool_is_out_of_reach_whole() -> None:
+    found = measure(rings(7.0, 4.0, 1.0).program(DISC, Region(2, Contour((Circle((40.0, 0.0), 2.0),)))), one_tool())
+    assert found.unreachable_mm2 == pytest.approx(math.pi * 4, rel=1e-2)
+    assert found.largest_disc_mm == pytest.approx(4, abs=0.01)
+    assert (found.places[0].x, found.places[0].y) == pytest.approx((40, 0), abs=0.01)
+
+
+def test_agrees_with_a_grid_of_exact_distances() -> None:
+    radii = (7.0, 2.9)
+    found = measure(rings(*radii).program(square(-10, -10, 10, 10)), one_tool(2.2))
+    pitch = 0.01
+    axis = np.arange(-10 + pitch / 2, 10, pitch)
+    x, y = np.meshgrid(axis, axis)
+    r, tool = np.hypot(x, y), 1.1
+    cleared = np.min([np.abs(r - ring) for ring in radii], axis=0) <= tool
+    inner = 10 - tool
+    from_inner = np.hypot(np.maximum(np.abs(x) - inner, 0), np.maximum(np.abs(y) - inner, 0))
+    left = float(np.sum(~cleared & (from_inner <= tool))) * pitch**2
+    assert found.reachable_left_mm2 == pytest.approx(left, abs=0.05)
+    assert found.unreachable_mm2 == pytest.approx((4 - math.pi) * tool**2, abs=0.01)
+
+
+def test_no_operation_no_region_no_moves() -> None:
+    assert measure(rings(7.0).program(DISC), replace(one_tool(), operations=())).area_mm2 == 0
+    off = replace(one_tool(), operations=(PocketOperation(Cut(1, enabled=False)),))
+    assert measure(rings(7.0).program(DISC), off).places == ()
