@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.bitmap.codes import Plane
 from app.bitmap.frame import Frame
-from app.geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, contour_rows
+from app.geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, Rows, contour_rows
 from app.model.part import Contour
 
 
-def draw(frame: Frame, contours: Sequence[Contour]) -> tuple[Plane, Plane]:
+def draw(frame: Frame, contours: Sequence[Contour] | Rows) -> tuple[Plane, Plane]:
     """Return the contour pixels of closed contours as codes, and what lies left of the picture.
 
     Every pixel in which a contour crosses its row's centre line is a contour pixel; an edge counts for y0 <= yc < y1,
@@ -21,7 +20,7 @@ def draw(frame: Frame, contours: Sequence[Contour]) -> tuple[Plane, Plane]:
     its pixels are drawn as R, so that the drawn line is 8-connected.
 
     Args:
-        contours: closed; parts outside the frame are cut off, those left of it still count.
+        contours: closed, or the rows (n, 8) of closed contours; parts outside the frame are cut off, those left of it still count.
 
     Returns:
         (rows, cols) uint8 codes 0, 2, R; (rows,) uint8: 1 where an odd number of crossings lies left of the frame.
@@ -29,12 +28,16 @@ def draw(frame: Frame, contours: Sequence[Contour]) -> tuple[Plane, Plane]:
     from app.bitmap import kernels
 
     plane, left = np.zeros((frame.rows, frame.cols), np.uint8), np.zeros(frame.rows, np.uint8)
-    if contours:
-        kernels.draw(_image_rows(frame, np.concatenate([contour_rows(contour) for contour in contours])), plane, left)
+    rows = contours if isinstance(contours, np.ndarray) else _rows(contours)
+    kernels.draw(_image_rows(frame, rows), plane, left)
     return plane, left
 
 
-def _image_rows(frame: Frame, rows: NDArray[np.float64]) -> NDArray[np.float64]:
+def _rows(contours: Sequence[Contour]) -> Rows:
+    return np.concatenate([np.zeros((0, 8)), *(contour_rows(contour) for contour in contours)])
+
+
+def _image_rows(frame: Frame, rows: Rows) -> Rows:
     """Return lines and arcs (n, 8) in image coordinates; their sense of turning is mirrored with the y axis."""
     image = np.empty_like(rows)
     for x, y in ((X0, Y0), (X1, Y1), (CX, CY)):

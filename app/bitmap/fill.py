@@ -11,6 +11,7 @@ from app.bitmap.codes import Codes, PixelCode, Plane
 from app.bitmap.draw import draw
 from app.bitmap.frame import Frame
 from app.bitmap.trace import trace
+from app.geometry.primitives import Rows
 from app.model.part import Contour
 from app.pool import pool
 
@@ -21,7 +22,7 @@ _BAND = 1 << 20
 """Pixels from which a second thread is worth its start."""
 
 
-def fill(frame: Frame, contours: Sequence[Contour], observer: Observer | None = None) -> Codes:
+def fill(frame: Frame, contours: Sequence[Contour] | Rows, observer: Observer | None = None) -> Codes:
     """Fill what closed contours enclose, by even-odd counting along the rows.
 
     A pixel that is no contour pixel, and whose centre lies on no contour, is filled exactly when its centre is inside
@@ -29,7 +30,7 @@ def fill(frame: Frame, contours: Sequence[Contour], observer: Observer | None = 
     crossings that each pixel noted while it was drawn, not from how the drawn pixels look. Contour pixels are filled.
 
     Args:
-        contours: closed; order, direction and nesting do not matter.
+        contours: closed, or the rows (n, 8) of closed contours; order, direction and nesting do not matter.
         observer: is shown the memory after steps 201 (contour pixels 1), 202 (start pixels 2), 203 (traced pixels 2),
             206 (R where the count is even), 208 (inside I) and 130 (all of them 1). Costs nothing when there is none.
 

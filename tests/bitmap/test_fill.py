@@ -7,6 +7,7 @@ import pytest
 from app.bitmap.codes import Codes, PixelCode, area_mm2
 from app.bitmap.fill import fill
 from app.bitmap.frame import Frame
+from app.geometry.primitives import contour_rows
 from app.model.curves import Arc, Circle, Line
 from app.model.part import Contour
 from tests.bitmap.oracle import strangers, wrong_pixels
@@ -84,6 +85,12 @@ def test_a_contour_twice_leaves_only_its_own_pixels() -> None:
 def test_what_lies_left_of_the_frame_counts() -> None:
     codes = fill(Frame(10, 10, 1.0, 15.0, 15.0), [SQUARE])
     assert np.all(codes.plane == PixelCode.INSIDE)
+
+
+def test_rows_of_an_offset_are_filled_like_contours() -> None:
+    contours = KINDS["arcs"](np.random.default_rng(4), 60.0)
+    rows = np.concatenate([contour_rows(contour) for contour in contours])
+    assert np.array_equal(fill(Frame(60, 60, 1.0), rows).plane, fill(Frame(60, 60, 1.0), contours).plane)
 
 
 def test_nothing_drawn_is_nothing_filled() -> None:
