@@ -1,0 +1,79 @@
+"""All pocket rings of a part, contour tool radius 0.5 mm, pocket tool radius 1.0 mm, stepover 0.9 mm, against other libraries.
+
+Peers get polygons whose chords stay within 1 µm of the drawing, and offset them once a level, from the part, until nothing is
+left; ours gives exact lines and arcs. Every engine starts from regions in its own form and ends with coordinates.
+"""
+
+import importlib.util
+
+import numpy as np
+import pytest
+import shapely
+from pytest_benchmark.fixture import BenchmarkFixture
+
+from app.geometry.distance import DistanceField
+from app.geometry.offset import Level, offset_levels
+from app.geometry.primitives import pack
+from app.model.part import Region
+from app.toolpath.flat import region_shape
+from app.toolpath.pocket import pocket_distances, without_empty
+from tests.benchmarks.conftest import OURS, record
+
+pytestmark = pytest.mark.benchmark
+FIRST, STEPOVER, CHORD, ARC_TOLERANCE = 1.5, 0.9, 1e-3, 1e-3
+
+Named = tuple[str, tuple[Region, ...]]
+
+
+def own_rings(regions: tuple[Region, ...]) -> tuple[Level, ...]:
+    primitives = pack(regions)
+    return without_empty(offset_levels(primitives, pocket_distances(FIRST, STEPOVER, DistanceField.of(primitives.outline))))
+
+
+def shapely_rings(polygon: shapely.Geometry, from_part: bool) -> list[np.ndarray]:
+    """Offset a polygon level by level: each from the part itself, or from the ring before it (which drifts)."""
+    rings, at, level = [], polygon, FIRST
+    while not (at := polygon.buffer(-level, quad_segs=64) if from_part or level == FIRST else at.buffer(-STEPOVER, quad_segs=64)).is_empty:
+        rings.append(shapely.get_coordinates(at))
+        level += STEPOVER
+    return rings
+
+
+def clipper_rings(paths: list[np.ndarray], scale: float) -> list[list[list[list[int]]]]:
+    import pyclipper
+
+    offset = pyclipper.PyclipperOffset(arc_tolerance=ARC_TOLERANCE * scale)
+    offset.AddPaths([np.rint(path * scale).astype(np.int64).tolist() for path in paths], pyclipper.JT_ROUND, pyclipper.ET_CLOSEDPOLYGON)
+    rings, level = [], FIRST
+    while found := offset.Execute(-level * scale):
+        rings.append(found)
+        level += STEPOVER
+    return rings
+
+
+def test_own_rings(benchmark: BenchmarkFixture, part: Named) -> None:
+    name, regions = part
+    levels = benchmark.pedantic(own_rings, (regions,), rounds=3 if name == "complex" else 20, warmup_rounds=1)
+    record(benchmark, f"rings of {name}", OURS)
+    area = abs(sum(ring.area for ring in levels[0].rings))
+    polygon = shapely.union_all([region_shape(region, CHORD) for region in regions])
+    assert area == pytest.approx(polygon.buffer(-FIRST, quad_segs=64).area, rel=1e-4)
+
+
+@pytest.mark.parametrize("from_part", [True, False], ids=["from part", "ring from ring"])
+def test_shapely_rings(benchmark: BenchmarkFixture, part: Named, from_part: bool) -> None:
+    name, regions = part
+    polygon = shapely.union_all([region_shape(region, CHORD) for region in regions])
+    rings = benchmark.pedantic(shapely_rings, (polygon, from_part), rounds=3 if name == "complex" else 20)
+    record(benchmark, f"rings of {name}", f"shapely {'from part' if from_part else 'ring from ring'}")
+    assert len(rings) > 3
+
+
+@pytest.mark.skipif(importlib.util.find_spec("pyclipper") is None, reason="pyclipper is not installed (extra: bench)")
+def test_clipper_rings(benchmark: BenchmarkFixture, part: Named) -> None:
+    name, regions = part
+    polygon = shapely.union_all([region_shape(region, CHORD) for region in regions])
+    parts = [shapely.get_coordinates(ring) for piece in shapely.get_parts(polygon) for ring in (piece.exterior, *piece.interiors)]
+    rings = benchmark.pedantic(clipper_rings, (parts, 1e6), rounds=1 if name == "complex" else 5)
+    record(benchmark, f"rings of {name}", "pyclipper from part")
+    assert len(rings) > 3
