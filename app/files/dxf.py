@@ -10,19 +10,20 @@ from typing import Any
 
 from app import tolerances
 from app.errors import InputError
+from app.files.drawing import Drawing
 from app.files.dxf_affine import scaled, transformed
 from app.files.dxf_blocks import Sheet, Walker
 from app.files.dxf_load import load
-from app.files.drawing import Drawing
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity, Layer, Part, Units
 
 _NAMED_UNITS: dict[int, tuple[float, Units]] = {
-    1: (25.4, Units.INCH), 2: (304.8, Units.FOOT), 3: (1609344.0, Units.FOOT), 4: (1.0, Units.MM), 5: (10.0, Units.CM), 6: (1000.0, Units.M),
-    7: (1e6, Units.M), 8: (25.4e-6, Units.INCH), 9: (25.4e-3, Units.INCH), 10: (914.4, Units.FOOT), 11: (1e-7, Units.MICRON),
-    12: (1e-6, Units.MICRON), 13: (1e-3, Units.MICRON), 14: (100.0, Units.CM), 15: (1e4, Units.M), 16: (1e5, Units.M),
-    21: (1200 / 3937 * 1000, Units.FOOT), 22: (100 / 3937 * 1000, Units.INCH), 23: (3600 / 3937 * 1000, Units.FOOT),
+    1: (25.4, Units.INCH), 2: (304.8, Units.FOOT), 3: (1609344.0, Units.FOOT), 4: (1.0, Units.MM), 5: (10.0, Units.CM),
+    6: (1000.0, Units.M), 7: (1e6, Units.M), 8: (25.4e-6, Units.INCH), 9: (25.4e-3, Units.INCH), 10: (914.4, Units.FOOT),
+    11: (1e-7, Units.MICRON), 12: (1e-6, Units.MICRON), 13: (1e-3, Units.MICRON), 14: (100.0, Units.CM), 15: (1e4, Units.M),
+    16: (1e5, Units.M), 21: (1200 / 3937 * 1000, Units.FOOT), 22: (100 / 3937 * 1000, Units.INCH),
+    23: (3600 / 3937 * 1000, Units.FOOT),
 }
 """$INSUNITS codes: size in mm, and the nearest unit to show the drawing in."""
 
@@ -52,7 +53,8 @@ def read_dxf(data: bytes, name: str = "drawing.dxf", units: Units | None = None,
         raise InputError(f"{name}: the drawing has no lines, arcs or curves to machine{_listed(left_out, '; left out: ')}.")
     part = Part(name=PurePath(name).stem, units=shown, layers=_layers(document)).with_entities(entities)
     part = _on_layers(part, layers, name)
-    findings = [*_unit_findings(units, shown, named), *_damage(repaired), *_nothing(without_length), *_heights(sheet, factor), *_left_out(left_out)]
+    findings = [*_unit_findings(units, shown, named), *_damage(repaired), *_nothing(without_length), *_heights(sheet, factor),
+                *_left_out(left_out)]
     return Drawing(part, tuple(findings), tuple(sorted(left_out.items())), named)
 
 
@@ -98,7 +100,7 @@ def _has_length(curve: Curve) -> bool:
     if isinstance(curve, Line):
         return tolerances.WELD <= math.dist(curve.start, curve.end) < math.inf
     if isinstance(curve, Arc):
-        return tolerances.WELD <= math.dist(curve.start, curve.end) and curve.radius < math.inf
+        return math.dist(curve.start, curve.end) >= tolerances.WELD and curve.radius < math.inf
     if isinstance(curve, Circle):
         return tolerances.WELD <= curve.radius < math.inf and math.isfinite(sum(curve.centre))
     if isinstance(curve, Ellipse):
@@ -116,7 +118,8 @@ def _straightened(curve: Curve) -> Curve:
 
 
 def _layers(document: Any) -> tuple[Layer, ...]:
-    found = [Layer(layer.dxf.name, _colour(layer), not (layer.is_off() or layer.is_frozen()), layer.is_locked()) for layer in document.layers]
+    found = [Layer(layer.dxf.name, _colour(layer), not (layer.is_off() or layer.is_frozen()), layer.is_locked())
+             for layer in document.layers]
     return tuple(found) or (Layer(),)
 
 
@@ -147,16 +150,19 @@ def _on_layers(part: Part, layers: tuple[str, ...], name: str) -> Part:
 def _unit_findings(given: Units | None, shown: Units, named: bool) -> Iterable[Finding]:
     word = shown.name.lower()
     if not named and given is None:
-        yield Finding(FindingKind.LEFT_OUT, f"The drawing names no units; {word} is assumed. Say --units in, or choose the units on opening, "
-                                            "if it is in inches.", counts=False)
+        yield _remark(f"The drawing names no units; {word} is assumed. If it is in inches, say --units in, or choose them on opening.")
     elif named and given is not None and given is not shown:
-        yield Finding(FindingKind.LEFT_OUT, f"The drawing names its own units, {word}; the units given, {given.name.lower()}, are not used.", counts=False)
+        yield _remark(f"The drawing names its own units, {word}; the units given, {given.name.lower()}, are not used.")
+
+
+def _remark(text: str, amount: float | None = None) -> Finding:
+    return Finding(FindingKind.LEFT_OUT, text, counts=False, amount=amount)
 
 
 def _damage(repaired: int) -> Iterable[Finding]:
     if repaired:
-        yield Finding(FindingKind.LEFT_OUT, f"The DXF is damaged; {repaired} faults were repaired on reading. Compare it with the original.",
-                      counts=True, amount=float(repaired))
+        text = f"The DXF is damaged; {repaired} faults were repaired on reading. Compare it with the original."
+        yield Finding(FindingKind.LEFT_OUT, text, amount=float(repaired))
 
 
 def _nothing(places: list[Point | None]) -> Iterable[Finding]:
@@ -169,15 +175,14 @@ def _nothing(places: list[Point | None]) -> Iterable[Finding]:
 
 
 def _heights(sheet: Sheet, factor: float) -> Iterable[Finding]:
-    low, high = sheet.heights
-    if (high - low) * factor > tolerances.CURVE:
-        yield Finding(FindingKind.LEFT_OUT, f"The drawing is not flat, its Z runs from {low * factor:g} to {high * factor:g} mm; "
-                                            "it is read as seen from above.", counts=False, amount=(high - low) * factor)
+    low, high = (z * factor for z in sheet.heights)
+    if high - low > tolerances.CURVE:
+        yield _remark(f"The drawing is not flat, its Z runs from {low:g} to {high:g} mm; it is read as seen from above.", high - low)
 
 
 def _left_out(left_out: Counter[str]) -> Iterable[Finding]:
     if left_out:
-        yield Finding(FindingKind.LEFT_OUT, f"{_listed(left_out, 'Left out: ')}.", counts=False, amount=float(left_out.total()))
+        yield _remark(f"{_listed(left_out, 'Left out: ')}.", float(left_out.total()))
 
 
 def _listed(left_out: Counter[str], before: str) -> str:

@@ -65,7 +65,8 @@ def transformed(curve: Curve, to: Affine) -> Curve | None:
         return Spline(curve.degree, tuple(map(to.point, curve.control_points)), curve.knots, curve.weights)
     if isinstance(curve, Ellipse):
         minor = (-curve.major[1] * curve.ratio, curve.major[0] * curve.ratio)
-        return ellipse((to.point(curve.centre), to.vector(curve.major), to.vector(minor)), curve.start_parameter, curve.end_parameter, curve.ccw)
+        axes = to.point(curve.centre), to.vector(curve.major), to.vector(minor)
+        return ellipse(axes, curve.start_parameter, curve.end_parameter, curve.ccw)
     if to.keeps_circles:
         ccw = curve.ccw != to.mirrors
         if isinstance(curve, Arc):

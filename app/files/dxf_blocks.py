@@ -10,7 +10,7 @@ from typing import Any
 
 from app.errors import InputError
 from app.files.dxf_affine import Affine, transformed
-from app.files.dxf_curves import NoLength, curves_of, heights_of, plane_of
+from app.files.dxf_curves import NoLengthError, curves_of, heights_of, plane_of
 from app.model.curves import Curve, Point
 
 MOST_CURVES = 500_000
@@ -73,7 +73,7 @@ class Walker:
     def _draw(self, entity: Any, kind: str, sheet: Sheet) -> None:
         try:
             curves = curves_of(entity)
-        except NoLength as nothing:
+        except NoLengthError as nothing:
             sheet.without_length.append(nothing.args[0])
             return
         except (ValueError, ArithmeticError):

@@ -17,7 +17,7 @@ _SPLINE_FRAME = 16
 """Flag of a POLYLINE vertex that only steers the curve and is not on it."""
 
 
-class NoLength(Exception):
+class NoLengthError(Exception):
     """An entity draws nothing: zero length or radius, or numbers that are none. The argument is its place or None."""
 
 
@@ -25,7 +25,7 @@ def curves_of(entity: Any) -> list[Curve] | None:
     """Return the curves of a DXF entity in drawing units, projected along Z; None for a type that is no curve.
 
     Raises:
-        NoLength: the entity is of a known type but draws nothing.
+        NoLengthError: the entity is of a known type but draws nothing.
     """
     reader = _READERS.get(entity.dxftype())
     return None if reader is None else reader(entity)
@@ -61,14 +61,14 @@ def _line(entity: Any) -> list[Curve]:
 def _circle(entity: Any) -> list[Curve]:
     centre, radius = entity.dxf.center, abs(entity.dxf.radius)
     if not radius > 0:
-        raise NoLength(_flat(centre))
+        raise NoLengthError(_flat(centre))
     return _placed(entity, centre.z, [Circle(_flat(centre), radius)])
 
 
 def _arc(entity: Any) -> list[Curve]:
     centre, radius = entity.dxf.center, abs(entity.dxf.radius)
     if not radius > 0:
-        raise NoLength(_flat(centre))
+        raise NoLengthError(_flat(centre))
     sweep = (entity.dxf.end_angle - entity.dxf.start_angle) % 360.0
     if sweep < 1e-9 or sweep > 360.0 - 1e-9:
         return _placed(entity, centre.z, [Circle(_flat(centre), radius)])
@@ -85,7 +85,7 @@ def _ellipse(entity: Any) -> list[Curve]:
     minor = entity.dxf.extrusion.normalize().cross(entity.dxf.major_axis) * entity.dxf.ratio
     made = ellipse((_flat(entity.dxf.center), _flat(entity.dxf.major_axis), _flat(minor)), first, first + sweep)
     if made is None:
-        raise NoLength(_flat(entity.dxf.center))
+        raise NoLengthError(_flat(entity.dxf.center))
     return [made]
 
 
@@ -108,18 +108,18 @@ def _spline(entity: Any) -> list[Curve]:
     made = spline_curve(entity)
     if made is None:
         points = list(entity.control_points or entity.fit_points)
-        raise NoLength((float(points[0][0]), float(points[0][1])) if points else None)
+        raise NoLengthError((float(points[0][0]), float(points[0][1])) if points else None)
     return [made]
 
 
 def _segments(vertices: list[tuple[Point, float]], closed: bool) -> list[Curve]:
     """Return lines and arcs between vertices; repeated vertices are passed over."""
     if not vertices:
-        raise NoLength(None)
+        raise NoLengthError(None)
     ring = [*vertices, vertices[0]] if closed else vertices
     found = [_bulged(a, b, bulge) for (a, bulge), (b, _) in pairwise(ring) if a != b]
     if not found:
-        raise NoLength(vertices[0][0])
+        raise NoLengthError(vertices[0][0])
     return found
 
 
@@ -141,7 +141,7 @@ def _seen(curves: list[Curve], plane: Affine) -> Iterator[Curve]:
     for curve in curves:
         seen = transformed(curve, plane)
         if seen is None:
-            raise NoLength(plane.point(curve.start))
+            raise NoLengthError(plane.point(curve.start))
         yield seen
 
 

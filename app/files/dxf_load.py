@@ -37,7 +37,8 @@ def load(data: bytes, name: str) -> tuple[Any, int]:
 
         document, auditor = recover.read(io.BytesIO(data))
     except Exception as error:  # a third-party parser on any bytes at all: its faults must not reach the user raw
-        raise InputError(f"{name}: the DXF is damaged and cannot be repaired ({_short(reason)}); save it again from the CAD program.") from error
+        raise InputError(f"{name}: the DXF is damaged and cannot be repaired ({_short(reason)}); "
+                         "save it again from the CAD program.") from error
     return document, max(1, len(auditor.errors) + len(auditor.fixes))
 
 

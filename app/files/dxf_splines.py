@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any
 
 from app.model.curves import Spline
@@ -37,7 +38,7 @@ def _sound(points: list[tuple[float, float]], knots: list[float], weights: list[
     numbers = [v for p in points for v in p] + knots + weights
     return (degree >= 1 and len(points) > degree and len(knots) == len(points) + degree + 1 and len(weights) == len(points)
             and all(map(math.isfinite, numbers)) and all(w > 0 for w in weights)
-            and all(a <= b for a, b in zip(knots, knots[1:], strict=False)) and knots[degree] < knots[len(points)])
+            and all(a <= b for a, b in pairwise(knots)) and knots[degree] < knots[len(points)])
 
 
 def _clamped_start(control: list[Homogeneous], knots: list[float], degree: int) -> tuple[list[Homogeneous], list[float]]:

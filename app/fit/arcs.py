@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -122,7 +123,8 @@ def _middle_of(a: Floats, b: Floats, c: Floats) -> Floats | None:
     double = 2 * (u[0] * v[1] - u[1] * v[0])
     if abs(double) < 1e-6 * max(float(u @ u), float(v @ v)):
         return None
-    return a + np.array([v[1] * (u @ u) - u[1] * (v @ v), u[0] * (v @ v) - v[0] * (u @ u)]) / double
+    centre: Floats = a + np.array([v[1] * (u @ u) - u[1] * (v @ v), u[0] * (v @ v) - v[0] * (u @ u)]) / double
+    return centre
 
 
 def _levelled(start: Point, end: Point, centre: Point) -> Point:
@@ -142,7 +144,7 @@ def _finer(pieces: Pieces, fit: _Fit, bound: float, tolerance: float) -> list[_F
 
 def _smooth_stretches(pieces: Pieces) -> list[tuple[float, float]]:
     corners = pieces.corners()
-    return list(zip(corners, corners[1:], strict=False))
+    return list(pairwise(corners))
 
 
 def _stretch(pieces: Pieces, first: float, last: float, target: float) -> list[_Fit]:
@@ -236,7 +238,7 @@ def _bounds(pieces: Pieces, fits: list[_Fit]) -> list[float]:
         bound[arcs] = Pieces(small.control[arcs]).off_circles(start[arcs], centre[arcs])
     result = np.zeros(len(fits))
     np.maximum.at(result, fit_of[owners], bound)
-    return result.tolist()  # type: ignore[no-any-return]
+    return [float(bound) for bound in result]
 
 
 def _shares(pieces: Pieces, fits: list[_Fit]) -> list[tuple[float, float]]:

@@ -32,7 +32,7 @@ class Pieces:
     @property
     def degree(self) -> int:
         """Degree p."""
-        return self.control.shape[1] - 1
+        return int(self.control.shape[1]) - 1
 
     @property
     def polygon(self) -> Floats:

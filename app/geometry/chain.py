@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from app import tolerances
 from app.geometry.chain_crossings import crossings
-from app.geometry.chain_findings import branch_findings, gap_findings, open_findings, overlap_findings, repeat_findings
+from app.geometry.chain_findings import Shared, branch_findings, gap_findings, open_findings, overlap_findings, repeat_findings
 from app.geometry.chain_join import Nodes, brought_together, nodes_of
 from app.geometry.chain_overlap import Overlap, covered, repeated, shared_stretches, twin_contours
 from app.geometry.chain_pieces import Piece, pieces_from
@@ -45,20 +45,27 @@ def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -
         Overlaps that are longer than the tolerance are left as they are and reported.
     """
     pieces, findings = pieces_from(entities)
-    reach = min(tolerances.CURVE, max(join_tolerance, tolerances.WELD))
     nodes = nodes_of(pieces, join_tolerance)
-    repeats = repeated(pieces, nodes, max(join_tolerance, tolerances.WELD))
-    findings += overlap_findings(pieces, repeats, join_tolerance)
-    known = {(pieces[o.first].entity, pieces[o.second].entity) for o in repeats}
-    pieces, nodes = _without(pieces, nodes, repeats)
-    overlaps = covered(pieces, nodes, _new(pieces, shared_stretches(pieces, reach), known), reach)
-    findings += overlap_findings(pieces, overlaps, join_tolerance)
-    pieces, nodes = _without(pieces, nodes, overlaps)
-    pieces, gaps = brought_together(pieces, nodes)
+    pieces, nodes, overlaps = _thinned(pieces, nodes, join_tolerance)
+    pieces, nodes, gaps = brought_together(pieces, nodes)
     found, branches = paths(pieces, nodes)
     contours, doubles = _once([_contour(pieces, steps, closed) for steps, closed in found])
-    findings += [*gap_findings(gaps), *branch_findings(branches), *repeat_findings(doubles), *open_findings(contours), *crossings(contours)]
+    findings += [*overlap_findings(overlaps, contours, join_tolerance), *repeat_findings(doubles), *gap_findings(gaps),
+                 *branch_findings(branches), *open_findings(contours), *crossings(contours, [place for place, ends in branches if ends % 2])]
     return Chaining(tuple(contours), tuple(findings))
+
+
+def _thinned(pieces: list[Piece], nodes: Nodes, join_tolerance: float) -> tuple[list[Piece], Nodes, list[Shared]]:
+    """Return what is left without curves that only repeat others, and all overlaps that were found on the way."""
+    reach = min(tolerances.CURVE, max(join_tolerance, tolerances.WELD))
+    repeats = repeated(pieces, nodes, max(min(join_tolerance, tolerances.JOIN), tolerances.WELD))
+    shared = [Shared(pieces[o.first], pieces[o.second], o) for o in repeats]
+    known = {(s.first.entity, s.second.entity) for s in shared}
+    pieces, nodes = _without(pieces, nodes, repeats)
+    overlaps = [o for o in shared_stretches(pieces, reach) if (pieces[o.first].entity, pieces[o.second].entity) not in known]
+    overlaps = covered(pieces, nodes, overlaps, reach)
+    shared += [Shared(pieces[o.first], pieces[o.second], o) for o in overlaps]
+    return *_without(pieces, nodes, overlaps), shared
 
 
 def _without(pieces: list[Piece], nodes: Nodes, overlaps: Sequence[Overlap]) -> tuple[list[Piece], Nodes]:
@@ -71,11 +78,6 @@ def _contour(pieces: Sequence[Piece], steps: Sequence[Step], closed: bool) -> Co
     members = [pieces[k] if forward else pieces[k].reversed() for k, forward in steps]
     return Contour(tuple(p for piece in members for p in piece.primitives), closed, pieces[min(steps)[0]].layer,
                    tuple(piece.entity for piece in members), max(piece.deviation for piece in members))
-
-
-def _new(pieces: Sequence[Piece], overlaps: Sequence[Overlap], known: set[tuple[int, int]]) -> list[Overlap]:
-    """Return the overlaps of entities that were not reported yet."""
-    return [o for o in overlaps if (pieces[o.first].entity, pieces[o.second].entity) not in known]
 
 
 def _once(contours: list[Contour]) -> tuple[list[Contour], list[tuple[Contour, Contour]]]:

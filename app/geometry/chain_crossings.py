@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from app import tolerances
 from app.geometry.chain_findings import LIMIT, at, limited
 from app.geometry.chain_overlap import near_pairs
-from app.geometry.primitives import CX, R, TURN, X1, Rows, curve_rows, sweeps
+from app.geometry.primitives import CX, TURN, X1, R, Rows, curve_rows, sweeps
+from app.model.curves import Point
 from app.model.finding import Finding, FindingKind
 from app.model.part import Contour
 
@@ -28,7 +29,6 @@ class _Table:
     Attributes:
         contour: (n,) index of the contour of each row.
         before, after: (n,) neighbouring rows in the contour, -1 at an open end.
-        entity: (n,) entity id, or 0 where it is not known.
     """
 
     rows: Rows
@@ -37,18 +37,26 @@ class _Table:
     after: Indices
 
 
-def crossings(contours: Sequence[Contour]) -> list[Finding]:
-    """Return a finding for each pair of contours, or contour with itself, that cross (counts) or touch (a remark)."""
+def crossings(contours: Sequence[Contour], branches: Sequence[Point] = ()) -> list[Finding]:
+    """Return a finding for each pair of contours, or contour with itself, that cross (counts) or touch (a remark).
+
+    Args:
+        contours: closed and open ones.
+        branches: points of which it has been said that too many ends meet there; what only touches there is passed over.
+    """
     table = _table(contours)
     i, j = near_pairs(table.rows, tolerances.WELD)
     points, i, j = _contacts(table.rows, i, j)
     keep = ~_is_joint(table, points, i, j)
     points, i, j = points[keep], i[keep], j[keep]
     crossing = _crosses(table, points, i, j)
+    said = {_cell(place) for place in branches}
     found = []
     for sort in (True, False):
-        groups: dict[tuple[int, int], list[tuple[float, float]]] = {}
+        groups: dict[tuple[int, int], list[Point]] = {}
         for k in np.flatnonzero(crossing == sort):
+            if not sort and _cell((points[k, 0], points[k, 1])) in said:
+                continue
             pair = sorted((int(table.contour[i[k]]), int(table.contour[j[k]])))
             groups.setdefault((pair[0], pair[1]), []).append((float(points[k, 0]), float(points[k, 1])))
         sentences = [_sentence(contours, pair, _distinct(places), sort) for pair, places in sorted(groups.items())]
@@ -56,7 +64,7 @@ def crossings(contours: Sequence[Contour]) -> list[Finding]:
     return found
 
 
-def _sentence(contours: Sequence[Contour], pair: tuple[int, int], places: list[tuple[float, float]], crossing: bool) -> Finding:
+def _sentence(contours: Sequence[Contour], pair: tuple[int, int], places: list[Point], crossing: bool) -> Finding:
     a, b = pair
     verb = "cross" if crossing else "touch"
     who = f"Contour {a + 1} {verb}es itself" if a == b else f"Contours {a + 1} and {b + 1} {verb}"
@@ -64,16 +72,22 @@ def _sentence(contours: Sequence[Contour], pair: tuple[int, int], places: list[t
     more = f" and {len(places) - _NAMED} more places" if len(places) > _NAMED else ""
     advice = " Trim or move one of them." if crossing else ""
     ids = contours[a].entity_ids if a == b else contours[a].entity_ids + contours[b].entity_ids
-    return Finding(FindingKind.SELF_INTERSECTION, f"{who} at {where}{more}.{advice}", *places[0], crossing, ids[: 10 * LIMIT], float(len(places)))
+    text = f"{who} at {where}{more}.{advice}"
+    return Finding(FindingKind.SELF_INTERSECTION, text, *places[0], crossing, ids[: 10 * LIMIT], float(len(places)))
 
 
-def _distinct(places: list[tuple[float, float]]) -> list[tuple[float, float]]:
+def _distinct(places: list[Point]) -> list[Point]:
     """Return each place once; one contact is found in up to four pairs of rows."""
-    return list({(round(x, 4), round(y, 4)): (x, y) for x, y in places}.values())
+    return list({_cell(place): place for place in places}.values())
+
+
+def _cell(place: Point) -> tuple[int, int]:
+    return round(place[0] * 1e4), round(place[1] * 1e4)
 
 
 def _table(contours: Sequence[Contour]) -> _Table:
-    rows, contour, before, after = [], [], [], []
+    rows: list[tuple[float, ...]] = []
+    contour, before, after = [], [], []
     for number, each in enumerate(contours):
         first = len(rows)
         for primitive in each.primitives:

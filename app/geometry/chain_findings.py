@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 from app import tolerances
 from app.geometry.chain_overlap import Overlap
@@ -42,21 +43,36 @@ def _names(a: Piece, b: Piece) -> str:
     return f"{one.capitalize()} {a.entity} and {other} {b.entity}"
 
 
-def overlap_findings(pieces: Sequence[Piece], overlaps: Iterable[Overlap], join_tolerance: float) -> list[Finding]:
-    """Return a finding for each overlap; one that was removed, is a shared wall, or has been joined is a remark."""
+@dataclass(frozen=True, slots=True)
+class Shared:
+    """An overlap and the pieces that it joins."""
+
+    first: Piece
+    second: Piece
+    overlap: Overlap
+
+
+def overlap_findings(shared: Iterable[Shared], contours: Sequence[Contour], join_tolerance: float) -> list[Finding]:
+    """Return a finding for each overlap; one that was removed, joined, or is the wall of two outlines is a remark."""
+    place = {entity: k for k, contour in enumerate(contours) for entity in contour.entity_ids}
     found = []
-    for overlap in overlaps:
-        a, b = pieces[overlap.first], pieces[overlap.second]
+    for each in shared:
+        a, b, overlap = each.first, each.second, each.overlap
         middle = ((overlap.start[0] + overlap.end[0]) / 2, (overlap.start[1] + overlap.end[1]) / 2)
-        text = f"{_names(a, b)} overlap by {overlap.length:.3f} mm from {at(overlap.start)} to {at(overlap.end)}"
+        one, other = place.get(a.entity), place.get(b.entity)
         counts = False
         if overlap.removed:
-            text += f"; {_noun(b.primitives[0])} {b.entity} adds nothing and is left out."
+            what = f"; {_noun(b.primitives[0])} {b.entity} adds nothing and is left out."
+        elif one is None or other is None:
+            continue
+        elif one != other and contours[one].closed and contours[other].closed:
+            what = f"; contours {one + 1} and {other + 1} share this stretch."
         elif overlap.length <= join_tolerance + tolerances.WELD:
-            text += "; their ends were joined."
+            what = "; their ends were joined."
         else:
-            text += f"; trim one, or join with a tolerance above {overlap.length:.3g} mm if that is small enough for the part."
+            what = f"; trim one, or join with a tolerance of {rounded_up(overlap.length)} mm if that is small enough for the part."
             counts = True
+        text = f"{_names(a, b)} overlap by {overlap.length:.3f} mm from {at(overlap.start)} to {at(overlap.end)}{what}"
         found.append(Finding(FindingKind.OVERLAP, text, *middle, counts, (a.entity, b.entity), overlap.length))
     return limited(found, "overlapping curves")
 
@@ -82,13 +98,13 @@ def gap_findings(gaps: Sequence[tuple[float, Point]]) -> list[Finding]:
 
 
 def branch_findings(branches: Sequence[tuple[Point, int]]) -> list[Finding]:
-    """Return a finding for each point where three or more ends meet; an odd number leaves one over, which counts."""
+    """Return a finding for each point where an odd number of ends meet; where an even number does, outlines only touch."""
     found = []
     for place, ends in branches:
-        text = f"{ends} ends meet at {at(place)}; " + ("one of them belongs to no outline: delete it or complete it." if ends % 2
-                                                       else "outlines touch there.")
-        found.append(Finding(FindingKind.SELF_INTERSECTION, text, *place, ends % 2 == 1, (), float(ends)))
-    return limited(found, "points where more than two ends meet")
+        if ends % 2:
+            text = f"{ends} ends meet at {at(place)}; one of them belongs to no outline: delete or complete it."
+            found.append(Finding(FindingKind.SELF_INTERSECTION, text, *place, True, (), float(ends)))
+    return limited(found, "points where one end too many meets others")
 
 
 def open_findings(contours: Sequence[Contour]) -> list[Finding]:
@@ -100,14 +116,14 @@ def open_findings(contours: Sequence[Contour]) -> list[Finding]:
         start, end = contour.primitives[0].start, contour.primitives[-1].end
         gap = math.dist(start, end)
         length = sum(length_of(p) for p in contour.primitives)
-        advice = (f"Join with tolerance {_rounded_up(gap)} or edit the ends." if gap < 0.1 * length
+        advice = (f"Join with tolerance {rounded_up(gap)} or edit the ends." if gap < 0.1 * length
                   else "Complete it, or move it to a layer that is not machined.")
         text = f"Contour {number} is open by {gap:.3g} mm: its loose ends are at {at(start)} and {at(end)}. {advice}"
         found.append(Finding(FindingKind.OPEN_CONTOUR, text, *start, True, contour.entity_ids, gap))
     return limited(found, "open contours")
 
 
-def _rounded_up(gap: float) -> str:
+def rounded_up(gap: float) -> str:
     """Return the next of 1, 2, 5 times a power of ten above the gap, as text."""
     scale = 10.0 ** math.floor(math.log10(max(gap, tolerances.WELD)))
     return f"{next((m * scale for m in (1, 2, 5) if m * scale >= gap - tolerances.WELD), 10 * scale):g}"

@@ -86,10 +86,11 @@ def _may_meet(pieces: Sequence[Piece], a: int, b: int, gap: float) -> bool:
     return not (len(piece.primitives) == 1 and isinstance(piece.primitives[0], Line)) and sum(map(length_of, piece.primitives)) > 3 * gap
 
 
-def brought_together(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[Piece], list[tuple[float, Point]]]:
-    """Return the pieces with ends that meet exactly at each point, and (size, place) of every gap wider than 1 um.
+def brought_together(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[Piece], Nodes, list[tuple[float, Point]]]:
+    """Return the pieces with ends that meet exactly, their nodes, and (size, place) of every gap wider than 1 um.
 
-    Lines give way to arcs: the point is the mean of the arcs' ends there, or of all ends when there are only lines.
+    Pieces that shrink to nothing are left out. Lines give way to arcs: the point where ends meet is the mean of the
+    arcs' ends there, or of all ends when there are only lines.
     """
     ends: dict[int, list[tuple[Point, bool]]] = {}
     for piece, (a, b) in zip(pieces, nodes.tolist(), strict=True):
@@ -107,8 +108,10 @@ def brought_together(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[Piece]
         gap = max(math.dist(p, q) for p in points for q in points)
         if gap > tolerances.CURVE:
             gaps.append((gap, target[node]))
-    moved = [piece if a < 0 else with_ends(piece, target[a], target[b]) for piece, (a, b) in zip(pieces, nodes.tolist(), strict=True)]
-    return moved, gaps
+    moved = [piece if a < 0 else with_ends(piece, target[a], target[b])
+             for piece, (a, b) in zip(pieces, nodes.tolist(), strict=True)]
+    kept = [k for k, piece in enumerate(moved) if piece.primitives]
+    return [moved[k] for k in kept], nodes[kept] if len(nodes) else nodes, gaps
 
 
 def _mean(points: list[Point]) -> Point:

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app import tolerances
 from app.geometry.chain_pieces import Piece, length_of
-from app.geometry.primitives import CX, R, TURN, X0, X1, Rows, boxes, contour_rows, curve_rows, points_at, sweeps
+from app.geometry.primitives import CX, TURN, X0, X1, R, Rows, boxes, contour_rows, curve_rows, points_at, sweeps
 from app.geometry.primitives import lengths as row_lengths
 from app.model.curves import Circle, Point
 from app.model.part import Contour
@@ -140,11 +141,24 @@ def near_pairs(rows: Rows, reach: float) -> tuple[NDArray[np.int64], NDArray[np.
         return np.zeros(0, np.int64), np.zeros(0, np.int64)
     import shapely
 
-    around = boxes(rows)
+    split, owner = _quarters(rows)
+    around = boxes(split)
     wide = shapely.box(around[:, 0] - reach, around[:, 1] - reach, around[:, 2] + reach, around[:, 3] + reach)
-    i, j = shapely.STRtree(wide).query(wide)
-    once = i < j
-    return i[once].astype(np.int64), j[once].astype(np.int64)
+    a, b = shapely.STRtree(wide).query(wide)
+    i, j = owner[a], owner[b]
+    codes = np.unique(i[i < j] * len(rows) + j[i < j])
+    return codes // len(rows), codes % len(rows)
+
+
+def _quarters(rows: Rows) -> tuple[Rows, NDArray[np.int64]]:
+    """Return rows with each arc cut into four, whose boxes are lean, and the index of the row that each is from."""
+    arcs = np.flatnonzero(rows[:, TURN] != 0)
+    if len(arcs) == 0:
+        return rows, np.arange(len(rows))
+    cuts = [points_at(rows[arcs], np.full(len(arcs), share)) for share in (0.0, 0.25, 0.5, 0.75, 1.0)]
+    parts = [np.hstack([start, end, rows[arcs, CX:]]) for start, end in pairwise(cuts)]
+    lines = np.flatnonzero(rows[:, TURN] == 0)
+    return np.concatenate([rows[lines], *parts]), np.concatenate([lines, *[arcs] * 4])
 
 
 def _line_share(a: Rows, b: Rows, reach: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -238,4 +252,5 @@ def _distances(rows: Rows, point: NDArray[np.float64]) -> NDArray[np.float64]:
         (out[:, 0] * last[:, 1] - out[:, 1] * last[:, 0]) * rows[:, TURN] >= 0)
     ends = np.minimum(np.hypot(*arm.T), np.hypot(*(point - rows[:, X1 : X1 + 2]).T))
     curved = np.where(within, np.abs(np.hypot(*out.T) - rows[:, R]), ends)
-    return np.where(rows[:, TURN] == 0, straight, curved)
+    result: NDArray[np.float64] = np.where(rows[:, TURN] == 0, straight, curved)
+    return result

@@ -96,14 +96,14 @@ def _primitives(entity: Entity) -> tuple[tuple[Primitive, ...], float]:
 def with_ends(piece: Piece, start: Point, end: Point) -> Piece:
     """Return the piece with its ends moved to meet its neighbours exactly.
 
-    Lines turn; arcs stay true arcs, with the centre nearest to the old one that is equally far from both ends. Where
-    an arc would leave its circle by more than twice the gap, or a line would be turned round, the piece stays and a
-    short line bridges the gap.
+    Lines turn, and one that is shorter than its gaps may vanish (no primitives are left). Arcs stay true arcs, with
+    the centre nearest to the old one that is equally far from both ends. An arc that would leave its circle by more
+    than twice the gap, as nearly full ones do, stays as it is and a short line bridges the gap.
     """
     if piece.is_circle or (start == piece.start and end == piece.end):
         return piece
     if start == end and len(piece.primitives) == 1:
-        return _closed_on_itself(piece, start)
+        return _closed_on_itself(piece)
     ends = (start, end) if len(piece.primitives) == 1 else (start, piece.primitives[0].end)
     first, off = _moved(piece.primitives[0], *ends)
     body, deviation = [*first, *piece.primitives[1:]], off
@@ -113,11 +113,11 @@ def with_ends(piece: Piece, start: Point, end: Point) -> Piece:
     return replace(piece, primitives=tuple(body), deviation=piece.deviation + deviation)
 
 
-def _closed_on_itself(piece: Piece, place: Point) -> Piece:
-    """Return an arc whose ends meet as a full circle."""
+def _closed_on_itself(piece: Piece) -> Piece:
+    """Return an arc whose ends meet as a full circle, and a line, or an arc as short as its gap, as nothing."""
     arc = piece.primitives[0]
-    if not isinstance(arc, Arc):
-        return piece
+    if not isinstance(arc, Arc) or abs(arc.sweep) < math.pi:
+        return replace(piece, primitives=())
     gap = math.dist(arc.start, arc.end)
     return replace(piece, primitives=(Circle(arc.centre, arc.radius, arc.ccw),), deviation=piece.deviation + gap)
 
@@ -129,9 +129,8 @@ def _moved(primitive: Primitive, start: Point, end: Point) -> tuple[list[Primiti
     if gap == 0.0:
         return [primitive], 0.0
     if isinstance(primitive, Line):
-        if math.dist(primitive.start, primitive.end) > 2 * (gaps[0] + gaps[1]):
-            return [Line(start, end)], gap
-    elif isinstance(primitive, Arc) and start != end:
+        return ([Line(start, end)] if start != end else []), gap
+    if isinstance(primitive, Arc) and start != end:
         arc = Arc(start, end, equally_far(start, end, primitive.centre), primitive.ccw)
         off = max(math.dist(arc.centre, primitive.centre) + abs(arc.radius - primitive.radius), gap)
         if off <= max(_AMPLIFIED * gap, tolerances.WELD) and abs(arc.sweep - primitive.sweep) < math.pi:
