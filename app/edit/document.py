@@ -18,14 +18,15 @@ from app.model.part import Part
 
 
 class Change(Flag):
-    """What listeners should look at again."""
+    """What listeners should look at again; LOADED says that it is another document."""
 
     PART = auto()
     JOB = auto()
     SELECTION = auto()
     LOG = auto()
     HISTORY = auto()
-    ALL = PART | JOB | SELECTION | LOG | HISTORY
+    LOADED = auto()
+    ALL = PART | JOB | SELECTION | LOG | HISTORY | LOADED
 
 
 @dataclass(frozen=True, slots=True)

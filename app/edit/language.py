@@ -29,9 +29,16 @@ Command = Edit | Select | Undo | Redo
 
 ALIASES = {
     "li": "line", "l": "line", "pl": "polyline", "ar": "arc", "a": "arc", "ci": "circle", "c": "circle", "re": "rect",
-    "rectangle": "rect", "del": "delete", "erase": "delete", "mo": "move", "se": "select", "la": "layer", "u": "undo", "center": "centre",
+    "rectangle": "rect", "del": "delete", "erase": "delete", "mo": "move", "se": "select", "la": "layer", "u": "undo",
 }
 """Short and other words for the commands."""
+
+
+def command_word(text: str) -> str | None:
+    """Return the command that a line begins with, aliases spelled out, or None when it begins with none."""
+    first = text.split(maxsplit=1)[:1]
+    word = ALIASES.get(first[0].lower(), first[0].lower()) if first else ""
+    return word if word in _READERS else None
 
 
 def parse(line: str, context: Context | None = None) -> Command:

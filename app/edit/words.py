@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import groupby
 
 from app.edit.errors import CommandError
 from app.edit.numbers import angle, length, number_text
 from app.model.curves import Point
 
+_RANGE = re.compile(r"([0-9]{1,9})(?:-([0-9]{1,9}))?")
+_LARGEST_RANGE = 1_000_000
 _WORD = re.compile(r'"[^"]*"(?=\s|$)|\S+')
 
 
@@ -50,6 +54,13 @@ def read_point(text: str, base: Point, column: int = 1) -> Point:
 def point_text(point: Point) -> str:
     """Return the text that `read_point` reads back as exactly this point."""
     return f"{number_text(point[0])},{number_text(point[1])}"
+
+
+def ids_text(ids: Iterable[int]) -> str:
+    """Return entity numbers as `Words.ids` reads them back, neighbours as ranges."""
+    ordered = sorted(ids)
+    runs = [[i for _, i in run] for _, run in groupby(enumerate(ordered), key=lambda pair: pair[1] - pair[0])]
+    return " ".join(str(run[0]) if len(run) == 1 else f"{run[0]}-{run[-1]}" for run in runs)
 
 
 class Words:
@@ -117,13 +128,15 @@ class Words:
         return self.take(expected).text.strip('"')
 
     def ids(self) -> tuple[int, ...]:
-        """Read entity numbers to the end of the line."""
-        found = []
+        """Read entity numbers and ranges such as 4-17 to the end of the line."""
+        found: list[int] = []
         while self.more:
             word = self.take("an entity number")
-            if not word.text.isascii() or not word.text.isdigit() or len(word.text) > 9:
-                raise CommandError(f"'{word.text}' is no entity number; write numbers such as 4 7 12.", word.column)
-            found.append(int(word.text))
+            match = _RANGE.fullmatch(word.text)
+            first, last = (int(match[1]), int(match[2] or match[1])) if match else (0, -1)
+            if not 0 <= last - first < _LARGEST_RANGE:
+                raise CommandError(f"'{word.text}' is no entity number; write numbers such as 4 7 12-20.", word.column)
+            found.extend(range(first, last + 1))
         return tuple(dict.fromkeys(found))
 
     def end(self) -> None:

@@ -1,0 +1,213 @@
+"""The canvas: a document's drawing and its tool paths, shown and edited."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from PySide6.QtGui import QPainter, QPainterPath, QShowEvent
+from PySide6.QtWidgets import QWidget
+
+from app.bitmap.frame import Frame
+from app.edit.document import Change, Document
+from app.edit.sample import Box, union
+from app.model.curves import Point
+from app.model.finding import Finding
+from app.model.moves import Program
+from app.ui.canvas import overlay
+from app.ui.canvas.curve_path import curve_path
+from app.ui.canvas.describe import describe_entity
+from app.ui.canvas.grid import cells_shown, paint_origin, paint_paper, paint_ruler_marks, paint_rulers
+from app.ui.canvas.hands import PICK_PX, Hands
+from app.ui.canvas.modes import CanvasMode, CanvasTool, ColourBy, PathLayers
+from app.ui.canvas.program_hover import describe, nearest_move
+from app.ui.canvas.program_picture import PathLook, ProgramPicture, shown_purposes
+from app.ui.canvas.view import fitted
+from app.ui.theme import Theme
+
+__all__ = ["Canvas", "CanvasMode", "CanvasTool", "ColourBy", "Frame", "PathLayers"]
+
+_LARGE = 0.35
+"""A part that takes up this share of the frame's span is shown together with the frame."""
+
+
+class Canvas(Hands):
+    """Shows a document and draws in it; signals are those of `Hands`.
+
+    Attributes:
+        frame: the display of 400 x 400 cells, or another.
+    """
+
+    def __init__(self, document: Document, theme: Theme, parent: QWidget | None = None) -> None:
+        """Show a document; it is followed from now on."""
+        super().__init__(document, parent)
+        self.frame = Frame()
+        self._look, self._mode = PathLook(theme), CanvasMode.DRAW
+        self._program: ProgramPicture | None = None
+        self._findings: tuple[Finding, ...] = ()
+        self._lit: tuple[str, QPainterPath] | None = None
+        self._fresh = True
+        self.setMinimumSize(200, 150)
+        document.subscribe(self._follow)
+        self._follow(Change.ALL)
+
+    @property
+    def mode(self) -> CanvasMode:
+        """Whether drawing or tool paths are shown."""
+        return self._mode
+
+    @property
+    def visible_layers(self) -> PathLayers:
+        """What PATHS shows."""
+        return self._look.layers
+
+    @property
+    def colour_by(self) -> ColourBy:
+        """What the colour of a path tells."""
+        return self._look.colour_by
+
+    @property
+    def cells_shown(self) -> bool:
+        """Whether the cells of the display are large enough to be seen."""
+        return cells_shown(self.view, self.frame)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Paint with another theme."""
+        self._set_look(replace(self._look, theme=theme))
+
+    def set_mode(self, mode: CanvasMode) -> None:
+        """Show the drawing, or the tool paths."""
+        self._mode = mode
+        self.look_at(None)
+        self.repaint_scene()
+
+    def set_program(self, program: Program | None) -> None:
+        """Show these tool paths in PATHS; None shows none."""
+        self.look_at(None)
+        self._program = ProgramPicture(program) if program is not None else None
+        self.repaint_scene()
+
+    def set_findings(self, findings: tuple[Finding, ...]) -> None:
+        """Mark the places of these findings."""
+        self._findings = findings
+        self.update()
+
+    def set_visible_layers(self, layers: PathLayers) -> None:
+        """Choose what PATHS shows."""
+        self._set_look(replace(self._look, layers=layers))
+
+    def set_colour_by(self, colour_by: ColourBy) -> None:
+        """Colour the paths by tool or by region."""
+        self._set_look(replace(self._look, colour_by=colour_by))
+
+    def set_frame(self, frame: Frame) -> None:
+        """Lay the display's frame elsewhere, or give its cells another size."""
+        self.frame = frame
+        self.repaint_scene()
+
+    def fit(self) -> None:
+        """Show the whole part, or the frame while nothing is drawn."""
+        self.glide_to_box(self.picture.lookup.box or self.frame.extent)
+
+    def go_to(self, x: float, y: float) -> None:
+        """Bring a point in mm to the middle."""
+        self.glide_to_point((x, y))
+
+    def paint_scene(self, painter: QPainter, draft: bool) -> None:
+        """Paint paper, paths, part and rulers."""
+        area, theme = self.area, self._look.theme
+        box = self.view.world_box(area)
+        painter.setClipRect(area)
+        paint_paper(painter, self.view, area, self.frame, theme)
+        program = self._program if self._mode is CanvasMode.PATHS else None
+        if program is not None:
+            program.paint(painter, self.view, box, replace(self._look, draft=draft))
+        if program is None or PathLayers.PART in self._look.layers:
+            self.picture.paint(painter, self.view, box, theme, draft)
+        paint_origin(painter, self.view, theme)
+        painter.setClipping(False)
+        paint_rulers(painter, self.view, self.width(), self.height(), theme)
+
+    def paint_overlay(self, painter: QPainter) -> None:
+        """Paint what follows the mouse."""
+        theme = self._look.theme
+        painter.setClipRect(self.area)
+        if self._lit is not None:
+            overlay.paint_highlight(painter, self.view, self._lit[1], theme)
+        overlay.paint_findings(painter, self.view, self._findings, theme)
+        if self.runner.tool is not None:
+            self._paint_tool(painter)
+        elif self.banding and self.band_from is not None and self.mouse is not None:
+            overlay.paint_band(painter, self.band_from, self.mouse, theme)
+        painter.setClipping(False)
+        if self.mouse is not None and self.area.contains(self.mouse):
+            paint_ruler_marks(painter, self.mouse, theme)
+
+    def look_at(self, point: Point | None) -> None:
+        """Light up the move or the entity under the mouse, and say what it is."""
+        lit = self._under(point) if point is not None else None
+        if (lit and lit[0]) != (self._lit and self._lit[0]):
+            self.hovered.emit(lit[0] if lit else "")
+            self.update()
+        self._lit = lit
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
+        """Look at the whole of a document that was opened meanwhile."""
+        super().showEvent(event)
+        if self._fresh:
+            self._show_all()
+
+    def _under(self, point: Point) -> tuple[str, QPainterPath] | None:
+        """Return what lies under the mouse in words and as a path in mm."""
+        reach = PICK_PX / self.view.scale
+        if self._mode is CanvasMode.PATHS and self._program is not None:
+            shapes = self._program.shapes
+            move = nearest_move(shapes, point, reach, shown_purposes(self._look.layers))
+            if move is not None:
+                text = describe(shapes, move, self.document.job)
+                piece = shapes.piece[move]
+                return text, shapes.path(int(shapes.first[piece]), int(shapes.last[piece]))
+        entity = self.picture.nearest(point, reach)
+        return (describe_entity(entity), curve_path(entity.curve)) if entity is not None else None
+
+    def _paint_tool(self, painter: QPainter) -> None:
+        tool, theme = self.runner.tool, self._look.theme
+        if tool is None or self.aim is None or self.mouse is None:
+            return
+        preview = tool.preview(self.aim.point)
+        overlay.paint_preview(painter, self.view, preview, theme)
+        overlay.paint_points(painter, self.view, tool.points, theme)
+        if self.aim.snap is not None:
+            overlay.paint_snap(painter, self.view, self.aim.snap, theme)
+        overlay.paint_label(painter, self.mouse, [preview.label, overlay.snap_name(self.aim.snap)], self.area, theme)
+
+    def _follow(self, change: Change) -> None:
+        if Change.PART in change:
+            self.picture.update(self.document.part)
+            self._lit = None
+        if change & (Change.PART | Change.SELECTION):
+            self.picture.select(self.document.selection)
+            self.repaint_scene()
+        if Change.LOADED in change:
+            self._fresh = True
+            self._show_all()
+
+    def _show_all(self) -> None:
+        """Look at a document just opened: with the frame when the part fills much of it, else at the part alone."""
+        if not self.isVisible():
+            return
+        whole = _with_frame(self.picture.lookup.box, self.frame.extent)
+        self.set_view(fitted(whole, self.area)) if self._fresh else self.glide_to_box(whole)
+        self._fresh = False
+
+    def _set_look(self, look: PathLook) -> None:
+        self._look = look
+        self.look_at(None)
+        self.repaint_scene()
+
+
+def _with_frame(box: Box | None, frame: Box) -> Box:
+    whole = union([box, frame]) if box is not None else None
+    if box is None or whole is None:
+        return frame
+    span, most = max(box[2] - box[0], box[3] - box[1]), max(whole[2] - whole[0], whole[3] - whole[1])
+    return whole if span > _LARGE * most else box

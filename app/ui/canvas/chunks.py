@@ -1,0 +1,92 @@
+"""A drawing cut into chunks by entity number, so that one edit redoes one chunk and not ten thousand curves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtGui import QPainterPath
+
+from app.edit.sample import Box, bounds
+from app.model.part import Entity, Part
+from app.ui.canvas.curve_path import add_curve
+from app.ui.canvas.snap import SnapPoints, no_snap_points, snap_points
+
+_BITS = 7
+
+
+@dataclass(frozen=True)
+class Chunk:
+    """Entities whose numbers differ in the last 7 bits only.
+
+    Attributes:
+        entities: the entities.
+        paths: painter path in mm of each layer.
+        boxes: (n, 4) x0, y0, x1, y1 of each entity, mm.
+        box: of all of them.
+        snaps: where the mouse may snap to.
+    """
+
+    entities: tuple[Entity, ...]
+    paths: dict[str, QPainterPath]
+    boxes: NDArray[np.float64]
+    box: Box
+    snaps: SnapPoints
+
+
+class PartChunks:
+    """The chunks of the part that was given last, and what is looked up in all of them at once.
+
+    Attributes:
+        chunks: chunks of the entities that can be seen, in the order of drawing.
+        entities, boxes: those entities and their (n, 4) boxes, mm, row for row.
+        snaps: all their snap points.
+    """
+
+    def __init__(self) -> None:
+        """Begin with an empty drawing."""
+        self.chunks: list[Chunk] = []
+        self.entities: tuple[Entity, ...] = ()
+        self.boxes: NDArray[np.float64] = np.zeros((0, 4))
+        self.snaps = no_snap_points()
+        self._cache: dict[int, Chunk] = {}
+
+    def update(self, part: Part) -> None:
+        """Take over another part; chunks whose entities are the same are kept."""
+        hidden = {layer.name for layer in part.layers if not layer.visible}
+        seen = [e for e in part.entities if e.layer not in hidden] if hidden else part.entities
+        groups = {key: tuple(group) for key, group in _by_number(seen)}
+        self._cache = {key: self._chunk(key, group) for key, group in groups.items()}
+        self.chunks = list(self._cache.values())
+        self.entities = tuple(e for chunk in self.chunks for e in chunk.entities)
+        self.boxes = np.concatenate([c.boxes for c in self.chunks]) if self.chunks else np.zeros((0, 4))
+        self.snaps = SnapPoints.joined([c.snaps for c in self.chunks])
+
+    @property
+    def box(self) -> Box | None:
+        """x0, y0, x1, y1 of everything that can be seen, mm, or None."""
+        if not len(self.boxes):
+            return None
+        (x0, y0), (x1, y1) = self.boxes[:, :2].min(axis=0), self.boxes[:, 2:].max(axis=0)
+        return (float(x0), float(y0), float(x1), float(y1))
+
+    def _chunk(self, key: int, entities: tuple[Entity, ...]) -> Chunk:
+        old = self._cache.get(key)
+        return old if old is not None and old.entities == entities else _built(entities)
+
+
+def _by_number(entities: Iterable[Entity]) -> Iterable[tuple[int, Iterable[Entity]]]:
+    return groupby(sorted(entities, key=lambda e: e.id), key=lambda e: e.id >> _BITS)
+
+
+def _built(entities: tuple[Entity, ...]) -> Chunk:
+    paths: dict[str, QPainterPath] = {}
+    for entity in entities:
+        add_curve(paths.setdefault(entity.layer, QPainterPath()), entity.curve)
+    boxes = np.array([bounds(e.curve) for e in entities])
+    (x0, y0), (x1, y1) = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
+    snaps = snap_points([e.curve for e in entities])
+    return Chunk(entities, paths, boxes, (float(x0), float(y0), float(x1), float(y1)), snaps)

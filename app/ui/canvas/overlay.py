@@ -1,0 +1,128 @@
+"""What follows the mouse: rubber band, measures, snap mark, selection window, highlight, places of findings."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPen, QPolygonF
+
+from app.model.finding import Finding
+from app.ui.canvas.curve_path import curve_path
+from app.ui.canvas.snap import Snap, SnapKind
+from app.ui.canvas.tools import Preview
+from app.ui.canvas.view import View
+from app.ui.theme import Theme, text_font
+
+_SNAP_NAMES = {SnapKind.END: "End", SnapKind.MIDDLE: "Middle", SnapKind.CENTRE: "Centre", SnapKind.QUADRANT: "Quadrant", SnapKind.GRID: ""}
+
+
+def paint_preview(painter: QPainter, view: View, preview: Preview, theme: Theme) -> None:
+    """Paint the shape that is being drawn and its lines of construction."""
+    painter.save()
+    painter.setTransform(view.transform(), True)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    if preview.helpers:
+        painter.setPen(_pen(theme.muted, 1.0, (4.0, 4.0)))
+        painter.drawPath(curve_path(*preview.helpers))
+    if preview.curves:
+        painter.setPen(_pen(theme.accent, 1.8))
+        painter.drawPath(curve_path(*preview.curves))
+    painter.restore()
+
+
+def paint_points(painter: QPainter, view: View, points: list[tuple[float, float]], theme: Theme) -> None:
+    """Paint the points given so far."""
+    painter.setPen(QPen(theme.accent, 1.5))
+    painter.setBrush(theme.canvas)
+    for point in points:
+        painter.drawEllipse(view.to_screen(point), 3.0, 3.0)
+
+
+def paint_snap(painter: QPainter, view: View, snap: Snap, theme: Theme) -> None:
+    """Paint the mark of a snap: square end, triangle middle, circle centre, diamond quadrant, cross grid."""
+    at = view.to_screen(snap.point)
+    x, y, r = at.x(), at.y(), 5.5
+    painter.setPen(QPen(theme.accent_text, 1.8))
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    if snap.kind is SnapKind.END:
+        painter.drawRect(QRectF(x - r + 0.5, y - r + 0.5, 2 * r - 1, 2 * r - 1))
+    elif snap.kind is SnapKind.MIDDLE:
+        painter.drawPolygon(QPolygonF([QPointF(x - r, y + r * 0.8), QPointF(x + r, y + r * 0.8), QPointF(x, y - r)]))
+    elif snap.kind is SnapKind.CENTRE:
+        painter.drawEllipse(at, r, r)
+    elif snap.kind is SnapKind.QUADRANT:
+        painter.drawPolygon(QPolygonF([QPointF(x - r, y), QPointF(x, y - r), QPointF(x + r, y), QPointF(x, y + r)]))
+    else:
+        painter.setPen(QPen(theme.muted, 1.2))
+        painter.drawLine(QPointF(x - 4, y), QPointF(x + 4, y))
+        painter.drawLine(QPointF(x, y - 4), QPointF(x, y + 4))
+
+
+def paint_label(painter: QPainter, at: QPointF, texts: list[str], area: QRectF, theme: Theme) -> None:
+    """Paint live measures on a small sheet beside the mouse, inside a screen rectangle."""
+    lines = [text for text in texts if text]
+    if not lines:
+        return
+    painter.setFont(text_font(12))
+    metrics = QFontMetricsF(painter.font())
+    width = max(metrics.horizontalAdvance(line) for line in lines) + 16
+    height = metrics.height() * len(lines) + 8
+    x = at.x() + 16 if at.x() + 16 + width < area.right() else at.x() - 16 - width
+    y = at.y() + 16 if at.y() + 16 + height < area.bottom() else at.y() - 16 - height
+    ground = QColor(theme.paper)
+    ground.setAlphaF(0.94)
+    painter.setPen(QPen(theme.hairline, 1))
+    painter.setBrush(ground)
+    painter.drawRoundedRect(QRectF(x, y, width, height), 4, 4)
+    painter.setPen(theme.ink)
+    painter.drawText(QRectF(x + 8, y + 4, width, height), Qt.AlignmentFlag.AlignLeft, "\n".join(lines))
+
+
+def paint_band(painter: QPainter, start: QPointF, end: QPointF, theme: Theme) -> None:
+    """Paint the selection window: solid to the right (what lies inside), dashed to the left (also what it crosses)."""
+    fill = QColor(theme.selection)
+    fill.setAlphaF(0.10)
+    painter.setBrush(fill)
+    painter.setPen(_pen(theme.accent_text, 1.0, () if end.x() >= start.x() else (4.0, 3.0)))
+    painter.drawRect(QRectF(start, end).normalized())
+
+
+def paint_highlight(painter: QPainter, view: View, path: QPainterPath, theme: Theme, width: float = 2.5) -> None:
+    """Paint a path in mm as the thing under the mouse: a broad band of the accent with a fine line in it."""
+    glow = QColor(theme.accent)
+    glow.setAlphaF(0.35)
+    painter.save()
+    painter.setTransform(view.transform(), True)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for colour, broad in ((glow, width + 4), (theme.accent_text, width - 0.7)):
+        pen = _pen(colour, broad)
+        pen.setCapStyle(Qt.PenCapStyle.RoundCap)
+        pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
+        painter.setPen(pen)
+        painter.drawPath(path)
+    painter.restore()
+
+
+def paint_findings(painter: QPainter, view: View, findings: tuple[Finding, ...], theme: Theme) -> None:
+    """Paint a ring with a cross at the place of each finding; remarks are quieter."""
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for finding in findings:
+        if finding.x is None or finding.y is None:
+            continue
+        at = view.to_screen((finding.x, finding.y))
+        painter.setPen(QPen(theme.error if finding.counts else theme.warning, 1.8 if finding.counts else 1.2))
+        painter.drawEllipse(at, 8.0, 8.0)
+        for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+            painter.drawLine(QPointF(at.x() + 5 * dx, at.y() + 5 * dy), QPointF(at.x() + 11 * dx, at.y() + 11 * dy))
+
+
+def snap_name(snap: Snap | None) -> str:
+    """Return the word for a snap, or ""."""
+    return _SNAP_NAMES[snap.kind] if snap else ""
+
+
+def _pen(colour: QColor, width: float, dashes: tuple[float, ...] = ()) -> QPen:
+    pen = QPen(colour, width)
+    pen.setCosmetic(True)
+    if dashes:
+        pen.setDashPattern(list(dashes))
+    return pen

@@ -1,0 +1,89 @@
+"""Paints the drawing and what of it is selected, and finds the entity under the mouse."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
+
+from app.edit.sample import Box, sample
+from app.model.curves import Curve, Point
+from app.model.part import Entity, Part
+from app.ui.canvas.chunks import PartChunks
+from app.ui.canvas.curve_path import add_curve
+from app.ui.canvas.view import View
+from app.ui.theme import Theme
+
+PART_WIDTH = 1.25
+
+
+class PartPicture:
+    """One part, ready to paint.
+
+    Attributes:
+        lookup: its chunks, boxes and snap points.
+    """
+
+    def __init__(self) -> None:
+        """Begin with an empty drawing."""
+        self.lookup = PartChunks()
+        self._colours: dict[str, str] = {}
+        self._locked: frozenset[str] = frozenset()
+        self._selected = QPainterPath()
+
+    def update(self, part: Part) -> None:
+        """Take over another part."""
+        self.lookup.update(part)
+        self._colours = {layer.name: layer.colour for layer in part.layers}
+        self._locked = frozenset(layer.name for layer in part.layers if layer.locked)
+
+    def select(self, ids: frozenset[int]) -> None:
+        """Take over another selection."""
+        self._selected = QPainterPath()
+        for entity in self.lookup.entities if ids else ():
+            if entity.id in ids:
+                add_curve(self._selected, entity.curve)
+
+    def paint(self, painter: QPainter, view: View, box: Box, theme: Theme, draft: bool) -> None:
+        """Paint what lies in a box in mm; the painter works in screen px."""
+        painter.save()
+        painter.setTransform(view.transform(), True)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        for chunk in self.lookup.chunks:
+            if chunk.box[0] > box[2] or chunk.box[2] < box[0] or chunk.box[1] > box[3] or chunk.box[3] < box[1]:
+                continue
+            for layer, path in chunk.paths.items():
+                painter.setPen(_pen(QColor(self._colours.get(layer) or theme.ink), 1.0 if draft else PART_WIDTH))
+                painter.drawPath(path)
+        if not self._selected.isEmpty():
+            painter.setPen(_pen(theme.selection, 1.0 if draft else 2.6))
+            painter.drawPath(self._selected)
+        painter.restore()
+
+    def nearest(self, at: Point, reach: float) -> Entity | None:
+        """Return the entity nearest to a point within `reach` mm, not on a locked layer, or None."""
+        boxes = self.lookup.boxes
+        near = ((boxes[:, 0] <= at[0] + reach) & (boxes[:, 2] >= at[0] - reach)
+                & (boxes[:, 1] <= at[1] + reach) & (boxes[:, 3] >= at[1] - reach))
+        found: tuple[float, Entity | None] = (reach, None)
+        for row in np.flatnonzero(near):
+            entity = self.lookup.entities[row]
+            if entity.layer not in self._locked and (distance := _distance(entity.curve, at)) <= found[0]:
+                found = (distance, entity)
+        return found[1]
+
+
+def _distance(curve: Curve, at: Point) -> float:
+    points = sample(curve)
+    a, d = points[:-1], np.diff(points, axis=0)
+    square = np.einsum("ij,ij->i", d, d)
+    share = np.clip(np.einsum("ij,ij->i", np.asarray(at) - a, d) / np.where(square > 0, square, 1.0), 0.0, 1.0)
+    return float(np.hypot(*(a + share[:, None] * d - at).T).min())
+
+
+def _pen(colour: QColor, width: float) -> QPen:
+    pen = QPen(colour, width)
+    pen.setCosmetic(True)
+    pen.setCapStyle(Qt.PenCapStyle.RoundCap)
+    pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
+    return pen

@@ -1,0 +1,188 @@
+"""A program cut into pieces and chunks that can be painted: built once, in mm, by numpy."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtGui import QPainterPath
+
+from app.edit.sample import Box
+from app.model.moves import MoveKind, Moves, Purpose
+from app.ui.canvas.curve_path import CURVE_DATA, CURVE_TO, ELEMENT, LINE_TO, MOVE_TO, PIECE, Elements, path_of
+
+_CHUNK = 96
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class PathStyle:
+    """What decides how a path looks."""
+
+    purpose: Purpose
+    operation: int
+    tool: int
+    region: int
+
+
+@dataclass(frozen=True)
+class PathChunk:
+    """Moves of one style, near one another in the program.
+
+    Attributes:
+        path: in mm.
+        box: x0, y0, x1, y1, mm.
+        begins_at: length of its piece before it, so that dashes run on, mm.
+    """
+
+    style: PathStyle
+    path: QPainterPath
+    box: Box
+    begins_at: float
+
+
+@dataclass(frozen=True)
+class MoveShapes:
+    """The moves as columns for painting and picking.
+
+    Attributes:
+        moves: the moves themselves.
+        start: (n, 3) mm. sweep: (n,) radians. length: (n,) mm.
+        boxes: (n, 4) x0, y0, x1, y1 of each move, mm.
+        piece: (n,) number of the piece it belongs to: neighbours of one operation, purpose, tool and region.
+        first, last: (k,) range of moves of each piece, last excluded.
+        elements: painter path elements of all moves. offset: (n + 1,) where each move's begin.
+    """
+
+    moves: Moves
+    start: Floats
+    sweep: Floats
+    length: Floats
+    boxes: Floats
+    piece: Ints
+    first: Ints
+    last: Ints
+    elements: Elements
+    offset: Ints
+
+    def style(self, move: int) -> PathStyle:
+        """Return the style of a move."""
+        m = self.moves
+        return PathStyle(Purpose(int(m.purpose[move])), int(m.operation[move]), int(m.tool[move]), int(m.region[move]))
+
+    def path(self, first: int, last: int) -> QPainterPath:
+        """Return the painter path in mm of moves first … last - 1."""
+        return path_of(self.path_elements(first, last))
+
+    def path_elements(self, first: int, last: int) -> Elements:
+        """Return the painter path elements of moves first … last - 1, beginning with a MOVE_TO."""
+        head = np.array([(MOVE_TO, self.start[first, 0], self.start[first, 1])], dtype=ELEMENT)
+        return np.concatenate([head, self.elements[self.offset[first]:self.offset[last]]])
+
+
+def shape_moves(moves: Moves) -> MoveShapes:
+    """Return the moves prepared for painting and picking."""
+    start, sweep = moves.start, moves.sweeps()
+    key = np.stack([moves.operation, moves.purpose, moves.tool, moves.region]).astype(np.int64)
+    change = np.flatnonzero(np.any(np.diff(key, axis=1) != 0, axis=0)) + 1
+    first = np.concatenate([[0], change]).astype(np.int64) if len(moves) else np.zeros(0, np.int64)
+    last = np.append(first[1:], len(moves)).astype(np.int64) if len(moves) else first
+    piece = np.repeat(np.arange(len(first)), last - first)
+    elements, offset = _elements(moves, start, sweep)
+    boxes = _boxes(moves, start, sweep)
+    return MoveShapes(moves, start, sweep, moves.lengths(), boxes, piece, first, last, elements, offset)
+
+
+def chunks(shapes: MoveShapes) -> list[PathChunk]:
+    """Return everything to be painted; what lies again on the same place (a deeper pass) is left out."""
+    seen: set[tuple[PathStyle, bytes]] = set()
+    waiting: dict[PathStyle, list[Elements]] = {}
+    found: list[PathChunk] = []
+    for first, last in _ranges(shapes):
+        style = shapes.style(first)
+        elements = shapes.path_elements(first, last)
+        mark = (style, elements.tobytes())
+        if style.purpose is Purpose.PLUNGE or mark in seen:
+            continue
+        seen.add(mark)
+        if style.purpose is Purpose.CONTOUR:
+            begins = float(shapes.length[shapes.first[shapes.piece[first]]:first].sum())
+            found.append(_chunk(style, elements, begins))
+            continue
+        batch = waiting.setdefault(style, [])
+        batch.append(elements)
+        if sum(map(len, batch)) > _CHUNK:
+            found.append(_chunk(style, np.concatenate(waiting.pop(style)), 0.0))
+    return found + [_chunk(style, np.concatenate(batch), 0.0) for style, batch in waiting.items()]
+
+
+def plunges(shapes: MoveShapes) -> list[tuple[float, float]]:
+    """Return the places where a tool plunges, mm, each once."""
+    where = shapes.moves.purpose == Purpose.PLUNGE
+    return [(float(x), float(y)) for x, y in np.unique(shapes.moves.end[where, :2], axis=0)]
+
+
+def _ranges(shapes: MoveShapes) -> Iterator[tuple[int, int]]:
+    for first, last in zip(shapes.first, shapes.last, strict=True):
+        for at in range(int(first), int(last), _CHUNK):
+            yield at, min(at + _CHUNK, int(last))
+
+
+def _chunk(style: PathStyle, elements: Elements, begins_at: float) -> PathChunk:
+    box = (float(elements["x"].min()), float(elements["y"].min()), float(elements["x"].max()), float(elements["y"].max()))
+    return PathChunk(style, path_of(elements), box, begins_at)
+
+
+def _elements(moves: Moves, start: Floats, sweep: Floats) -> tuple[Elements, Ints]:
+    """Return painter path elements of all moves, and where each move's begin: lines one, arcs three a piece."""
+    arcs = moves.kind >= MoveKind.ARC_CW
+    pieces = np.where(arcs, np.maximum(1, np.ceil(np.abs(sweep) / PIECE - 1e-9)), 0).astype(np.int64)
+    offset = np.concatenate([[0], np.cumsum(np.where(arcs, 3 * pieces, 1))]).astype(np.int64)
+    elements = np.zeros(int(offset[-1]), dtype=ELEMENT)
+    lines = offset[:-1][~arcs]
+    elements["kind"][lines] = LINE_TO
+    elements["x"][lines], elements["y"][lines] = moves.end[~arcs, 0], moves.end[~arcs, 1]
+    if arcs.any():
+        _fill_arcs(elements, moves, (start, sweep, pieces), offset)
+    return elements, offset
+
+
+def _fill_arcs(elements: Elements, moves: Moves, shape: tuple[Floats, Floats, Ints], offset: Ints) -> None:
+    start, sweep, pieces = shape
+    rows = np.repeat(np.arange(len(moves)), pieces)
+    number = np.arange(len(rows)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    step = sweep[rows] / pieces[rows]
+    centre = moves.centre[rows]
+    first = start[rows, :2] - centre
+    radius, begin = np.hypot(*first.T), np.arctan2(first[:, 1], first[:, 0])
+    handle = 4 / 3 * np.tan(step / 4)
+    a, b = begin + step * number, begin + step * (number + 1)
+    at = offset[rows] + 3 * number
+    columns = (
+        (CURVE_TO, np.cos(a) - handle * np.sin(a), np.sin(a) + handle * np.cos(a)),
+        (CURVE_DATA, np.cos(b) + handle * np.sin(b), np.sin(b) - handle * np.cos(b)),
+        (CURVE_DATA, np.cos(b), np.sin(b)),
+    )
+    for k, (kind, x, y) in enumerate(columns):
+        elements["kind"][at + k] = kind
+        elements["x"][at + k], elements["y"][at + k] = centre[:, 0] + radius * x, centre[:, 1] + radius * y
+
+
+def _boxes(moves: Moves, start: Floats, sweep: Floats) -> Floats:
+    """Return (n, 4) boxes of the moves, mm; those of arcs reach to the quadrants they pass."""
+    a, b = start[:, :2], moves.end[:, :2]
+    low, high = np.minimum(a, b), np.maximum(a, b)
+    arcs = np.flatnonzero(moves.kind >= MoveKind.ARC_CW)
+    if len(arcs):
+        centre, turn = moves.centre[arcs], sweep[arcs]
+        radius = np.hypot(*(a[arcs] - centre).T)
+        begin = np.arctan2(a[arcs, 1] - centre[:, 1], a[arcs, 0] - centre[:, 0])
+        for k, (dx, dy) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
+            ahead = (k * math.pi / 2 - begin) * np.sign(turn) % math.tau
+            point = np.where((ahead <= np.abs(turn))[:, None], centre + radius[:, None] * np.array([dx, dy]), a[arcs])
+            low[arcs], high[arcs] = np.minimum(low[arcs], point), np.maximum(high[arcs], point)
+    return np.hstack([low, high])

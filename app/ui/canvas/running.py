@@ -1,0 +1,138 @@
+"""The running tool: clicks and typed words in, lines of the drawing language out. Knows no widget."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from app.edit.document import Document
+from app.edit.errors import CommandError
+from app.edit.language import command_word
+from app.edit.numbers import length
+from app.edit.words import read_point
+from app.errors import InputError
+from app.model.curves import Point
+from app.tolerances import WELD
+from app.ui.canvas.modes import CanvasTool
+from app.ui.canvas.tools import TOOL_WORDS, TOOLS, DrawingTool
+
+_SELECT_PROMPT = "Select: click, or drag a window; from right to left it takes what it crosses"
+
+
+class ToolRunner:
+    """Holds the running tool and carries out what it makes.
+
+    Attributes:
+        kind: which tool runs. tool: the tool itself, None for SELECT.
+        cursor: where the tool aims, mm.
+    """
+
+    def __init__(self, document: Document, say: Callable[[str], None]) -> None:
+        """Begin with SELECT; `say` gets the sentence of every error."""
+        self._document, self._say = document, say
+        self.kind = CanvasTool.SELECT
+        self.tool: DrawingTool | None = None
+        self.cursor: Point = (0.0, 0.0)
+        self._last = CanvasTool.LINE
+
+    @property
+    def prompt(self) -> str:
+        """What is expected next."""
+        return self.tool.prompt if self.tool else _SELECT_PROMPT
+
+    @property
+    def busy(self) -> bool:
+        """True while a shape has been begun."""
+        return self.tool is not None and bool(self.tool.points)
+
+    def start(self, kind: CanvasTool) -> None:
+        """Begin a tool; an unfinished shape is given up."""
+        self.kind = kind
+        self.tool = TOOLS[kind]() if kind in TOOLS else None
+        if self.tool is not None:
+            self._last = kind
+
+    def aim_at(self, point: Point) -> None:
+        """See the mouse aim at a point, mm."""
+        self.cursor = point
+        if self.tool is not None:
+            self.tool.follow(point)
+
+    def click(self, point: Point) -> None:
+        """Take a point; one that repeats the last is passed over."""
+        if self.tool is None or (self.tool.base is not None and math.dist(self.tool.base, point) < WELD):
+            return
+        self.aim_at(point)
+        try:
+            self._run(self.tool.add(point))
+        except InputError as error:
+            self.tool.points = []
+            self._say(str(error))
+
+    def accept(self) -> None:
+        """End the shape; without one end the tool; without a tool begin the last one again."""
+        if self.tool is None:
+            self.start(self._last)
+        elif self.busy:
+            self._run(self.tool.finish())
+        else:
+            self.start(CanvasTool.SELECT)
+
+    def cancel(self) -> bool:
+        """Give up the shape, or else the tool; return whether there was either."""
+        if self.tool is None:
+            return False
+        self.start(self.kind if self.busy else CanvasTool.SELECT)
+        return True
+
+    def type_text(self, text: str) -> bool:
+        """Take typed text: a word of the tool, a point, a distance, or a command word alone that begins a tool.
+
+        Returns:
+            False when the text is nothing for a tool, and may be a whole line of the drawing language.
+        """
+        text = text.strip()
+        if not text:
+            return False
+        if self.tool is not None and self._word(text.lower()):
+            return True
+        command = command_word(text)
+        if command is not None:
+            return self._begin(command) if " " not in text else False
+        if self.tool is None or (text[0].isalpha() and "," not in text):
+            return False
+        try:
+            self._place(self.tool, text)
+        except CommandError as error:
+            self._say(error.reason)
+        return True
+
+    def _word(self, word: str) -> bool:
+        line = self.tool.word(word) if self.tool else None
+        if line:
+            self._run(line)
+        return line is not None
+
+    def _begin(self, command: str) -> bool:
+        if command not in TOOL_WORDS:
+            return False
+        self.start(TOOL_WORDS[command])
+        return True
+
+    def _place(self, tool: DrawingTool, text: str) -> None:
+        if "," in text or "<" in text:
+            self.click(read_point(text, tool.base or self._document.last_point))
+            return
+        value = length(text)
+        point = tool.number(value, self.cursor)
+        if point is None:
+            raise CommandError(f"'{text}' is a distance without a direction; write x,y or @dx,dy, or point with the mouse first.")
+        self.click(point)
+
+    def _run(self, line: str | None) -> None:
+        if not line:
+            return
+        try:
+            self._document.run(line)
+        except InputError as error:
+            self._say(str(error))

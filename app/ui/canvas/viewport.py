@@ -1,0 +1,164 @@
+"""A widget on the drawing plane: zoom, pan, glide, and a picture of the scene that is painted only when it changes."""
+
+from __future__ import annotations
+
+import time
+
+from PySide6.QtCore import QEasingCurve, QPointF, QRectF, Qt, QTimer, QVariantAnimation, Signal
+from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPixmap, QResizeEvent, QWheelEvent
+from PySide6.QtWidgets import QWidget
+
+from app.edit.sample import Box
+from app.model.curves import Point
+from app.ui.canvas.grid import RULER
+from app.ui.canvas.view import View, fitted
+
+GLIDE_MS = 150
+_SETTLE_MS = 90
+_SLOW_MS = 12.0
+_NOTCH = 1.2
+
+
+class Viewport(QWidget):
+    """Shows a scene; what follows the mouse is painted over it and never repaints it.
+
+    Attributes:
+        scene_ms: how long the last painting of the scene took, ms.
+    """
+
+    view_changed = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        """Begin with 5 px per mm."""
+        super().__init__(parent)
+        self.view = View()
+        self.scene_ms = 0.0
+        self._scene: QPixmap | None = None
+        self._draft = False
+        self._full_ms = 0.0
+        self._pan_from: QPointF | None = None
+        self._settle = QTimer(self, singleShot=True, interval=_SETTLE_MS)
+        self._settle.timeout.connect(self._paint_fully)
+        self._glide = QVariantAnimation(self)
+        self._glide.setDuration(GLIDE_MS)
+        self._glide.setEasingCurve(QEasingCurve.Type.OutCubic)
+        self._glide.setStartValue(0.0)
+        self._glide.setEndValue(1.0)
+        self._glide.valueChanged.connect(self._glide_on)
+        self._way = (self.view, self.view)
+
+    @property
+    def area(self) -> QRectF:
+        """The part of the widget that shows the drawing, beside the rulers."""
+        return QRectF(RULER, RULER, max(self.width() - RULER, 1), max(self.height() - RULER, 1))
+
+    def paint_scene(self, painter: QPainter, draft: bool) -> None:
+        """Paint everything that stays while only the mouse moves; `draft` asks for haste."""
+        raise NotImplementedError
+
+    def paint_overlay(self, painter: QPainter) -> None:
+        """Paint what follows the mouse."""
+        raise NotImplementedError
+
+    def set_view(self, view: View) -> None:
+        """Look at the drawing this way."""
+        self._draft = self._full_ms > _SLOW_MS
+        if self._draft:
+            self._settle.start()
+        self.view = view
+        self.repaint_scene()
+        self.view_changed.emit()
+
+    def repaint_scene(self) -> None:
+        """Paint the scene anew when the widget is next shown."""
+        self._scene = None
+        self.update()
+
+    def zoom_by(self, factor: float, at: QPointF | None = None) -> None:
+        """Zoom; the point under `at` (by default the middle) stays where it is."""
+        self._glide.stop()
+        self.set_view(self.view.zoomed(factor, at or self.area.center()))
+
+    def glide_to(self, view: View) -> None:
+        """Go to another view in 150 ms; at once while the widget is hidden."""
+        self._glide.stop()
+        if not self.isVisible():
+            self.set_view(view)
+            return
+        self._way = (self.view, view)
+        self._glide.start()
+
+    def glide_to_box(self, box: Box) -> None:
+        """Go to the view that shows a box in mm."""
+        self.glide_to(fitted(box, self.area))
+
+    def glide_to_point(self, point: Point) -> None:
+        """Go to the view with a point in mm in the middle."""
+        self.glide_to(self.view.centred(point, self.area))
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Show the kept scene and paint over it."""
+        if self._scene is None:
+            self._scene = self._painted()
+        painter = QPainter(self)
+        painter.drawPixmap(0, 0, self._scene)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        self.paint_overlay(painter)
+        painter.end()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Keep the middle of the view in the middle."""
+        old = event.oldSize()
+        if old.isValid():
+            self.view = self.view.panned((self.width() - old.width()) / 2, (self.height() - old.height()) / 2)
+        self.repaint_scene()
+        self.view_changed.emit()
+
+    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
+        """Zoom at the mouse."""
+        turn = event.angleDelta().y()
+        if turn:
+            self.zoom_by(_NOTCH ** (turn / 120), event.position())
+        event.accept()
+
+    def begin_pan(self, at: QPointF) -> None:
+        """Hold the drawing at a screen position."""
+        self._glide.stop()
+        self._pan_from = at
+        self.setCursor(Qt.CursorShape.ClosedHandCursor)
+
+    def pan_to(self, event: QMouseEvent) -> bool:
+        """Drag the held drawing along; return whether it is held."""
+        if self._pan_from is None:
+            return False
+        step = event.position() - self._pan_from
+        self._pan_from = event.position()
+        self.set_view(self.view.panned(step.x(), step.y()))
+        return True
+
+    def end_pan(self) -> bool:
+        """Let the drawing go; return whether it was held."""
+        held = self._pan_from is not None
+        self._pan_from = None
+        return held
+
+    def _painted(self) -> QPixmap:
+        ratio = self.devicePixelRatioF()
+        pixmap = QPixmap(round(self.width() * ratio), round(self.height() * ratio))
+        pixmap.setDevicePixelRatio(ratio)
+        begun = time.perf_counter()
+        painter = QPainter(pixmap)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        self.paint_scene(painter, self._draft)
+        painter.end()
+        self.scene_ms = (time.perf_counter() - begun) * 1000
+        if not self._draft:
+            self._full_ms = self.scene_ms
+        return pixmap
+
+    def _paint_fully(self) -> None:
+        self._draft = False
+        self.repaint_scene()
+
+    def _glide_on(self, share: float) -> None:
+        self.set_view(self._way[0].towards(self._way[1], float(share), self.area))
