@@ -109,7 +109,7 @@ class _Engine:
             if rings is not None and self._measures_right(rings, distance):
                 break
         else:
-            rings = self._polylines(distance)
+            pieces, rings = self._trim(distance), self._polylines(distance)
         self._active = pieces
         self._history.append((distance, pieces))
         return tuple(self._back(ring) for ring in rings if not _on_a_ridge(ring))

@@ -1,0 +1,64 @@
+"""Exact distance and even-odd counting against plain numpy."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from app.geometry.distance import DistanceField
+from app.geometry.primitives import boxes, contour_rows, lengths, points_at, sample, signed_area
+from tests import plain_distance
+from tests.part_shapes import bulged, circle, random_part
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 10**6))
+def test_nearest_equals_plain_distance(seed: int) -> None:
+    contours, _ = random_part(seed)
+    field = DistanceField.of(np.concatenate([contour_rows(c) for c in contours]))
+    points = np.random.default_rng(seed).uniform(-35, 45, (500, 2))
+    assert np.allclose(field.nearest(points)[0], plain_distance.distance(points, contours), atol=1e-9)
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 10**6))
+def test_inside_equals_plain_even_odd(seed: int) -> None:
+    contours, _ = random_part(seed)
+    field = DistanceField.of(np.concatenate([contour_rows(c) for c in contours]))
+    points = np.random.default_rng(seed).uniform(-35, 45, (500, 2))
+    points = points[plain_distance.distance(points, contours) > 0.02]
+    assert np.array_equal(field.inside(points), plain_distance.inside(points, contours))
+
+
+def test_a_ray_through_vertices_and_tops_of_arcs_counts_once() -> None:
+    field = DistanceField.of(contour_rows(circle(5)))
+    assert field.inside(np.array([[0.0, 0.0], [-6.0, 0.0], [6.0, 0.0], [6.0, 5.0], [6.0, -5.0]])).tolist() == [True, *[False] * 4]
+
+
+def test_a_limit_cuts_the_search_short() -> None:
+    field = DistanceField.of(contour_rows(circle(5)))
+    distance, row = field.nearest(np.array([[0.0, 0.0], [4.0, 0.0]]), limit=2.0)
+    assert distance.tolist() == pytest.approx([2.0, 1.0]) and row[0] == -1
+
+
+def test_area_and_length_in_closed_form() -> None:
+    assert signed_area(contour_rows(circle(12))) == pytest.approx(np.pi * 144)
+    assert float(lengths(contour_rows(circle(12))).sum()) == pytest.approx(24 * np.pi)
+    half = contour_rows(bulged([(0, 0, 0), (10, 0, 1.0)]))  # half a disc of radius 5
+    assert abs(signed_area(half)) == pytest.approx(np.pi * 12.5)
+
+
+def test_boxes_hold_their_rows_tightly() -> None:
+    rows = np.concatenate([contour_rows(c) for c in random_part(4)[0]])
+    box = boxes(rows)
+    along = np.stack([points_at(rows, np.full(len(rows), f)) for f in np.linspace(0, 1, 201)])
+    assert np.all(along.min(0) >= box[:, :2] - 1e-9) and np.all(along.max(0) <= box[:, 2:] + 1e-9)
+    assert np.abs(along.min(0) - box[:, :2]).max() < 0.01
+
+
+def test_sampled_chords_stay_within_tolerance() -> None:
+    points = sample(contour_rows(circle(10)), 0.01)
+    middle = (points + np.roll(points, -1, axis=0)) / 2
+    assert np.allclose(np.hypot(*points.T), 10) and np.hypot(*middle.T).min() >= 10 - 0.01
