@@ -79,7 +79,8 @@ class FindingsList(QFrame):
         """
         self._clear()
         counting = sum(f.counts for f in findings)
-        title = heading(counted(counting, "finding") if counting else "No findings")
+        remarks = counted(len(findings) - counting, "remark") if len(findings) > counting else ""
+        title = heading(", ".join(filter(None, (counted(counting, "finding") if counting else "No findings", remarks))))
         title.setContentsMargins(16, 0, 16, 6)
         self._column.addWidget(title)
         self._column.addWidget(self._list(findings) if findings else self._sentence(empty))

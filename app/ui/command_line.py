@@ -73,7 +73,7 @@ class CommandLine(QWidget):
         self.log, self.edit = LogView(), QLineEdit()
         self.edit.setObjectName("commandLine")
         self.edit.setAccessibleName("Command line")
-        self.edit.setFont(mono_font())
+        self.edit.textChanged.connect(lambda text: self.edit.setFont(mono_font() if text else text_font()))
         self.edit.installEventFilter(self)
         self._typed: list[str] = []
         self._at = 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from app.model.job import Job
 from app.model.operation import ContourOperation, Operation, PocketOperation
@@ -24,6 +24,7 @@ class _LegendRow(QToolButton):
         self.setChecked(True)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setFixedHeight(24)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.line, self.label = LineSample(sample), QLabel(sample.value)
         self.setAccessibleName(f"Show {sample.value.lower()}")
         self.setToolTip(f"Show or hide: {sample.value.lower()}")

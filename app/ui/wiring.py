@@ -100,6 +100,9 @@ class Wiring(QObject):
             actions[name].toggled.connect(button.setChecked)
             button.clicked.connect(actions[name].setChecked)
         actions["snap"].setChecked(True)
+        actions["log"].toggled.connect(self.window_.command_line.log.setVisible)
+        actions["log"].setChecked(True)
+        self._on("command", self.window_.command_line.edit.setFocus)
         for choice in ThemeChoice:
             self._on(f"theme_{choice.value}", partial(self.choose_theme, choice))
         self._on("keys", self._show_keys)

@@ -9,7 +9,7 @@ import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from PySide6.QtCore import QObject, QRunnable, Qt, QThreadPool, Signal, Slot
+from PySide6.QtCore import QObject, Qt, Signal, Slot
 
 from app.errors import Cancelled, HitofudeError
 from app.progress import Progress
@@ -45,11 +45,11 @@ class _Work:
     cancelled: threading.Event
 
 
-class _Runner(QRunnable):
-    """Runs one job on a thread of the pool."""
+class _Runner(threading.Thread):
+    """Runs one job. A daemon: a library call that does not return never keeps the program from ending."""
 
     def __init__(self, work: _Work, worker: Worker) -> None:
-        super().__init__()
+        super().__init__(name=f"job {work.job_id}", daemon=True)
         self._work, self._worker, self._told = work, worker, 0.0
 
     def _tell(self, fraction: float, text: str) -> None:
@@ -92,8 +92,7 @@ class Worker(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         sys.setswitchinterval(SWITCH_INTERVAL_S)
-        self._pool = QThreadPool(self)
-        self._pool.setMaxThreadCount(3)
+        self._threads: list[_Runner] = []
         self._next_id = 1
         self._current: _Work | None = None
         self.told.connect(self._on_told, Qt.ConnectionType.QueuedConnection)
@@ -114,7 +113,10 @@ class Worker(QObject):
         work = _Work(self._next_id, revision, function, threading.Event())
         self._next_id += 1
         self._current = work
-        self._pool.start(_Runner(work, self))
+        self._threads = [thread for thread in self._threads if thread.is_alive()]
+        runner = _Runner(work, self)
+        self._threads.append(runner)
+        runner.start()
         self.busy_changed.emit(True)
         return work.job_id
 
@@ -125,10 +127,11 @@ class Worker(QObject):
             self.cancelled.emit(dropped.job_id)
             self.busy_changed.emit(False)
 
-    def finish(self, wait_ms: int = 2000) -> None:
+    def finish(self, wait_s: float = 2.0) -> None:
         """Leave the running job and wait for its thread, before the program ends."""
         self._drop()
-        self._pool.waitForDone(wait_ms)
+        for thread in self._threads:
+            thread.join(wait_s)
 
     def _drop(self) -> _Work | None:
         work, self._current = self._current, None
