@@ -19,6 +19,8 @@ Grid = tuple[int, int]
 
 SAMPLES = 8
 
+NEIGHBOURS = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1))
+
 
 @dataclass(frozen=True, slots=True)
 class MeantArc:
@@ -106,10 +108,10 @@ def _stretch(arc: MeantArc, span: tuple[float, float], ends: tuple[Grid, Grid], 
         if ends[0] != ends[1]:
             yield Piece(ends[1], span[1])
         return
-    centre = _solved_centre(arc, ends, rules)
-    if centre is not None and _fits(arc, span, (ends, centre), rules):
-        yield Piece(ends[1], span[1], centre)
-        return
+    for centre in _centres(arc, ends, rules):
+        if _fits(arc, span, (ends, centre), rules):
+            yield Piece(ends[1], span[1], centre)
+            return
     middle = (span[0] + span[1]) / 2
     between = _nearest(arc.at(middle), rules.decimals)
     yield from _stretch(arc, (span[0], middle), (ends[0], between), rules)
@@ -122,15 +124,16 @@ def _sagitta(arc: MeantArc, span: tuple[float, float]) -> float:
     return max(arc.start_radius, arc.end_radius) * 2 * math.sin(half / 2) ** 2
 
 
-def _solved_centre(arc: MeantArc, ends: tuple[Grid, Grid], rules: ArcRules) -> Grid | None:
-    """Return I and J: the point equally far from both rounded ends that is nearest to the meant centre, rounded."""
+def _centres(arc: MeantArc, ends: tuple[Grid, Grid], rules: ArcRules) -> Iterator[Grid]:
+    """Yield I and J to try: the point equally far from both rounded ends and nearest to the meant centre, rounded; then its neighbours."""
     start, end = (complex(*point) / 10**rules.decimals for point in ends)
     chord = end - start
     if chord == 0:
-        return None
+        return
     middle, normal = (start + end) / 2, chord * 1j / abs(chord)
     along = ((arc.centre - middle) * normal.conjugate()).real
-    return _nearest(middle + along * normal - start, rules.centre_decimals)
+    i, j = _nearest(middle + along * normal - start, rules.centre_decimals)
+    yield from ((i + right, j + up) for right, up in NEIGHBOURS)
 
 
 def _fits(arc: MeantArc, span: tuple[float, float], block: tuple[tuple[Grid, Grid], Grid], rules: ArcRules) -> bool:

@@ -190,12 +190,16 @@ class Meant:
         first = complex(*self.start[:2]) - self.centre
         radius = abs(first)
         assert np.max(np.abs(np.abs(from_centre) - radius)) <= UM, (self, motions)
-        angles = np.angle(from_centre[1:] / np.where(from_centre[:-1] == 0, 1, from_centre[:-1])) if radius > UM else np.zeros(1)
-        if radius > UM:
+        rise = self.end[2] - self.start[2]
+        if abs(rise) > radius * abs(self.sweep):  # steep: the height tells how far round it must be
+            done = (points[:, 2] - self.start[2]) / rise
+            meant = first * np.exp(1j * self.sweep * done)
+            assert np.max(np.abs(from_centre - meant)) <= 2 * UM, (self, motions)
+        elif radius > UM:
+            angles = np.angle(from_centre[1:] / from_centre[:-1])
             assert abs(angles.sum() - self.sweep) * radius <= 3 * UM, (self, motions)
-        done = np.concatenate([[0.0], np.cumsum(angles)]) / self.sweep if radius > UM else np.linspace(0, 1, len(points))
-        height = self.start[2] + done * (self.end[2] - self.start[2])
-        assert np.max(np.abs(points[:, 2] - height)) <= 2 * UM + abs(self.end[2] - self.start[2]) * UM / max(radius * abs(self.sweep), UM)
+            done = np.concatenate([[0.0], np.cumsum(angles)]) / self.sweep
+            assert np.max(np.abs(points[:, 2] - self.start[2] - done * rise)) <= 3 * UM, (self, motions)
         if abs(self.sweep) > math.pi / 2 and radius > 0.01:
             assert all(abs(m.centre - self.centre) <= UM for m in motions if m.centre is not None and abs(m.sweep()) > math.pi / 2)
 
