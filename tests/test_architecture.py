@@ -160,5 +160,9 @@ def test_the_command_line_starts_without_heavy_libraries() -> None:
     assert not modules_after("import app.cli") & (QT | COMPILER | {"ezdxf", "trimesh", "cv2", "shapely", "scipy"})
 
 
+def test_the_window_opens_without_heavy_libraries() -> None:
+    assert not modules_after("import app.ui.main_window") & (COMPILER | {"ezdxf", "trimesh", "scipy"})
+
+
 def test_kernel_modules_know_no_window() -> None:
     assert not modules_after("import app.kernels; app.kernels.warm()") & QT
