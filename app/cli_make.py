@@ -6,6 +6,7 @@ import argparse
 import os
 import sys
 import time
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -13,12 +14,16 @@ from pathlib import Path
 from app.cli_options import make_options, read_arguments
 from app.errors import InputError
 from app.files.atomic import write_atomically
+from app.model.finding import FindingKind
 from app.progress import Progress
 from app.workflow.make import Made, make
 from app.workflow.options import MakeOptions
 
 LARGEST_INPUT = 256 * 2**20
 """Bytes; a larger file is refused before it is read."""
+
+REMARKS = 3
+"""Remarks of one kind that are printed; the report has all."""
 
 
 def make_command(argv: Sequence[str]) -> int:
@@ -134,7 +139,14 @@ def _progress(quiet: bool) -> Progress:
 
 
 def _summary(made: Made, output: Path) -> None:
-    """Say in a few lines what was made and what there is to know about it."""
+    """Say in a few lines what was made and what there is to know about it: what counts whole, of remarks the first few."""
     print(made.report.summary(str(output)))
+    shown: Counter[FindingKind] = Counter()
     for finding in made.findings:
-        print(f"  {'!' if finding.counts else '-'} {finding.text}")
+        shown[finding.kind] += 1
+        if finding.counts or shown[finding.kind] <= REMARKS:
+            print(f"  {'!' if finding.counts else '-'} {finding.text}")
+    for kind, count in shown.items():
+        told = sum(1 for finding in made.findings if finding.kind is kind and finding.counts)
+        if count > max(told, REMARKS):
+            print(f"  - {count - max(told, REMARKS)} more of the kind {kind.value}; --report R.json lists them all")

@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NoReturn
 
+from app.edit.errors import CommandError
 from app.edit.numbers import length
 from app.errors import InputError
 from app.files.job_toml import ORIGIN_HELP, parse_origin, read_out_units, read_units
@@ -21,13 +22,25 @@ with none, the job's tools or 6 mm (pocket) and 3 mm (contour). Z 0 is the top o
 """
 
 
+PHRASES = (
+    (r"^argument ([^:]*/)?([^:]*): ", r"\2 "),
+    (r" expected one argument$", " has no value; write one behind it"),
+    (r" not allowed with argument (\S+)$", r" and \1 exclude one another; give one of them"),
+    (r" invalid choice: ('.*') \(choose from (.*)\)$", r" is \1; choose one of \2"),
+    (r"^the following arguments are required: (.*)$", r"\1 is missing; name the drawing and the NC program to write"),
+    (r"^unrecognized arguments: (.*)$", r"\1 is no option of make and no second drawing can be named; take it away"),
+)
+"""What argparse says, and how it is said here."""
+
+
 class OptionParser(argparse.ArgumentParser):
     """An argument parser whose errors are InputErrors of one line."""
 
     def error(self, message: str) -> NoReturn:
         """Raise the error instead of printing the usage."""
-        text = re.sub(r"^argument ([^:]*): ", lambda found: found[1].rpartition("/")[2] + " ", message)
-        raise InputError(f"{text}; see hitofude make --help")
+        for said, better in PHRASES:
+            message = re.sub(said, better, message)
+        raise InputError(f"{message.rstrip('.')}; see hitofude make --help")
 
 
 def _number(what: str, *, zero: bool = False, unit: str = "mm") -> Callable[[str], float]:
@@ -36,8 +49,8 @@ def _number(what: str, *, zero: bool = False, unit: str = "mm") -> Callable[[str
     def read(text: str) -> float:
         try:
             value = length(text) if unit == "mm" else float(text)
-        except InputError as error:
-            raise argparse.ArgumentTypeError(f"is wrong: {error}") from error
+        except CommandError as error:
+            raise argparse.ArgumentTypeError(f"is wrong: {error.reason}") from error
         except ValueError as error:
             raise argparse.ArgumentTypeError(f"is wrong: '{text}' is no number; write the {what} in {unit}") from error
         if not math.isfinite(value) or value < 0 or (value == 0 and not zero) or value >= 1e5:

@@ -23,6 +23,9 @@ from app.workflow.options import MakeOptions, job_with_options
 from app.workflow.report import Measured, Report, make_report, worst_first
 from app.workflow.verdict import Gouge, RapidInMaterial, gouge, rapids_in_material
 
+NAMED = 3
+"""How many findings the one line names that says why nothing can be cut."""
+
 
 @dataclass(frozen=True)
 class Made:
@@ -87,8 +90,9 @@ def _nothing(name: str, findings: tuple[Finding, ...]) -> str:
     """Return why a drawing gave no path."""
     if not findings:
         return f"{name}: there is no closed contour to machine; draw one, or choose other layers."
-    more = f" ({len(findings) - 1} more findings)" if len(findings) > 1 else ""
-    return f"{name}: nothing can be cut. {findings[0].text}{more}"
+    telling = sorted(findings, key=lambda finding: (not finding.counts, finding.kind is not FindingKind.OPEN_CONTOUR))
+    more = f" ({len(findings) - NAMED} more findings)" if len(findings) > NAMED else ""
+    return f"{name}: nothing can be cut. {' '.join(finding.text for finding in telling[:NAMED])}{more}"
 
 
 def export(job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[Finding, ...] = ()) -> Made:
