@@ -3,7 +3,8 @@
 Comments that begin with `hitofude:` hold one `key=value` each, in this order and always in mm, part coordinates:
 
     program=1                                       version of this list
-    part=NAME                                       as in the first comment
+    part=NAME                                       as in the first comment, which begins with a word of its own:
+                                                    controls obey comments that begin with MSG or PRINT
     units=mm|in                                     of the program's words
     origin_mm=X,Y,Z                                 the work origin; part = program + origin
     stock_mm=X0,Y0,Z0,X1,Y1,Z1                      the stock's box
@@ -79,8 +80,8 @@ def operation_words(operation: Operation, job: Job) -> str:
 def heading_lines(heading: Heading) -> Iterator[str]:
     """Yield the comments of the header, without their brackets."""
     job, units = heading.job, heading.job.out_units
-    yield safe_name(job.part.name)
-    yield f"Hitofude for {heading.post.title}, lengths in {_unit(units)}"
+    yield f"Part {safe_name(job.part.name)}"
+    yield f"Hitofude for {heading.post.title}, lengths in {units.name.lower()}"
     yield "Stock " + " x ".join(_length(side, units) for side in heading.box.size)
     origin = ", ".join(f"{axis} {_length(value, units)}" for axis, value in zip("XYZ", work_origin(job, heading.box), strict=True))
     yield f"Work origin: {job.origin_xy.value}, {job.origin_z.value}"

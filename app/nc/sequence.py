@@ -19,7 +19,8 @@ def check_sequence(moves: Moves, job: Job) -> None:
     """Refuse moves that no machine should make.
 
     Every tool begins with a rapid at safe Z; rapids go either along Z or level, never down below retract Z and never
-    level below it; cutting moves have a feed rate; arcs have a radius and are clearly a full turn or clearly less.
+    level below it; cutting moves have a feed rate; arcs have a radius and are exactly a full turn or clearly less, as
+    noise can make a full turn of an arc of no length.
 
     Raises:
         ParameterError: naming the first move that breaks a rule, where it ends, and the rule.
@@ -53,7 +54,7 @@ def _check_arcs(moves: Moves, arc: Mask) -> None:
     radius = np.hypot(*(moves.end[:, :2] - moves.centre).T)
     gap = np.hypot(*(moves.end - moves.start)[:, :2].T)
     _refuse(moves, arc & ~(radius > 0), "is an arc without a radius")
-    _refuse(moves, arc & (gap > 0) & (gap < SAME),
+    _refuse(moves, arc & (gap > 0) & (gap < SAME) & (np.abs(moves.sweeps()) > np.pi),
             "is an arc whose ends nearly meet, so it may be nothing or a full circle; make the ends exactly alike or leave it out")
 
 
