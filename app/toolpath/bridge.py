@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import Delaunay, QhullError
 
 from app import tolerances
@@ -112,8 +113,8 @@ def fraction_at(row: Rows, point: np.ndarray) -> float:
     return 1.0 if turn - sweep < 2 * np.pi - turn else 0.0
 
 
-def level_bridges(rings: Sequence[Ring], groups: Sequence[int], spacing: float) -> list[Bridge]:
-    """Return candidates between rings of the outermost level, shortest first; their clearance is not yet checked.
+def level_bridges(rings: Sequence[Ring], groups: Sequence[int], spacing: float) -> Iterator[tuple[Bridge, NDArray[np.float64]]]:
+    """Yield candidates between rings of the outermost level with their ends (2, 2), shortest first; clearance is not checked.
 
     The shortest tree through all rings is part of the Delaunay triangulation of points along them.
 
@@ -122,22 +123,26 @@ def level_bridges(rings: Sequence[Ring], groups: Sequence[int], spacing: float) 
         groups: what is already joined has the same number.
         spacing: between points, mm.
     """
-    counts = [np.maximum(1, np.ceil(lengths(r.rows) / spacing)).astype(np.int64) for r in rings]
-    ring = np.concatenate([np.full(c.sum(), k) for k, c in enumerate(counts)])
-    row = np.concatenate([np.repeat(np.arange(len(c)), c) for c in counts])
-    part = np.concatenate([(np.arange(c.sum()) - np.repeat(np.cumsum(c) - c, c) + 0.5) / np.repeat(c, c) for c in counts])
-    points = np.concatenate([points_at(r.rows[np.repeat(np.arange(len(c)), c)], part[ring == k])
-                             for k, (r, c) in enumerate(zip(rings, counts, strict=True))])
+    rows = np.concatenate([r.rows for r in rings])
+    owner = np.repeat(np.arange(len(rings)), [len(r.rows) for r in rings])
+    number = np.concatenate([np.arange(len(r.rows)) for r in rings])
+    counts = np.maximum(1, np.ceil(lengths(rows) / spacing)).astype(np.int64)
+    row = np.repeat(np.arange(len(rows)), counts)
+    part = (np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts) + 0.5) / counts[row]
+    points = points_at(rows[row], part)
     try:
         corners = Delaunay(points).simplices
     except (QhullError, ValueError):  # fewer than three points, or all on a line
-        return []
-    edges = np.unique(np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1), axis=0)
-    group = np.array(groups)[ring]
-    edges = edges[group[edges[:, 0]] != group[edges[:, 1]]]
+        return
+    edges = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)
+    ring = owner[row]
+    group, region = np.array(groups)[ring], np.array([r.region for r in rings])[ring]
+    apart = (group[edges[:, 0]] != group[edges[:, 1]]) & (region[edges[:, 0]] == region[edges[:, 1]])
+    edges = np.unique(edges[apart], axis=0)
     size = np.hypot(*(points[edges[:, 0]] - points[edges[:, 1]]).T)
-    places = [Place(int(a), int(b), float(c)) for a, b, c in zip(ring, row, part, strict=True)]
-    return [Bridge(places[edges[k, 0]], places[edges[k, 1]], float(size[k])) for k in np.argsort(size)]
+    for k in np.argsort(size, kind="stable"):
+        a, b = (Place(int(ring[i]), int(number[row[i]]), float(part[i])) for i in edges[k])
+        yield Bridge(a, b, float(size[k])), points[edges[k]]
 
 
 def is_clear(field: DistanceField, a: np.ndarray, b: np.ndarray, distance: float) -> bool:

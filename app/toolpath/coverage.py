@@ -8,7 +8,6 @@ tool. Method: polygons (shapely), arcs as chords within CHORD; strips thinner th
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -21,7 +20,7 @@ from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program
 from app.model.operation import Operation, PocketOperation
 from app.progress import NO_PROGRESS, Progress
-from app.toolpath.flat import flattened, grown, move_rows, region_shape
+from app.toolpath.flat import area_shape, flattened, grown, move_rows
 
 CHORD = 1e-3
 """mm; arcs are measured as chords that stay within this of them."""
@@ -93,7 +92,7 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Cov
         return Coverage()
     pockets = [operation for operation in operations if isinstance(operation, PocketOperation)]
     floor = max(operation.cut.depth for operation in pockets or operations)
-    regions = shapely.MultiPolygon(list(_polygons([region_shape(region, CHORD) for region in program.regions])))
+    regions = area_shape(program, CHORD)
     progress.step(0.0, "Measuring what is left")
     leave = min(operation.cut.stock_to_leave for operation in operations)
     area = grown(regions, -leave, CHORD) if leave else regions
@@ -169,18 +168,11 @@ def _solid(shape: Shape) -> Shape:
     return shapely.intersection(shapely.buffer(kept, thin, join_style="mitre"), shape)
 
 
-def _polygons(shapes: Iterable[Shape]) -> Iterable[Shape]:
-    """Yield every polygon of some shapes."""
-    for part in shapely.get_parts(shapely.get_parts(list(shapes))):
-        if part.geom_type == "Polygon" and not part.is_empty:
-            yield part
-
-
 def _places(shape: Shape, reachable: bool) -> tuple[Place, ...]:
     """Return the pieces of a shape, the largest disc first."""
     places = []
-    for piece in _polygons([shape]):
-        if piece.area < STRIP**2:
+    for piece in shapely.get_parts(shape):
+        if piece.geom_type != "Polygon" or piece.area < STRIP**2:
             continue
         centre, rim = (np.array(point) for point in shapely.maximum_inscribed_circle(piece, tolerance=CHORD).coords)
         disc = 2 * float(np.hypot(*(rim - centre)))

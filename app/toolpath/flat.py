@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
 from app.geometry.primitives import TURN, R, Rows, contour_rows, points_at, sample, sweeps
-from app.model.moves import MoveKind, Moves
-from app.model.part import Region
+from app.model.finding import FindingKind
+from app.model.moves import MoveKind, Moves, Program
+from app.model.part import Contour
 
 
 def move_rows(moves: Moves) -> Rows:
@@ -42,10 +45,21 @@ def lines(rows: Rows, chord: float) -> NDArray[np.object_]:
     return np.asarray(shapely.linestrings(points, indices=owner), dtype=object)
 
 
-def region_shape(region: Region, chord: float) -> Shape:
-    """Return a region as a shapely polygon whose chords stay within `chord` mm of its contours."""
-    rings = [sample(contour_rows(contour), chord) for contour in region.contours]
-    outer, *inner = rings
+def area_shape(program: Program, chord: float) -> Shape:
+    """Return all regions of a program as one shape whose chords stay within `chord` mm of their contours.
+
+    Where contours cross, what an odd number of them encloses is the area.
+    """
+    if any(finding.kind is FindingKind.SELF_INTERSECTION for finding in program.findings):
+        contours = [contour for region in program.regions for contour in region.contours]
+        return shapely.symmetric_difference_all([_polygon([contour], chord) for contour in contours])
+    parts = shapely.get_parts(shapely.get_parts([_polygon(region.contours, chord) for region in program.regions]))
+    return shapely.MultiPolygon([part for part in parts if part.geom_type == "Polygon" and not part.is_empty])
+
+
+def _polygon(contours: Sequence[Contour], chord: float) -> Shape:
+    """Return the polygon with the first contour as its boundary and the others as its holes."""
+    outer, *inner = (sample(contour_rows(contour), chord) for contour in contours)
     if len(outer) < 3:
         return shapely.Polygon()
     return shapely.make_valid(shapely.Polygon(outer, [ring for ring in inner if len(ring) > 2]))

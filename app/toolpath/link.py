@@ -36,14 +36,28 @@ def link(levels: Sequence[Level], field: DistanceField, direction: Direction) ->
     tree = _Tree(len(rings))
     for bridge in inward_bridges(levels, field):
         tree.add(bridge)
-    outer = levels[0].rings if levels else ()
-    if len({tree.group(k) for k in range(len(outer))}) > 1:
-        spacing = levels[0].distance / 4
-        for bridge in level_bridges(outer, [tree.group(k) for k in range(len(outer))], spacing):
-            if not tree.joined(bridge) and is_clear(field, _point(rings, bridge.a), _point(rings, bridge.b), levels[0].distance):
-                tree.add(bridge)
+    if levels:
+        _join_across(levels[0], tree, field)
     walk = _Walk(rings, depth, tree.neighbours, direction)
     return tuple(walk.stroke(root) for root in _roots(tree, depth))
+
+
+def _join_across(outermost: Level, tree: _Tree, field: DistanceField) -> None:
+    """Join what the inner levels left apart, over the ridges between rings of the outermost level.
+
+    There are as many connected areas as rings that turn left; when no more groups are left, all are joined.
+    """
+    rings = outermost.rings
+    groups = [tree.group(k) for k in range(len(rings))]
+    too_many = len(set(groups)) - sum(ring.area > 0 for ring in rings)
+    if too_many <= 0:
+        return
+    for bridge, (a, b) in level_bridges(rings, groups, outermost.distance / 4):
+        if not tree.joined(bridge) and is_clear(field, a, b, outermost.distance):
+            tree.add(bridge)
+            too_many -= 1
+            if too_many == 0:
+                return
 
 
 def _point(rings: Sequence[Ring], place: Place) -> Rows:
