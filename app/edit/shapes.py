@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from itertools import pairwise
 
 from app.errors import InputError
@@ -100,7 +99,7 @@ def arc_through(start: Point, via: Point, end: Point) -> Arc:
         raise InputError(f"The three points of the arc lie on a straight line at {shown(via)}; move the middle one off it.")
     aa, bb = ax * ax + ay * ay, bx * bx + by * by
     centre = (start[0] + (by * aa - ay * bb) / (2 * cross), start[1] + (ax * bb - bx * aa) / (2 * cross))
-    return replace(Arc(start, end, centre), ccw=cross < 0)
+    return Arc(start, end, centre, ccw=cross > 0)
 
 
 def curve_length(curve: Primitive) -> float:

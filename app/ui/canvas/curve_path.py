@@ -69,7 +69,7 @@ def path_of(elements: Elements) -> QPainterPath:
     path = QPainterPath()
     if len(elements) == 0:
         return path
-    data = QByteArray(struct.pack(">i", len(elements)) + elements.tobytes() + struct.pack(">ii", 0, 0))
+    data = QByteArray(struct.pack(">i", len(elements)) + elements.astype(ELEMENT).tobytes() + struct.pack(">ii", 0, 0))
     stream = QDataStream(data, QIODevice.OpenModeFlag.ReadOnly)  # the stream only points to the data: keep it
     stream >> path
     return path

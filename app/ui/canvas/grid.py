@@ -130,7 +130,7 @@ def _paint_cells(painter: QPainter, view: View, part: QRectF, frame: Frame, them
     if part.isEmpty():
         return
     colour = QColor(theme.muted)
-    colour.setAlphaF(min(0.30, 0.10 + 0.01 * (frame.pitch * view.scale - CELL_PX)))
+    colour.setAlphaF(min(0.28, 0.07 + 0.01 * (frame.pitch * view.scale - CELL_PX)))
     x0, y0, x1, y1 = view.world_box(part)
     columns = [frame.x0 + step for step in _multiples(x0 - frame.x0, x1 - frame.x0, frame.pitch)]
     rows = [frame.y0 + step for step in _multiples(y0 - frame.y0, y1 - frame.y0, frame.pitch)]
