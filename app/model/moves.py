@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
@@ -113,6 +113,7 @@ class Program:
         strokes: pocket strokes (connected pocket paths without a lift), summed over depth passes.
         polyline_rings: rings that had to fall back to a fine polyline.
         bitmap_area_mm2, exact_area_mm2: area of A' by the bitmap fill and by the exact offset (independent check).
+        pitch_mm: size of that bitmap's pixels; 0 when nothing was filled.
     """
 
     moves: Moves
@@ -122,4 +123,4 @@ class Program:
     polyline_rings: int = 0
     bitmap_area_mm2: float = 0.0
     exact_area_mm2: float = 0.0
-    pitch_mm: float = field(default=0.25)
+    pitch_mm: float = 0.0

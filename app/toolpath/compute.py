@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from app.bitmap.fill import Observer
 from app.errors import ParameterError
 from app.geometry.chain import chain
 from app.geometry.distance import DistanceField
@@ -18,6 +19,7 @@ from app.model.operation import ContourOperation, Operation, Order, PocketOperat
 from app.model.part import Region
 from app.model.tool import Tool
 from app.progress import NO_PROGRESS, Progress
+from app.toolpath.bitmap_check import BitmapCheck, check_on_bitmap
 from app.toolpath.build import Label, MovesBuilder, Stroke
 from app.toolpath.contour import contour_strokes, nearest_first
 from app.toolpath.depth import cut_in_passes, pass_heights
@@ -32,7 +34,8 @@ class Setting:
 
     Attributes:
         primitives, distances: the drawing's regions as rows, and distances from them.
-        findings, polyline_rings, strokes: collected while operations run.
+        observer: is shown the numbered steps of the fill.
+        findings, polyline_rings, strokes, on_bitmap: collected while operations run.
     """
 
     job: Job
@@ -43,6 +46,8 @@ class Setting:
     findings: list[Finding] = field(default_factory=list)
     polyline_rings: int = 0
     strokes: int = 0
+    observer: Observer | None = None
+    on_bitmap: BitmapCheck | None = None
     at: tuple[float, float] = (0.0, 0.0)
 
     def note(self, levels: Sequence[Level]) -> None:
@@ -50,8 +55,11 @@ class Setting:
         self.polyline_rings += sum(ring.polyline for level in levels for ring in level.rings)
 
 
-def compute(job: Job, progress: Progress = NO_PROGRESS) -> Program:
+def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | None = None) -> Program:
     """Return every move of a job.
+
+    Args:
+        observer: is shown the numbered steps of the bitmap fill (201-208); costs nothing when there is none.
 
     Raises:
         ParameterError: an operation's parameters do not fit its tool.
@@ -63,7 +71,7 @@ def compute(job: Job, progress: Progress = NO_PROGRESS) -> Program:
     if not regions:
         return Program(builder.moves(), findings=tuple(findings))
     primitives = pack(regions, even_odd=crossing)
-    setting = Setting(job, regions, primitives, DistanceField.of(primitives.outline), builder, findings)
+    setting = Setting(job, regions, primitives, DistanceField.of(primitives.outline), builder, findings, observer=observer)
     operations = in_order(job)
     for k, index in enumerate(operations):
         operation = job.operations[index]
@@ -71,7 +79,9 @@ def compute(job: Job, progress: Progress = NO_PROGRESS) -> Program:
     if job.order is Order.PATENT_1986:
         setting.findings.extend(_slotting(job))
     ordered = sorted(setting.findings, key=lambda f: not f.counts)
-    return Program(builder.moves(), regions, tuple(ordered), setting.strokes, setting.polyline_rings)
+    seen = setting.on_bitmap or BitmapCheck(0.0, 0.0, 0, (0.0, 0.0), 0.0)
+    return Program(builder.moves(), regions, tuple(ordered), setting.strokes, setting.polyline_rings,
+                   seen.bitmap_area, seen.exact_area, seen.pitch)
 
 
 def regions_of(job: Job) -> tuple[tuple[Region, ...], list[Finding], bool]:
@@ -100,11 +110,14 @@ def wall_distance(job: Job) -> float:
 
 
 def _contour(setting: Setting, index: int, progress: Progress) -> None:
-    """Step 120: offset every contour by the contour tool's radius."""
+    """Steps 120 and 130: offset every contour by the contour tool's radius, and fill the area it bounds."""
     operation = setting.job.operations[index]
     tool = setting.job.tool(operation.cut.tool)
     levels = offset_levels(setting.primitives, [tool.radius + operation.cut.stock_to_leave], progress)
     setting.note(levels)
+    progress.step(0.5, "Fill")
+    setting.on_bitmap = check_on_bitmap(setting.distances, levels[0], setting.observer)
+    setting.findings.extend(setting.on_bitmap.findings())
     setting.findings.extend(too_small(setting.regions, levels[0], tool, counts=True))
     setting.findings.extend(necks(levels[0], setting.distances, tool))
     _emit(setting, index, contour_strokes(levels[0].rings, operation.cut.direction))
