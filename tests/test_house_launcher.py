@@ -23,6 +23,7 @@ def checkout(tmp_path: Path) -> Path:
     (root / "app").mkdir()
     shutil.copy(ROOT / "hitofude", root)
     shutil.copy(ROOT / "pyproject.toml", root)
+    (root / "app" / "__init__.py").touch()
     (root / "app" / "__main__.py").write_text(SAY_WHAT_CAME)
     (root / "app" / "kernels.py").write_text("import sys; print('kernels compiled', file=sys.stderr)\n")
     python = root / ".venv" / "bin" / "python"
@@ -58,7 +59,6 @@ def test_a_folder_named_app_where_it_is_called_does_not_matter(checkout: Path, t
     (tmp_path / "app").mkdir()
     (tmp_path / "app" / "__main__.py").write_text("print('wrong')")
     (tmp_path / "app" / "__init__.py").touch()
-    (checkout / "app" / "__init__.py").touch()
     assert call(checkout / "hitofude", "make", folder=tmp_path).stdout == f"make|{tmp_path}\n"
 
 
