@@ -15,12 +15,12 @@ from app.model.part import Entity, Part
 from app.ui.canvas.curve_path import add_curve
 from app.ui.canvas.snap import SnapPoints, no_snap_points, snap_points
 
-_BITS = 7
+_BITS = 6
 
 
 @dataclass(frozen=True)
 class Chunk:
-    """Entities whose numbers differ in the last 7 bits only.
+    """Entities whose numbers differ in the last 6 bits only.
 
     Attributes:
         entities: the entities.

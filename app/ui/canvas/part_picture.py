@@ -10,11 +10,12 @@ from app.edit.sample import Box, sample
 from app.model.curves import Curve, Point
 from app.model.part import Entity, Part
 from app.ui.canvas.chunks import PartChunks
-from app.ui.canvas.curve_path import add_curve
+from app.ui.canvas.curve_path import MANY, add_curve
 from app.ui.canvas.view import View
 from app.ui.theme import Theme
 
 PART_WIDTH = 1.25
+_BATCH = 64
 
 
 class PartPicture:
@@ -29,7 +30,7 @@ class PartPicture:
         self.lookup = PartChunks()
         self._colours: dict[str, str] = {}
         self._locked: frozenset[str] = frozenset()
-        self._selected = QPainterPath()
+        self._selected: list[QPainterPath] = []
 
     def update(self, part: Part) -> None:
         """Take over another part."""
@@ -39,25 +40,25 @@ class PartPicture:
 
     def select(self, ids: frozenset[int]) -> None:
         """Take over another selection."""
-        self._selected = QPainterPath()
-        for entity in self.lookup.entities if ids else ():
-            if entity.id in ids:
-                add_curve(self._selected, entity.curve)
+        chosen = [e for e in self.lookup.entities if e.id in ids] if ids else []
+        self._selected = [_path(chosen[at:at + _BATCH]) for at in range(0, len(chosen), _BATCH)]
 
     def paint(self, painter: QPainter, view: View, box: Box, theme: Theme, draft: bool) -> None:
         """Paint what lies in a box in mm; the painter works in screen px."""
         painter.save()
         painter.setTransform(view.transform(), True)
         painter.setBrush(Qt.BrushStyle.NoBrush)
-        for chunk in self.lookup.chunks:
-            if chunk.box[0] > box[2] or chunk.box[2] < box[0] or chunk.box[1] > box[3] or chunk.box[3] < box[1]:
-                continue
+        seen = [c for c in self.lookup.chunks
+                if c.box[0] <= box[2] and c.box[2] >= box[0] and c.box[1] <= box[3] and c.box[3] >= box[1]]
+        fine = draft or sum(path.elementCount() for c in seen for path in c.paths.values()) > MANY
+        for chunk in seen:
             for layer, path in chunk.paths.items():
-                painter.setPen(_pen(QColor(self._colours.get(layer) or theme.ink), 1.0 if draft else PART_WIDTH))
+                painter.setPen(_pen(QColor(self._colours.get(layer) or theme.ink), 1.0 if fine else PART_WIDTH))
                 painter.drawPath(path)
-        if not self._selected.isEmpty():
-            painter.setPen(_pen(theme.selection, 1.0 if draft else 2.6))
-            painter.drawPath(self._selected)
+        fine = draft or sum(path.elementCount() for path in self._selected) > MANY
+        painter.setPen(_pen(theme.selection, 1.0 if fine else 2.6))
+        for path in self._selected:
+            painter.drawPath(path)
         painter.restore()
 
     def nearest(self, at: Point, reach: float) -> Entity | None:
@@ -71,6 +72,13 @@ class PartPicture:
             if entity.layer not in self._locked and (distance := _distance(entity.curve, at)) <= found[0]:
                 found = (distance, entity)
         return found[1]
+
+
+def _path(entities: list[Entity]) -> QPainterPath:
+    path = QPainterPath()
+    for entity in entities:
+        add_curve(path, entity.curve)
+    return path
 
 
 def _distance(curve: Curve, at: Point) -> float:

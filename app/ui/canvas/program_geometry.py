@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +13,9 @@ from app.edit.sample import Box
 from app.model.moves import MoveKind, Moves, Purpose
 from app.ui.canvas.curve_path import CURVE_DATA, CURVE_TO, ELEMENT, LINE_TO, MOVE_TO, PIECE, Elements, path_of
 
-_CHUNK = 96
+RUN = 96
+"""Longer painter paths cost more than their share."""
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
@@ -55,7 +56,8 @@ class MoveShapes:
         boxes: (n, 4) x0, y0, x1, y1 of each move, mm.
         piece: (n,) number of the piece it belongs to: neighbours of one operation, purpose, tool and region.
         first, last: (k,) range of moves of each piece, last excluded.
-        elements: painter path elements of all moves. offset: (n + 1,) where each move's begin.
+        run: (m + 1,) first move of each run: at most 96 moves of one piece; the last entry is n.
+        elements: painter path elements of all moves, each run begun by a MOVE_TO. offset: (n + 1,) where each move's begin.
     """
 
     moves: Moves
@@ -66,6 +68,7 @@ class MoveShapes:
     piece: Ints
     first: Ints
     last: Ints
+    run: Ints
     elements: Elements
     offset: Ints
 
@@ -76,12 +79,12 @@ class MoveShapes:
 
     def path(self, first: int, last: int) -> QPainterPath:
         """Return the painter path in mm of moves first … last - 1."""
-        return path_of(self.path_elements(first, last))
-
-    def path_elements(self, first: int, last: int) -> Elements:
-        """Return the painter path elements of moves first … last - 1, beginning with a MOVE_TO."""
         head = np.array([(MOVE_TO, self.start[first, 0], self.start[first, 1])], dtype=ELEMENT)
-        return np.concatenate([head, self.elements[self.offset[first]:self.offset[last]]])
+        return path_of(head, self.elements[self.offset[first]:self.offset[last]])
+
+    def run_elements(self, run: int) -> Elements:
+        """Return the painter path elements of a run."""
+        return self.elements[self.offset[self.run[run]]:self.offset[self.run[run + 1]]]
 
 
 def shape_moves(moves: Moves) -> MoveShapes:
@@ -92,32 +95,33 @@ def shape_moves(moves: Moves) -> MoveShapes:
     first = np.concatenate([[0], change]).astype(np.int64) if len(moves) else np.zeros(0, np.int64)
     last = np.append(first[1:], len(moves)).astype(np.int64) if len(moves) else first
     piece = np.repeat(np.arange(len(first)), last - first)
-    elements, offset = _elements(moves, start, sweep)
+    heads = (np.arange(len(moves)) - first[piece]) % RUN == 0 if len(moves) else np.zeros(0, np.bool_)
+    run = np.append(np.flatnonzero(heads), len(moves)).astype(np.int64)
+    elements, offset = _elements(moves, start, sweep, heads)
     boxes = _boxes(moves, start, sweep)
-    return MoveShapes(moves, start, sweep, moves.lengths(), boxes, piece, first, last, elements, offset)
+    return MoveShapes(moves, start, sweep, moves.lengths(), boxes, piece, first, last, run, elements, offset)
 
 
 def chunks(shapes: MoveShapes) -> list[PathChunk]:
     """Return everything to be painted; what lies again on the same place (a deeper pass) is left out."""
     seen: set[tuple[PathStyle, bytes]] = set()
-    waiting: dict[PathStyle, list[Elements]] = {}
+    waiting: dict[PathStyle, list[int]] = {}
     found: list[PathChunk] = []
-    for first, last in _ranges(shapes):
-        style = shapes.style(first)
-        elements = shapes.path_elements(first, last)
-        mark = (style, elements.tobytes())
+    for run, first in enumerate(shapes.run[:-1]):
+        style = shapes.style(int(first))
+        mark = (style, shapes.run_elements(run).tobytes())
         if style.purpose is Purpose.PLUNGE or mark in seen:
             continue
         seen.add(mark)
         if style.purpose is Purpose.CONTOUR:
             begins = float(shapes.length[shapes.first[shapes.piece[first]]:first].sum())
-            found.append(_chunk(style, elements, begins))
+            found.append(_chunk(shapes, style, [run], begins))
             continue
         batch = waiting.setdefault(style, [])
-        batch.append(elements)
-        if sum(map(len, batch)) > _CHUNK:
-            found.append(_chunk(style, np.concatenate(waiting.pop(style)), 0.0))
-    return found + [_chunk(style, np.concatenate(batch), 0.0) for style, batch in waiting.items()]
+        batch.append(run)
+        if sum(len(shapes.run_elements(r)) for r in batch) > RUN:
+            found.append(_chunk(shapes, style, waiting.pop(style), 0.0))
+    return found + [_chunk(shapes, style, batch, 0.0) for style, batch in waiting.items()]
 
 
 def plunges(shapes: MoveShapes) -> list[tuple[float, float]]:
@@ -126,32 +130,29 @@ def plunges(shapes: MoveShapes) -> list[tuple[float, float]]:
     return [(float(x), float(y)) for x, y in np.unique(shapes.moves.end[where, :2], axis=0)]
 
 
-def _ranges(shapes: MoveShapes) -> Iterator[tuple[int, int]]:
-    for first, last in zip(shapes.first, shapes.last, strict=True):
-        for at in range(int(first), int(last), _CHUNK):
-            yield at, min(at + _CHUNK, int(last))
+def _chunk(shapes: MoveShapes, style: PathStyle, runs: list[int], begins_at: float) -> PathChunk:
+    boxes = np.concatenate([shapes.boxes[shapes.run[r]:shapes.run[r + 1]] for r in runs])
+    (x0, y0), (x1, y1) = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
+    path = path_of(*(shapes.run_elements(r) for r in runs))
+    return PathChunk(style, path, (float(x0), float(y0), float(x1), float(y1)), begins_at)
 
 
-def _chunk(style: PathStyle, elements: Elements, begins_at: float) -> PathChunk:
-    box = (float(elements["x"].min()), float(elements["y"].min()), float(elements["x"].max()), float(elements["y"].max()))
-    return PathChunk(style, path_of(elements), box, begins_at)
-
-
-def _elements(moves: Moves, start: Floats, sweep: Floats) -> tuple[Elements, Ints]:
-    """Return painter path elements of all moves, and where each move's begin: lines one, arcs three a piece."""
+def _elements(moves: Moves, start: Floats, sweep: Floats, heads: NDArray[np.bool_]) -> tuple[Elements, Ints]:
+    """Return painter path elements of all moves, and where each move's begin: lines one, arcs three a piece, runs one more."""
     arcs = moves.kind >= MoveKind.ARC_CW
     pieces = np.where(arcs, np.maximum(1, np.ceil(np.abs(sweep) / PIECE - 1e-9)), 0).astype(np.int64)
-    offset = np.concatenate([[0], np.cumsum(np.where(arcs, 3 * pieces, 1))]).astype(np.int64)
+    offset = np.concatenate([[0], np.cumsum(np.where(arcs, 3 * pieces, 1) + heads)]).astype(np.int64)
+    body = offset[:-1] + heads
     elements = np.zeros(int(offset[-1]), dtype=ELEMENT)
-    lines = offset[:-1][~arcs]
-    elements["kind"][lines] = LINE_TO
-    elements["x"][lines], elements["y"][lines] = moves.end[~arcs, 0], moves.end[~arcs, 1]
+    for kind, at, points in ((MOVE_TO, offset[:-1][heads], start[heads]), (LINE_TO, body[~arcs], moves.end[~arcs])):
+        elements["kind"][at] = kind
+        elements["x"][at], elements["y"][at] = points[:, 0], points[:, 1]
     if arcs.any():
-        _fill_arcs(elements, moves, (start, sweep, pieces), offset)
+        _fill_arcs(elements, moves, (start, sweep, pieces), body)
     return elements, offset
 
 
-def _fill_arcs(elements: Elements, moves: Moves, shape: tuple[Floats, Floats, Ints], offset: Ints) -> None:
+def _fill_arcs(elements: Elements, moves: Moves, shape: tuple[Floats, Floats, Ints], body: Ints) -> None:
     start, sweep, pieces = shape
     rows = np.repeat(np.arange(len(moves)), pieces)
     number = np.arange(len(rows)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
@@ -161,7 +162,7 @@ def _fill_arcs(elements: Elements, moves: Moves, shape: tuple[Floats, Floats, In
     radius, begin = np.hypot(*first.T), np.arctan2(first[:, 1], first[:, 0])
     handle = 4 / 3 * np.tan(step / 4)
     a, b = begin + step * number, begin + step * (number + 1)
-    at = offset[rows] + 3 * number
+    at = body[rows] + 3 * number
     columns = (
         (CURVE_TO, np.cos(a) - handle * np.sin(a), np.sin(a) + handle * np.cos(a)),
         (CURVE_DATA, np.cos(b) + handle * np.sin(b), np.sin(b) - handle * np.cos(b)),

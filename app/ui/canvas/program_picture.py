@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 
 from app.edit.sample import Box
 from app.model.moves import Program, Purpose
-from app.ui.canvas.curve_path import chain_path
+from app.ui.canvas.curve_path import MANY, chain_path
 from app.ui.canvas.modes import ColourBy, PathLayers
 from app.ui.canvas.program_geometry import PathStyle, chunks, plunges, shape_moves
 from app.ui.canvas.view import View
@@ -29,7 +29,7 @@ class PathLook:
     """How paths are shown.
 
     Attributes:
-        draft: pens of one px only, ten times as fast, while the view moves.
+        draft: pens of one px only, while the view moves.
     """
 
     theme: Theme
@@ -71,13 +71,15 @@ class ProgramPicture:
         if PathLayers.REGION in look.layers:
             self._paint_regions(painter, look)
         painter.setBrush(Qt.BrushStyle.NoBrush)
-        for chunk in self._chunks:
-            if _LAYER_OF[chunk.style.purpose] in look.layers and _meet(chunk.box, box):
-                pen = self.pen(chunk.style, look)
-                if chunk.begins_at:
-                    pen.setDashOffset(chunk.begins_at * view.scale / pen.widthF())
-                painter.setPen(pen)
-                painter.drawPath(chunk.path)
+        seen = [c for c in self._chunks if _LAYER_OF[c.style.purpose] in look.layers and _meet(c.box, box)]
+        if sum(c.path.elementCount() for c in seen) > MANY:
+            look = replace(look, draft=True)
+        for chunk in seen:
+            pen = self.pen(chunk.style, look)
+            if chunk.begins_at:
+                pen.setDashOffset(chunk.begins_at * view.scale / pen.widthF())
+            painter.setPen(pen)
+            painter.drawPath(chunk.path)
         painter.restore()
         if PathLayers.PLUNGE in look.layers:
             self._paint_plunges(painter, view, box, look.theme)
