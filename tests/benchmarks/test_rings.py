@@ -13,9 +13,8 @@ from pytest_benchmark.fixture import BenchmarkFixture
 
 from app.geometry.distance import DistanceField
 from app.geometry.offset import Level, offset_levels
-from app.geometry.primitives import pack
+from app.geometry.primitives import contour_rows, pack, sample
 from app.model.part import Region
-from app.toolpath.flat import region_shape
 from app.toolpath.pocket import pocket_distances, without_empty
 from tests.benchmarks.conftest import OURS, record
 
@@ -23,6 +22,12 @@ pytestmark = pytest.mark.benchmark
 FIRST, STEPOVER, CHORD, ARC_TOLERANCE = 1.5, 0.9, 1e-3, 1e-3
 
 Named = tuple[str, tuple[Region, ...]]
+
+
+def polygon_of(regions: tuple[Region, ...]) -> shapely.Geometry:
+    """The area of all regions as chords within 1 µm of the drawing."""
+    rings = ([sample(contour_rows(contour), CHORD) for contour in region.contours] for region in regions)
+    return shapely.union_all([shapely.make_valid(shapely.Polygon(boundary, islands)) for boundary, *islands in rings])
 
 
 def own_rings(regions: tuple[Region, ...]) -> tuple[Level, ...]:
@@ -56,14 +61,14 @@ def test_own_rings(benchmark: BenchmarkFixture, part: Named) -> None:
     levels = benchmark.pedantic(own_rings, (regions,), rounds=3 if name == "complex" else 20, warmup_rounds=1)
     record(benchmark, f"rings of {name}", OURS)
     area = abs(sum(ring.area for ring in levels[0].rings))
-    polygon = shapely.union_all([region_shape(region, CHORD) for region in regions])
+    polygon = polygon_of(regions)
     assert area == pytest.approx(polygon.buffer(-FIRST, quad_segs=64).area, rel=1e-4)
 
 
 @pytest.mark.parametrize("from_part", [True, False], ids=["from part", "ring from ring"])
 def test_shapely_rings(benchmark: BenchmarkFixture, part: Named, from_part: bool) -> None:
     name, regions = part
-    polygon = shapely.union_all([region_shape(region, CHORD) for region in regions])
+    polygon = polygon_of(regions)
     rings = benchmark.pedantic(shapely_rings, (polygon, from_part), rounds=3 if name == "complex" else 20)
     record(benchmark, f"rings of {name}", f"shapely {'from part' if from_part else 'ring from ring'}")
     assert len(rings) > 3
@@ -72,7 +77,7 @@ def test_shapely_rings(benchmark: BenchmarkFixture, part: Named, from_part: bool
 @pytest.mark.skipif(importlib.util.find_spec("pyclipper") is None, reason="pyclipper is not installed (extra: bench)")
 def test_clipper_rings(benchmark: BenchmarkFixture, part: Named) -> None:
     name, regions = part
-    polygon = shapely.union_all([region_shape(region, CHORD) for region in regions])
+    polygon = polygon_of(regions)
     parts = [shapely.get_coordinates(ring) for piece in shapely.get_parts(polygon) for ring in (piece.exterior, *piece.interiors)]
     rings = benchmark.pedantic(clipper_rings, (parts, 1e6), rounds=1 if name == "complex" else 5)
     record(benchmark, f"rings of {name}", "pyclipper from part")
