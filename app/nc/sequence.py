@@ -27,6 +27,8 @@ def check_sequence(moves: Moves, job: Job) -> None:
     """
     if not len(moves):
         raise ParameterError("The program has no moves, so there is nothing to write; enable an operation and compute.")
+    _refuse(moves, (moves.operation < 0) | (moves.operation >= len(job.operations)),
+            "belongs to an operation that the job does not have any more; compute again")
     first = np.append(True, moves.tool[1:] != moves.tool[:-1])
     rapid = moves.kind == MoveKind.RAPID
     arc = moves.kind >= MoveKind.ARC_CW

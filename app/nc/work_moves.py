@@ -22,7 +22,7 @@ class WorkMoves:
         kind, tool, operation: as in the moves.
         end: X, Y, Z as counts of the last decimal.
         z: heights before rounding, out units.
-        feed: counts of the last decimal of F.
+        feed: counts of the last decimal of F, at least one, as controls refuse F0.
         arcs: the meant arc of each arc move, by index.
     """
 
@@ -49,7 +49,7 @@ def work_moves(moves: Moves, origin: tuple[float, float, float], units: Units, d
         operation=moves.operation.tolist(),
         end=list(zip(*columns, strict=True)),
         z=end[:, 2].tolist(),
-        feed=counts(moves.feed / units.value, digits.F),
+        feed=[max(1, feed) for feed in counts(moves.feed / units.value, digits.F)],
         arcs=_meant_arcs(moves, origin, units),
     )
 

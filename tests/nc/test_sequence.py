@@ -27,6 +27,7 @@ REFUSED = {
     "diagonal rapid": (Path().rapid(0, 0, 5.0).rapid(3, 0, 1.0), "changes XY and Z at once"),
     "rapid down into work": (Path().rapid(0, 0, 5.0).rapid(0, 0, 0.5), "is a rapid down below retract Z 1"),
     "level rapid in work": (Path().into_work(0, 0).rapid(3, 0, -1.0), "is a rapid in XY below retract Z 1"),
+    "another job's": (Path(operation=2).rapid(0, 0, 5.0), "an operation that the job does not have any more"),
     "no feed": (Path(feed=0.0).rapid(0, 0, 5.0).line(0, 0, 1.0), "cuts without a feed rate"),
     "no number": (Path().rapid(0, 0, 5.0).rapid(math.nan, 0, 5.0), "has a coordinate that is no number"),
     "arc without radius": (Path().into_work(0, 0).arc((0, 0, -1), (0, 0)), "is an arc without a radius"),

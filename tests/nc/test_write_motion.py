@@ -60,6 +60,11 @@ def test_absolute_arc_centres_and_block_numbers_are_data() -> None:
     assert_same_motion(program.moves, write_program(program, task, absolute), task)
 
 
+def test_a_helix_of_one_turn_goes_down_evenly() -> None:
+    text = check(Path().into_work(35, 22, -1).arc((35, 22, -3), (30, 22)).out_of_work())
+    assert "G3 X25.0000 Y22.0000 Z-2.0000 I-5.0000 J0.0000 F600\nX35.0000 Y22.0000 Z-3.0000 I5.0000 J0.0000" in text
+
+
 angles = st.floats(-math.pi, math.pi)
 radii = st.one_of(st.floats(1e-5, 1e-2), st.floats(0.01, 50.0), st.floats(50.0, 1e7))
 sweeps = st.one_of(

@@ -138,6 +138,12 @@ def test_feed_is_in_out_units() -> None:
     assert "F23.62" in write(Path().into_work(0, 0).line(5, 0, -1), out_units=Units.INCH).text
 
 
+def test_a_feed_never_rounds_to_nothing() -> None:
+    text = write(Path(feed=0.01).into_work(0, 0).line(5, 0, -1), out_units=Units.INCH).text
+    assert "F0.01" in text
+    canonical_calls(text)
+
+
 def test_blending_stays_below_its_tolerance_in_either_unit() -> None:
     assert blend_mm(job(), LINUXCNC) == 0.01
     assert 0.0099 < blend_mm(job(out_units=Units.INCH), LINUXCNC) <= 0.01
