@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication, QKeyEvent
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QMainWindow, QVBoxLayout, QWidget
 
 from app.edit.document import Document
@@ -31,7 +31,7 @@ class MainWindow(QMainWindow):
     """Menu, bars, views, panel, log, command line, status.
 
     Signals:
-        dropped(path): a drawing was dropped on the window. closing(): asked to close; `accept_close` tells whether it may.
+        dropped(path): a drawing was dropped on the window. closing(): about to close; `may_close` tells whether it may.
     """
 
     dropped = Signal(str)
@@ -100,15 +100,6 @@ class MainWindow(QMainWindow):
             if hasattr(widget, "set_theme"):
                 widget.set_theme(self.theme)
         self.actions_[f"theme_{choice.value}"].setChecked(True)
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """A character that nothing else wanted begins a command."""
-        text = event.text()
-        control = event.modifiers() & (Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier)
-        if text and text.isprintable() and not text.isspace() and not control:
-            self.command_line.begin(text)
-        else:
-            super().keyPressEvent(event)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
         """Welcome one drawing."""

@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, QObject
+from PySide6.QtCore import QByteArray, QObject, QTimer
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from app import __version__
@@ -124,6 +124,7 @@ class Wiring(QObject):
 
     def _connect_canvas(self) -> None:
         canvas, window = self.window_.canvas, self.window_
+        names = {tool: name for name, tool in TOOLS.items()}
         for name, tool in TOOLS.items():
             self._on(name, partial(canvas.set_tool, tool))
         window.actions_["tool_select"].setChecked(True)
@@ -131,6 +132,9 @@ class Wiring(QObject):
         canvas.prompt_changed.connect(window.command_line.set_prompt)
         canvas.hovered.connect(self.showing.show_hovered)
         canvas.message.connect(self._say_error)
+        canvas.key_typed.connect(window.command_line.begin)
+        canvas.tool_changed.connect(lambda tool: window.actions_[names[tool]].setChecked(True))
+        window.command_line.set_prompt(canvas.prompt)
 
     def run(self, line: str) -> None:
         """Carry out one line of the drawing language; what is wrong with it stands in the log."""
@@ -205,7 +209,6 @@ class Wiring(QObject):
         self.window_.settings = self.window_.settings.with_recent_file(opened.path)
         self.computation.forget(opened.drawing.findings)
         self.window_.notice.hide()
-        self.window_.canvas.fit()
         self.showing.show_view(View.DRAW)
         if opened.path == opening_files.sample_path():
             self.computation.start()
@@ -213,6 +216,7 @@ class Wiring(QObject):
             self.window_.notice.ask(FIRST_START, [("Draw your own", lambda: self._leave_drawing("Begin a new drawing", self.new))])
         elif not opened.drawing.units_named:
             self._ask_units(opened)
+        QTimer.singleShot(0, self.window_.canvas.fit)
 
     def _ask_units(self, opened: Opened) -> None:
         size = self.showing.part_size()

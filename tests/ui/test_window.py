@@ -1,0 +1,273 @@
+"""The whole job in the window, with mouse and keys, on the real engines."""
+
+import time
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import QApplication
+
+from app.settings import ThemeChoice, load_settings
+from app.ui.computation import State
+from app.ui.panels.changes import Subject, SubjectKind
+from app.ui.start import build
+from app.ui.theme import DARK, LIGHT
+from app.ui.views import View
+from app.ui.wiring import FIRST_START
+
+WAIT_MS = 20_000
+NO_UNITS = "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n0\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n0.0\n20\n0.0\n40\n20.0\n0\nENDSEC\n0\nEOF\n"
+
+
+@pytest.fixture
+def wiring(qtbot):
+    window, made = build()
+    window.resize(1280, 800)
+    with qtbot.waitActive(window):
+        window.show()
+        window.activateWindow()
+    yield made
+    window.may_close = True
+    window.worker.finish(20.0)
+    made.document.load(made.document.job)
+    window.close()
+    window.deleteLater()
+
+
+@pytest.fixture
+def computed(qtbot, wiring):
+    """The sample part, opened and computed."""
+    wiring.open_sample()
+    qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=WAIT_MS)
+    return wiring
+
+
+def press(qtbot, wiring, key, modifier=Qt.KeyboardModifier.NoModifier):
+    qtbot.keyClick(wiring.window_.canvas, key, modifier)
+
+
+def test_first_start_shows_the_sample_computed(computed):
+    window = computed.window_
+    assert window.notice.text.text() == FIRST_START
+    assert computed.showing.view is View.PATHS
+    assert window.status.badge.text().startswith("✓ 0 gouge · 0 left · ")
+    assert window.file_label.text() == "fig2.dxf"
+    assert window.views.legend.isVisible()
+    assert not computed.document.modified
+
+
+def test_changed_tool_makes_the_paths_out_of_date_until_f5(qtbot, computed):
+    panel, before = computed.window_.panel, computed.computation.made
+    panel.choose(Subject(SubjectKind.TOOL, 1))
+    field = panel.tool_form.diameter
+    field.edit.setFocus()
+    field.edit.selectAll()
+    qtbot.keyClicks(field.edit, "4")
+    qtbot.keyClick(field.edit, Qt.Key.Key_Return)
+    assert computed.window_.status.badge.text() == "Out of date"
+    press(qtbot, computed, Qt.Key.Key_F5)
+    qtbot.waitUntil(lambda: computed.computation.state is State.CURRENT, timeout=WAIT_MS)
+    assert computed.computation.made is not before
+    assert "4" in next(t.label for t in computed.computation.made.job.tools if t.number == 1)
+
+
+def test_undo_of_the_change_makes_the_paths_current_again(qtbot, computed):
+    computed.document.run("circle 150,50 10")
+    assert computed.computation.state is State.STALE
+    action = computed.window_.actions_["undo"]
+    assert action.text() == "&Undo circle"
+    press(qtbot, computed, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert computed.computation.state is State.CURRENT
+    assert computed.window_.actions_["redo"].text() == "&Redo circle"
+
+
+def test_tabs_lead_from_drawing_to_nc(qtbot, computed):
+    window = computed.window_
+    qtbot.mouseClick(window.top_bar.tabs["view_nc"], Qt.MouseButton.LeftButton)
+    assert window.views.currentWidget() is window.views.nc
+    assert window.views.nc.lines == computed.computation.made.nc.text.splitlines()
+    assert not window.views.legend.isVisible()
+    qtbot.mouseClick(window.top_bar.tabs["view_draw"], Qt.MouseButton.LeftButton)
+    assert window.views.currentWidget() is window.canvas
+    press(qtbot, computed, Qt.Key.Key_2, Qt.KeyboardModifier.ControlModifier)
+    assert computed.showing.view is View.PATHS
+
+
+def test_picked_nc_line_tells_its_place(qtbot, computed):
+    nc, made = computed.window_.views.nc, computed.computation.made
+    computed.showing.show_view(View.NC)
+    with qtbot.waitSignal(nc.line_picked) as caught:
+        nc.pick(int(made.nc.lines[10]) - 1)
+    assert made.nc.lines[caught.args[0]] == made.nc.lines[10]
+    x = made.program.moves.end[caught.args[0], 0]
+    assert f"X {x:.3f}" in computed.window_.status.message.text()
+
+
+def test_export_writes_what_was_computed(qtbot, computed, tmp_path):
+    target = tmp_path / "part"
+    computed.exporting.choose_file = lambda: target
+    with qtbot.waitSignal(computed.exporting.written, timeout=WAIT_MS):
+        press(qtbot, computed, Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier)
+    assert (tmp_path / "part.ngc").read_text("ascii") == computed.computation.made.nc.text
+
+
+def test_export_that_cannot_be_written_says_so(qtbot, computed, tmp_path):
+    computed.exporting.choose_file = lambda: tmp_path / "no" / "folder.ngc"
+    with qtbot.waitSignal(computed.exporting.failed) as caught:
+        computed.exporting.start()
+    assert "folder.ngc" in caught.args[0]
+    assert computed.window_.notice.text.text() == caught.args[0]
+
+
+def test_export_of_a_changed_job_computes_first_and_shows_findings_before_the_file(qtbot, computed, tmp_path):
+    target = tmp_path / "open.ngc"
+    computed.exporting.choose_file = lambda: target
+    computed.document.run("line 150,0 150,50 170,50")
+    computed.exporting.start()
+    notice = computed.window_.notice
+    qtbot.waitUntil(lambda: [b.text() for b in notice.buttons] == ["Show findings", "Write anyway"], timeout=WAIT_MS)
+    assert "open contour" in notice.text.text()
+    assert not target.exists()
+    qtbot.mouseClick(notice.buttons[1], Qt.MouseButton.LeftButton)
+    assert target.exists()
+
+
+def test_cancel_is_answered_within_0_2_s(qtbot, wiring, data):
+    wiring.open_file(data / "dxf" / "complex.dxf")
+    qtbot.waitUntil(lambda: bool(wiring.document.part.entities), timeout=WAIT_MS)
+    press(qtbot, wiring, Qt.Key.Key_F5)
+    assert wiring.computation.state is State.RUNNING
+    qtbot.waitUntil(lambda: wiring.window_.status.bar.value() > 0, timeout=WAIT_MS)
+    begun = time.monotonic()
+    qtbot.mouseClick(wiring.window_.status.cancel, Qt.MouseButton.LeftButton)
+    assert time.monotonic() - begun < 0.2
+    assert wiring.computation.state is State.NONE
+    assert wiring.window_.status.badge.text() == "Not computed"
+    assert not wiring.window_.status.bar.isVisible()
+
+
+def test_answer_for_a_job_that_has_changed_is_dropped(qtbot, computed):
+    before = computed.computation.made
+    computed.computation.start()
+    computed.document.run("circle 150,50 10")
+    qtbot.wait(1500)
+    assert computed.computation.made is before
+    assert computed.computation.state is State.STALE
+
+
+def test_drawing_by_command_and_by_mouse_then_computing(qtbot, wiring):
+    window = wiring.window_
+    assert window.views.empty.isVisible(), "an empty drawing does not say what is missing"
+    window.command_line.edit.setFocus()
+    qtbot.keyClicks(window.command_line.edit, "rect 0,0 60,40")
+    qtbot.keyClick(window.command_line.edit, Qt.Key.Key_Return)
+    assert len(wiring.document.part.entities) == 4
+    assert not window.views.empty.isVisible()
+    assert window.command_line.log.lines[-1].command == "rect 0,0 60,40"
+    qtbot.mouseClick(window.tool_strip.buttons["tool_circle"], Qt.MouseButton.LeftButton)
+    middle = window.canvas.rect().center()
+    qtbot.mouseClick(window.canvas, Qt.MouseButton.LeftButton, pos=middle)
+    qtbot.mouseMove(window.canvas, middle)
+    qtbot.mouseClick(window.canvas, Qt.MouseButton.LeftButton, pos=middle + middle / 12)
+    assert wiring.document.log[-1].command.startswith("circle ")
+    press(qtbot, wiring, Qt.Key.Key_F5)
+    qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=WAIT_MS)
+    assert wiring.showing.view is View.PATHS
+
+
+def test_wrong_command_is_answered_in_the_log(qtbot, wiring):
+    line = wiring.window_.command_line
+    qtbot.keyClicks(line.edit, "lime 3,4")
+    qtbot.keyClick(line.edit, Qt.Key.Key_Return)
+    assert line.log.lines[-1].error
+    assert "'lime' is no command" in line.log.lines[-1].reply
+    qtbot.keyClick(line.edit, Qt.Key.Key_Up)
+    assert line.edit.text() == "lime 3,4"
+
+
+def test_characters_typed_over_the_canvas_begin_a_command(qtbot, wiring):
+    press(qtbot, wiring, Qt.Key.Key_R)
+    assert wiring.window_.command_line.edit.text() == "r"
+
+
+def test_drawing_without_units_asks_above_the_canvas(qtbot, wiring, tmp_path):
+    path = tmp_path / "plate.dxf"
+    path.write_text(NO_UNITS, "ascii")
+    with qtbot.waitSignal(wiring.opening.opened, timeout=WAIT_MS):
+        wiring.open_file(path)
+    notice = wiring.window_.notice
+    assert "plate.dxf names no units" in notice.text.text()
+    assert "40.000 by 40.000 mm" in notice.text.text()
+    inch = next(b for b in notice.buttons if b.text() == "Read in inch")
+    with qtbot.waitSignal(wiring.opening.opened, timeout=WAIT_MS):
+        qtbot.mouseClick(inch, Qt.MouseButton.LeftButton)
+    assert wiring.showing.part_size() == pytest.approx((1016.0, 1016.0))
+
+
+def test_file_that_is_no_drawing_leaves_the_document(qtbot, computed, tmp_path):
+    path = tmp_path / "empty.dxf"
+    path.write_bytes(b"")
+    job = computed.document.job
+    with qtbot.waitSignal(computed.opening.failed, timeout=WAIT_MS) as caught:
+        computed.open_file(path)
+    assert "empty.dxf" in caught.args[0]
+    assert computed.document.job is job
+    assert computed.window_.notice.text.text() == caught.args[0]
+
+
+def test_dropped_drawing_is_opened(qtbot, wiring, samples):
+    mime = QMimeData()
+    mime.setUrls([QUrl.fromLocalFile(str(samples / "fig2.dxf"))])
+    how = (Qt.DropAction.CopyAction, mime, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier)
+    enter, drop = QDragEnterEvent(QPoint(400, 10), *how), QDropEvent(QPointF(400, 10), *how)
+    QApplication.sendEvent(wiring.window_, enter)
+    assert enter.isAccepted()
+    with qtbot.waitSignal(wiring.opening.opened, timeout=WAIT_MS):
+        QApplication.sendEvent(wiring.window_, drop)
+    assert wiring.document.path == Path(samples / "fig2.dxf")
+
+
+def test_changes_are_not_lost_without_asking(qtbot, wiring):
+    wiring.document.run("circle 10,10 5")
+    press(qtbot, wiring, Qt.Key.Key_N, Qt.KeyboardModifier.ControlModifier)
+    notice = wiring.window_.notice
+    assert len(wiring.document.part.entities) == 1
+    qtbot.mouseClick(notice.buttons[1], Qt.MouseButton.LeftButton)
+    assert len(wiring.document.part.entities) == 1
+    assert not wiring.window_.close(), "the window closed over changes"
+    assert notice.isVisible()
+    press(qtbot, wiring, Qt.Key.Key_N, Qt.KeyboardModifier.ControlModifier)
+    qtbot.mouseClick(notice.buttons[0], Qt.MouseButton.LeftButton)
+    assert wiring.document.part.entities == ()
+
+
+def test_theme_switches_and_is_remembered(wiring):
+    wiring.window_.actions_["theme_dark"].trigger()
+    assert wiring.window_.theme is DARK
+    assert DARK.paper.name() in QApplication.instance().styleSheet()
+    assert load_settings().theme is ThemeChoice.DARK
+    wiring.window_.actions_["theme_light"].trigger()
+    assert wiring.window_.theme is LIGHT
+
+
+def test_finding_leads_to_its_place(qtbot, computed):
+    computed.document.run("line 150,0 150,50 170,50")
+    computed.compute()
+    qtbot.waitUntil(lambda: computed.computation.state is State.CURRENT, timeout=WAIT_MS)
+    badge, findings = computed.window_.status.badge, computed.window_.findings_list
+    assert badge.property("verdict") == "remark"
+    qtbot.mouseClick(badge, Qt.MouseButton.LeftButton)
+    assert findings.isVisible()
+    with qtbot.waitSignal(findings.picked) as caught:
+        qtbot.mouseClick(findings.rows[0], Qt.MouseButton.LeftButton)
+    assert caught.args[0].kind.value == "open_contour"
+    assert computed.document.selection == frozenset(caught.args[0].entity_ids)
+
+
+def test_legend_switches_layers(qtbot, computed):
+    legend = computed.window_.views.legend
+    before = computed.window_.canvas.grab().toImage()
+    for row in legend.rows.values():
+        qtbot.mouseClick(row, Qt.MouseButton.LeftButton)
+    assert computed.window_.canvas.grab().toImage() != before
