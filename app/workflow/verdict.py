@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from app.geometry.primitives import contour_rows
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program
-from app.model.part import Region
 from app.tolerances import LEVEL
-from app.toolpath.flat import lines, move_rows, region_shape
+from app.toolpath.flat import area_shape, lines, move_rows
 from app.workflow.clearance import curve_distance
 
 Floats = NDArray[np.float64]
@@ -80,7 +79,7 @@ def gouge(program: Program, job: Job) -> Gouge:
     rows, need = move_rows(moves)[chosen], required_clearance(moves, job)[chosen]
     walls = np.concatenate([contour_rows(contour) for region in program.regions for contour in region.contours])
     depth, places = _depths(rows, need, walls)
-    outside, beyond = _outside(rows, program.regions)
+    outside, beyond = _outside(rows, program)
     depth[outside], places[outside] = need[outside] + beyond, rows[outside, 2:4]
     worst = int(np.argmax(depth))
     if depth[worst] <= 0:
@@ -102,9 +101,9 @@ def _depths(rows: Floats, need: Floats, walls: Floats) -> tuple[Floats, Floats]:
     return depth, places
 
 
-def _outside(rows: Floats, regions: tuple[Region, ...]) -> tuple[NDArray[np.int64], Floats]:
+def _outside(rows: Floats, program: Program) -> tuple[NDArray[np.int64], Floats]:
     """Return the moves whose end lies in no region, and how far outside, mm."""
-    polygons = shapely.union_all([region_shape(region, _CHORD) for region in regions])
+    polygons = area_shape(program, _CHORD)
     ends = shapely.points(rows[:, 2:4])
     shapely.prepare(polygons)
     distance = np.zeros(len(rows))

@@ -1,0 +1,234 @@
+"""The main job on real drawings: the report tells the truth, the control does what the program means."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+
+from app.errors import Cancelled, GeometryError, InputError, ParameterError
+from app.model.finding import FindingKind
+from app.model.job import OriginXY, OriginZ
+from app.model.moves import MoveKind
+from app.model.operation import ContourOperation, PocketOperation
+from app.model.part import Units
+from app.model.stock_box import stock_box, work_origin
+from app.progress import Progress
+from app.toolpath.flat import area_shape, lines, move_rows
+from app.workflow.make import Made, make
+from app.workflow.options import MakeOptions
+from tests.nc.rs274_oracle import assert_same_motion
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDERS = (ROOT / "tests/data/dxf", ROOT / "resources/samples", ROOT.parent / "shared/data/dxf", ROOT.parent / "shared/bench")
+
+DRAWINGS = {
+    "fig2.dxf": MakeOptions(),
+    "gear.dxf": MakeOptions(pocket_diameter=2, contour_diameter=1),
+    "apu-mount.dxf": MakeOptions(pocket_diameter=6, contour_diameter=3),
+    "genshi.dxf": MakeOptions(pocket_diameter=4, contour_diameter=2),
+    "insert.dxf": MakeOptions(pocket_diameter=6, contour_diameter=3),
+    "forms.dxf": MakeOptions(pocket_diameter=20, contour_diameter=10),
+    "LM2.dxf": MakeOptions(pocket_diameter=6, contour_diameter=3),
+    "broken_loop.dxf": MakeOptions(pocket_diameter=0.5, contour_diameter=0.3, join_tolerance=0.2),
+    "complex.dxf": MakeOptions(pocket_diameter=1, contour_diameter=0.5),
+}
+
+
+def drawing(name: str) -> Path:
+    """A drawing that travels with the project, or lies in the shared collection."""
+    for folder in FOLDERS:
+        if (folder / name).is_file():
+            return folder / name
+    pytest.skip(f"{name} is neither in tests/data nor in the shared collection beside this checkout")
+
+
+@cache
+def made(name: str) -> Made:
+    return make(name, drawing(name).read_bytes(), DRAWINGS[name])
+
+
+each = pytest.mark.parametrize("name", DRAWINGS)
+
+
+@each
+def test_no_gouge_and_no_rapid_in_material(name: str) -> None:
+    report = made(name).report.data
+    assert report["gouge"]["max_mm"] <= 1e-3
+    assert report["gouge"]["count"] == 0
+    assert report["rapids_in_material"] == []
+
+
+@each
+def test_the_control_accepts_the_program_and_moves_as_it_means(name: str) -> None:
+    this = made(name)
+    assert_same_motion(this.program.moves, this.nc, this.job)
+
+
+@each
+def test_what_the_report_calls_left_is_left_and_nothing_else_is(name: str) -> None:
+    """Exact distances at random points against the polygons' answer."""
+    this = made(name)
+    moves, rng = this.program.moves, np.random.default_rng(1)
+    area = area_shape(this.program, 1e-3)
+    shapely.prepare(area)
+    x0, y0, x1, y1 = area.bounds
+    points = rng.uniform((x0, y0), (x1, y1), (400, 2))
+    spots = np.array([(place.x, place.y) for place in this.coverage.places[:200]]).reshape(-1, 2)
+    points = np.concatenate([points[shapely.contains_xy(area, points)], spots])
+    floor = (np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -this.coverage.floor_mm + 1e-9) & (moves.kind != MoveKind.RAPID)
+    uncut = np.full(len(points), np.inf)
+    for number in np.unique(moves.tool):
+        near = shapely.STRtree(lines(move_rows(moves)[floor & (moves.tool == number)], 1e-4))
+        (which, _), distance = near.query_nearest(shapely.points(points), return_distance=True)
+        np.minimum.at(uncut, which, distance - this.job.tool(int(number)).radius)
+    left = shapely.union_all([shapely.Polygon(place.outline) for place in this.coverage.places])
+    from_rim = shapely.distance(shapely.boundary(left), shapely.points(points)) if not left.is_empty else np.full(len(points), np.inf)
+    sure = (np.abs(uncut) > 0.01) & (from_rim > 0.01)
+    assert np.sum(sure) > 50
+    assert np.array_equal(shapely.contains_xy(left, points)[sure], uncut[sure] > 0)
+
+
+@each
+def test_the_numbers_of_the_report_are_those_of_the_moves(name: str) -> None:
+    this = made(name)
+    report, moves = this.report.data, this.program.moves
+    lengths, rapid = moves.lengths(), moves.kind == MoveKind.RAPID
+    assert sum(report["length_mm"].values()) == pytest.approx(float(np.sum(lengths)))
+    assert report["length_mm"]["rapid"] == pytest.approx(float(np.sum(lengths[rapid])))
+    assert [report["moves"][f"G{k}"] for k in range(4)] == [int(np.sum(moves.kind == k)) for k in range(4)]
+    assert report["strokes"] == this.program.strokes
+    dwells = 1.0 * len({int(tool) for tool in moves.tool}) * _dwell(this)
+    cutting = float(np.sum(lengths[~rapid] / moves.feed[~rapid])) * 60
+    assert report["time_s"] == pytest.approx(cutting + dwells + 60 * report["length_mm"]["rapid"] / 5000)
+    assert json.loads(this.report.text()) == report
+    assert this.clean == (not any(finding["counts"] for finding in report["findings"]))
+
+
+def _dwell(this: Made) -> float:
+    from app.nc.posts import load_post
+
+    return load_post(this.job.post).spindle.dwell_s
+
+
+def test_fig2_is_clean_and_its_corners_are_told() -> None:
+    this = made("fig2.dxf")
+    assert this.clean
+    report = this.report.data
+    assert report["left"]["reachable_mm2"] == 0
+    assert report["left"]["unreachable_mm2"] == pytest.approx(2.66, abs=0.01)
+    assert [each["number"] for each in report["regions"]] == [1, 2]
+    assert (report["strokes"], report["open_contours"], report["skipped"]) == (2, [], [])
+    assert [(each["kind"], each["tool"]) for each in report["operations"]] == [("pocket", 1), ("contour", 2)]
+    assert report["operations"][0]["stepover_mm"] == 3.0
+    assert sum(each["time_s"] for each in report["operations"]) < report["time_s"]
+
+
+def test_gear_tells_the_rest_that_its_pocket_tool_leaves() -> None:
+    """Peers leave 30.5 mm2 here with these tools and say nothing of it."""
+    this = made("gear.dxf")
+    assert this.report.data["left"]["reachable_mm2"] == pytest.approx(30.5, abs=0.3)
+    assert not this.clean
+    assert any(finding.kind is FindingKind.LEFT_REACHABLE and finding.counts for finding in this.findings)
+
+
+def test_every_region_of_a_drawing_is_in_the_report_even_when_no_tool_fits() -> None:
+    this = make("LM2.dxf", drawing("LM2.dxf").read_bytes(), MakeOptions(pocket_diameter=60, contour_diameter=12))
+    skipped = [each for each in this.report.data["skipped"] if each["kind"] == "region_too_small"]
+    assert not this.clean
+    assert all(each["x"] is not None and each["amount"] for each in skipped)
+    assert any(each["counts"] for each in skipped)
+
+
+def test_broken_loop_names_both_ends_and_the_overlap() -> None:
+    with pytest.raises(GeometryError) as error:
+        make("broken_loop.dxf", drawing("broken_loop.dxf").read_bytes(), MakeOptions(pocket_diameter=0.5, contour_diameter=0.3))
+    text = str(error.value)
+    assert "(1.000, 0.000)" in text
+    assert "(1.100, 0.000)" in text
+    assert "overlap by 0.100 mm" in text
+    assert made("broken_loop.dxf").clean
+
+
+def test_open_contours_are_listed_and_count() -> None:
+    this = make("forms.dxf", drawing("forms.dxf").read_bytes(), DRAWINGS["forms.dxf"])
+    assert len(this.report.data["open_contours"]) == 2
+    assert not this.clean
+
+
+def test_one_tool_does_both_jobs() -> None:
+    this = make("fig2.dxf", drawing("fig2.dxf").read_bytes(), MakeOptions(contour_diameter=4))
+    assert [tool["diameter_mm"] for tool in this.report.data["tools"]] == [4]
+    assert this.nc.text.count("M6") == 1
+
+
+def test_depth_passes_origin_and_units_reach_the_program() -> None:
+    options = MakeOptions(depth=5, stepdown=2, origin_xy=OriginXY.CENTRE, origin_z=OriginZ.BOTTOM, out_units=Units.INCH, safe_z=0.5, feed=333)
+    this = make("fig2.dxf", drawing("fig2.dxf").read_bytes(), options)
+    depths = sorted({round(float(z), 6) for z in this.program.moves.end[:, 2] if z < 0})
+    assert depths == pytest.approx([-5, -10 / 3, -5 / 3])
+    assert this.job.safe_z == 0.5
+    assert this.job.retract_z == 0.5
+    assert "G20" in this.nc.text
+    assert this.report.data["left"]["floor_depth_mm"] == 5
+    assert this.report.data["rapids_in_material"] == []
+    assert_same_motion(this.program.moves, this.nc, this.job, work_origin(this.job, stock_box(this.job, this.program.regions)))
+
+
+def test_a_depth_below_the_stock_makes_it_thicker() -> None:
+    this = make("fig2.dxf", drawing("fig2.dxf").read_bytes(), MakeOptions(depth=14, stepdown=14))
+    assert this.job.stock.thickness == 14
+
+
+def test_the_same_input_gives_the_same_bytes() -> None:
+    first, again = made("fig2.dxf"), make("fig2.dxf", drawing("fig2.dxf").read_bytes(), MakeOptions())
+    assert first.nc.text == again.nc.text
+    assert first.report.text() == again.report.text()
+
+
+def test_a_wrong_option_names_itself() -> None:
+    data = drawing("fig2.dxf").read_bytes()
+    for options, words in (
+        (MakeOptions(overlap=6), "Overlap is 6 mm with a pocket tool of 6 mm"),
+        (MakeOptions(overlap=1, stepover=None, pocket_diameter=0.5), "Overlap is 1 mm with a pocket tool of 0.5 mm"),
+        (MakeOptions(depth=-1), "Depth is -1 mm"),
+        (MakeOptions(safe_z=0), "Safe Z is 0 mm"),
+    ):
+        with pytest.raises(ParameterError, match=words):
+            make("fig2.dxf", data, options)
+    with pytest.raises(InputError, match="no post 'abacus'"):
+        make("fig2.dxf", data, MakeOptions(post="abacus"))
+    with pytest.raises(InputError, match="no layer walls"):
+        make("fig2.dxf", data, MakeOptions(layers=("walls",)))
+
+
+def test_cancel_is_heard_in_every_stage() -> None:
+    class Stop:
+        def __init__(self, at: int) -> None:
+            self.at, self.calls = at, 0
+
+        def is_set(self) -> bool:
+            self.calls += 1
+            return self.calls > self.at
+
+    texts: list[str] = []
+    make("fig2.dxf", drawing("fig2.dxf").read_bytes(), MakeOptions(), Progress(lambda fraction, text: texts.append(text)))
+    for at in range(0, len(texts), 3):
+        with pytest.raises(Cancelled):
+            make("fig2.dxf", drawing("fig2.dxf").read_bytes(), MakeOptions(), Progress(None, Stop(at)))  # type: ignore[arg-type]
+
+
+def test_progress_grows_to_one() -> None:
+    seen: list[float] = []
+    make("fig2.dxf", drawing("fig2.dxf").read_bytes(), MakeOptions(), Progress(lambda fraction, text: seen.append(fraction)))
+    assert seen == sorted(seen)
+    assert seen[-1] == pytest.approx(1.0)
+
+
+def test_operations_of_the_default_job() -> None:
+    operations = made("fig2.dxf").job.operations
+    assert [type(operation) for operation in operations] == [PocketOperation, ContourOperation]
