@@ -217,8 +217,8 @@ def test_a_wrong_line_of_a_list_is_found(document: Document) -> None:
         document.run_script("circle 0,0 1\n\nline x\n", "plate.draw")
 
 
-LINES = st.sampled_from(["line 0,0 10,0", "line @0,0 @5,5", "rect 1,1 9,9", "circle 5,5 2", "select all", "select 1", "select none", "delete",
-                         "delete 2", "move @1,1", "undo", "redo", "layer a", "layer b 1", "arc 0,0 5,5 10,0", "nonsense"])
+LINES = st.sampled_from(["line 0,0 10,0", "line @0,0 @5,5", "rect 1,1 9,9", "circle 5,5 2", "select all", "select 1", "select none",
+                         "delete", "delete 2", "move @1,1", "undo", "redo", "layer a", "layer b 1", "arc 0,0 5,5 10,0", "nonsense"])
 
 
 @settings(max_examples=60, deadline=None)

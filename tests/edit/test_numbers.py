@@ -19,7 +19,9 @@ def test_lengths_take_units_and_arithmetic(text: str, mm: float) -> None:
     assert length(text) == pytest.approx(mm, abs=1e-12)
 
 
-@pytest.mark.parametrize(("text", "degrees"), [("45", 45.0), ("180/8", 22.5), ("0.5rad", math.degrees(0.5)), ("30°", 30.0), ("30 deg", 30.0)])
+@pytest.mark.parametrize(("text", "degrees"), [
+    ("45", 45.0), ("180/8", 22.5), ("0.5rad", math.degrees(0.5)), ("30°", 30.0), ("30 deg", 30.0),
+])
 def test_angles_are_degrees_unless_they_say_otherwise(text: str, degrees: float) -> None:
     assert angle(text) == pytest.approx(degrees)
 
