@@ -1,0 +1,33 @@
+"""Whole drawings: the program of each is accepted by LinuxCNC's interpreter, and its motion is the computed path to 1 um."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from app.files.drawing import read_drawing
+from app.model.job import Job, OriginXY, OriginZ
+from app.model.part import Units
+from app.model.stock_box import stock_box, work_origin
+from app.nc.posts import load_post
+from app.nc.write import write_program
+from app.toolpath.compute import compute
+from tests.conftest import ROOT
+from tests.nc.rs274_oracle import assert_same_motion
+
+FIG2 = ROOT / "resources" / "samples" / "fig2.dxf"
+DRAWINGS = [FIG2, *(ROOT / "tests" / "data" / "dxf" / f"{name}.dxf" for name in ("apu-mount", "complex", "gear", "genshi", "insert"))]
+
+
+@pytest.mark.parametrize("drawing", DRAWINGS, ids=lambda path: path.stem)
+def test_motion_of_a_whole_drawing(drawing: Path) -> None:
+    part = read_drawing(drawing.name, drawing.read_bytes(), Units.MM).part
+    job = Job(part, origin_xy=OriginXY.CENTRE, origin_z=OriginZ.BOTTOM)
+    program = compute(job)
+    assert len(program.moves) > 50
+    for units in (Units.MM, Units.INCH):
+        written = replace(job, out_units=units)
+        nc = write_program(program, written, load_post(job.post))
+        assert_same_motion(program.moves, nc, written, work_origin(job, stock_box(job, program.regions)))
