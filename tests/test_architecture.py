@@ -3,6 +3,8 @@
 import ast
 import subprocess
 import sys
+from collections.abc import Callable
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -42,6 +44,7 @@ def module_name(path: Path) -> str:
 MODULES = {module_name(path): path for path in FILES}
 
 
+@cache
 def tree_of(path: Path) -> ast.Module:
     return ast.parse(path.read_text("utf-8"), str(path))
 
@@ -78,34 +81,35 @@ def room_of(module: str) -> str:
     return "cli" if room.startswith("cli_") else room
 
 
-def each(paths: list[Path]) -> pytest.MarkDecorator:
-    return pytest.mark.parametrize("path", paths, ids=[str(p.relative_to(ROOT)) for p in paths])
+def offenders(paths: list[Path], rule: Callable[[Path], object]) -> dict[str, object]:
+    """What a rule finds wrong, by file."""
+    return {str(path.relative_to(ROOT)): wrong for path in paths if (wrong := rule(path))}
 
 
-@each(FILES)
-def test_rooms_know_only_what_lies_before_them(path: Path) -> None:
-    room = room_of(module_name(path))
-    allowed = LEAVES | {"", room} | (set() if room in LEAVES else KNOWS.get(room, set()))
-    wrong = {name for name in imports(path) if name.split(".")[0] == "app" and room_of(name) not in allowed}
-    assert not wrong, f"{path.name} in {room} must not know {wrong}"
+def test_rooms_know_only_what_lies_before_them() -> None:
+    def strangers(path: Path) -> set[str]:
+        room = room_of(module_name(path))
+        allowed = LEAVES | {"", room} | (set() if room in LEAVES else KNOWS.get(room, set()))
+        return {name for name in imports(path) if name.split(".")[0] == "app" and room_of(name) not in allowed}
+
+    assert not offenders(FILES, strangers)
 
 
-@each(FILES)
-def test_geometry_knows_of_fit_only_its_arcs(path: Path) -> None:
-    if room_of(module_name(path)) == "geometry":
-        assert {name for name in imports(path) if name.startswith("app.fit")} <= {"app.fit.arcs"}
+def test_geometry_knows_of_fit_only_its_arcs() -> None:
+    def strangers(path: Path) -> set[str]:
+        return {name for name in imports(path) if name.startswith("app.fit")} - {"app.fit.arcs"}
+
+    assert not offenders([path for path in FILES if room_of(module_name(path)) == "geometry"], strangers)
 
 
-@each(FILES)
-def test_qt_stays_in_the_window(path: Path) -> None:
-    if room_of(module_name(path)) != "ui":
-        assert not {name for name in imports(path) if name.split(".")[0] in QT}
+def test_qt_stays_in_the_window() -> None:
+    outside = [path for path in FILES if room_of(module_name(path)) != "ui"]
+    assert not offenders(outside, lambda path: {name for name in imports(path) if name.split(".")[0] in QT})
 
 
-@each(FILES)
-def test_only_kernel_files_know_the_compiler(path: Path) -> None:
-    if "kernels" not in path.stem and path.stem != "jit":
-        assert not {name for name in imports(path) if name.split(".")[0] in COMPILER or name == "app.jit"}
+def test_only_kernel_files_know_the_compiler() -> None:
+    others = [path for path in FILES if "kernels" not in path.stem and path.stem != "jit"]
+    assert not offenders(others, lambda path: {name for name in imports(path) if name.split(".")[0] in COMPILER or name == "app.jit"})
 
 
 def test_every_room_is_in_the_table() -> None:
@@ -120,34 +124,37 @@ def test_no_import_cycles() -> None:
         pytest.fail(" imports ".join(reversed(error.args[1])))
 
 
-@each(PYTHON_FILES)
-def test_files_are_short(path: Path) -> None:
-    assert len(path.read_text("utf-8").splitlines()) <= 400
+def functions_of(path: Path) -> list[ast.FunctionDef]:
+    return [node for node in ast.walk(tree_of(path)) if isinstance(node, ast.FunctionDef)]
 
 
-@each(PYTHON_FILES)
-def test_functions_are_short(path: Path) -> None:
-    functions = (node for node in ast.walk(tree_of(path)) if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef))
-    long = {node.name: size for node in functions if (size := (node.end_lineno or 0) - node.lineno + 1) > 50}
-    assert not long
+def test_files_are_short() -> None:
+    assert not offenders(PYTHON_FILES, lambda path: max(0, len(path.read_text("utf-8").splitlines()) - 400))
 
 
-@each(FILES)
-def test_functions_take_few_parameters(path: Path) -> None:
-    if "kernels" in path.stem:
-        return
-    functions = (node for node in ast.walk(tree_of(path)) if isinstance(node, ast.FunctionDef))
-    counts = {node.name: len([a for a in (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs) if a.arg not in ("self", "cls")])
-              for node in functions}
-    assert not {name: count for name, count in counts.items() if count > 5}
+def test_functions_are_short() -> None:
+    def long(path: Path) -> dict[str, int]:
+        return {node.name: size for node in functions_of(path) if (size := (node.end_lineno or 0) - node.lineno + 1) > 50}
+
+    assert not offenders(PYTHON_FILES, long)
 
 
-@each(FILES)
-def test_public_things_say_what_they_are(path: Path) -> None:
-    tree = tree_of(path)
-    assert ast.get_docstring(tree), f"{path.name} has no docstring"
-    public = (node for node in tree.body if isinstance(node, ast.FunctionDef | ast.ClassDef) and not node.name.startswith("_"))
-    assert not [node.name for node in public if not ast.get_docstring(node)]
+def test_functions_take_few_parameters() -> None:
+    def greedy(path: Path) -> dict[str, int]:
+        counts = {node.name: len({arg.arg for arg in (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs)} - {"self", "cls"})
+                  for node in functions_of(path)}
+        return {name: count for name, count in counts.items() if count > 5}
+
+    assert not offenders([path for path in FILES if "kernels" not in path.stem], greedy)
+
+
+def test_public_things_say_what_they_are() -> None:
+    def silent(path: Path) -> list[str]:
+        public = (node for node in tree_of(path).body if isinstance(node, ast.FunctionDef | ast.ClassDef) and not node.name.startswith("_"))
+        return [name for name, doc in [("the module", ast.get_docstring(tree_of(path))), *((n.name, ast.get_docstring(n)) for n in public)]
+                if not doc]
+
+    assert not offenders(FILES, silent)
 
 
 def modules_after(statement: str) -> set[str]:
