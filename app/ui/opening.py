@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 
 from app.edit.document import Document
+from app.edit.sample import bounds, union
 from app.errors import InputError
 from app.model.job import Job
-from app.model.part import Units
+from app.model.part import Part, Units
 from app.progress import Progress
 from app.resources import resource
 from app.ui.worker import Answer, Worker
@@ -30,12 +31,20 @@ class Opened:
     Attributes:
         path: the file. drawing: what it holds. job: the job to work on, with the tools that were there before.
         units: what the user said its units are; None when he was not asked.
+        size: width and height, mm.
     """
 
     path: Path
     drawing: Drawing
     job: Job
     units: Units | None = None
+    size: tuple[float, float] | None = None
+
+
+def size_of(part: Part) -> tuple[float, float] | None:
+    """Return width and height of what is drawn, mm; None when nothing is."""
+    box = union([bounds(entity.curve) for entity in part.entities])
+    return None if box is None else (box[2] - box[0], box[3] - box[1])
 
 
 def sample_path() -> Path:
@@ -55,16 +64,18 @@ def _read(path: Path, units: Units | None, before: Job, progress: Progress) -> O
         raise InputError(f"Cannot read {path}: {error.strerror}. Choose another file.") from error
     drawing = read_drawing(path.name, data, units, ())
     progress.step(0.9, f"Reading {path.name}")
-    return Opened(path, drawing, job_from_drawing(drawing, MakeOptions(job=before, units=units)), units)
+    job = job_from_drawing(drawing, MakeOptions(job=before, units=units))
+    return Opened(path, drawing, job, units, size_of(job.part))
 
 
 class Opening(QObject):
     """Reads a drawing and loads it into the document.
 
     Signals:
-        opened(Opened): the document holds it now. failed(sentence).
+        read(Opened): the document will hold it next. opened(Opened): the document holds it now. failed(sentence).
     """
 
+    read = Signal(Opened)
     opened = Signal(Opened)
     failed = Signal(str)
 
@@ -88,6 +99,7 @@ class Opening(QObject):
     def _on_done(self, answer: Answer) -> None:
         if answer.job_id != self._job_id or not isinstance(answer.value, Opened):
             return
+        self.read.emit(answer.value)
         self._document.load(answer.value.job, answer.value.path)
         self.opened.emit(answer.value)
 

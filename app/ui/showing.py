@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject
 
 from app.edit.document import Change
-from app.edit.sample import bounds, union
 from app.model.finding import Finding
+from app.model.part import Part
 from app.ui.canvas.modes import ColourBy, PathLayers
 from app.ui.computation import State
 from app.ui.main_window import MainWindow
+from app.ui.opening import size_of
 from app.ui.samples import Sample
 from app.ui.verdict import Level, Verdict, verdict
 from app.ui.views import View
@@ -49,6 +50,7 @@ class Showing(QObject):
         self._layers = PathLayers.ALL
         self._shown_program: object = None
         self._empty_action = "open"
+        self._sized: tuple[Part, tuple[float, float] | None] | None = None
         self._computation.changed.connect(self._on_computation)
         window.worker.progress.connect(window.status.show_progress)
         window.worker.busy_changed.connect(self._on_busy)
@@ -67,8 +69,14 @@ class Showing(QObject):
 
     def part_size(self) -> tuple[float, float] | None:
         """Return width and height of the drawing, mm; None when it is empty."""
-        box = union([bounds(e.curve) for e in self._document.part.entities])
-        return None if box is None else (box[2] - box[0], box[3] - box[1])
+        part = self._document.part
+        if self._sized is None or self._sized[0] is not part:
+            self._sized = (part, size_of(part))
+        return self._sized[1]
+
+    def know_size(self, part: Part, size: tuple[float, float] | None) -> None:
+        """Take over the size of a part that was measured on another thread."""
+        self._sized = (part, size)
 
     def show_view(self, view: View) -> None:
         """Bring a view to the front."""

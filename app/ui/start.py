@@ -31,6 +31,13 @@ def build() -> tuple[MainWindow, Wiring]:
     return window, wiring
 
 
+def warm_up(window: MainWindow) -> Worker:
+    """Load the compiled loops in the background, so that the first Compute does not wait for them."""
+    warmer = Worker(window)
+    warmer.start(_warm, 0)
+    return warmer
+
+
 def start(path: Path | None = None) -> int:
     """Open the window with a drawing, or with the sample part, and stay until it is closed.
 
@@ -43,8 +50,7 @@ def start(path: Path | None = None) -> int:
     window, wiring = build()
     wiring.restore_geometry()
     window.show()
-    warmer = Worker(window)
-    warmer.start(_warm, 0)
+    warmer = warm_up(window)
     QTimer.singleShot(0, lambda: wiring.open_file(path) if path is not None else wiring.open_sample())
     status = application.exec()
     warmer.finish()

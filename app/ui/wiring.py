@@ -12,7 +12,7 @@ from PySide6.QtCore import QByteArray, QObject, QTimer
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from app import __version__
-from app.edit.document import Change
+from app.edit.document import Change, LogLine
 from app.errors import HitofudeError
 from app.model.operation import ContourOperation, PocketOperation
 from app.model.part import Part, Units
@@ -21,10 +21,12 @@ from app.ui import opening as opening_files
 from app.ui.actions import keys_text
 from app.ui.canvas.modes import CanvasTool
 from app.ui.exporting import FILTER, Exporting
+from app.ui.figures import counted, grouped
 from app.ui.main_window import MainWindow
 from app.ui.opening import Opened, Opening
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.showing import Showing
+from app.ui.verdict import verdict
 from app.ui.views import View
 
 FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
@@ -48,6 +50,8 @@ class Wiring(QObject):
         self.opening = Opening(window.document, window.worker)
         self.exporting = Exporting(window.computation, window.notice, self._choose_nc_file)
         self.showing = Showing(window)
+        self._log: list[LogLine] = []
+        self._logged = 0
         self._connect_files()
         self._connect_edit()
         self._connect_view()
@@ -69,10 +73,11 @@ class Wiring(QObject):
         self._on("quit", window.close)
         window.dropped.connect(lambda path: self.open_file(Path(path)))
         window.closing.connect(self._on_closing)
+        self.opening.read.connect(lambda opened: self.showing.know_size(opened.job.part, opened.size))
         self.opening.opened.connect(self._on_opened)
         self.opening.failed.connect(self._say_error)
         self.exporting.failed.connect(self._say_error)
-        self.exporting.written.connect(lambda path, lines: self._say(f"{Path(path).name} written, {lines} lines."))
+        self.exporting.written.connect(self._on_written)
         self.exporting.show_findings.connect(self.showing.open_findings)
 
     def _connect_edit(self) -> None:
@@ -119,6 +124,7 @@ class Wiring(QObject):
         self._on("findings", self.showing.open_findings)
         panel.refused.connect(self._say_error)
         computation.failed.connect(self._say_error)
+        computation.finished.connect(self._on_computed)
         self.window_.status.cancelled.connect(self.window_.worker.cancel)
         self.window_.worker.cancelled.connect(lambda _: self._say("Cancelled; nothing has changed."))
 
@@ -205,9 +211,19 @@ class Wiring(QObject):
         self.window_.may_close = True
         self.window_.close()
 
+    def _on_written(self, path: str, lines: int) -> None:
+        self._note(f"export {Path(path).name}", f"{counted(lines, 'line')} written to {path}")
+        self._say(f"{Path(path).name} is written.")
+
+    def _on_computed(self) -> None:
+        made = self.computation.made
+        if made is not None:
+            self._note("compute", f"{counted(len(made.program.moves), 'move')}. {verdict(made.findings, made.report.data).text}")
+
     def _on_opened(self, opened: Opened) -> None:
         self.window_.settings = self.window_.settings.with_recent_file(opened.path)
         self.computation.forget(opened.drawing.findings)
+        self._note(f"open {opened.path.name}", self._size_sentence())
         self.window_.notice.hide()
         self.showing.show_view(View.DRAW)
         if opened.path == opening_files.sample_path():
@@ -217,6 +233,11 @@ class Wiring(QObject):
         elif not opened.drawing.units_named:
             self._ask_units(opened)
         QTimer.singleShot(0, self.window_.canvas.fit)
+
+    def _size_sentence(self) -> str:
+        size = self.showing.part_size() or (0.0, 0.0)
+        curves = counted(len(self.document.part.entities), "curve")
+        return f"{curves}, {grouped(size[0])} by {grouped(size[1])} mm."
 
     def _ask_units(self, opened: Opened) -> None:
         size = self.showing.part_size()
@@ -253,8 +274,16 @@ class Wiring(QObject):
 
     def _on_change(self, change: Change) -> None:
         if change & Change.LOG:
-            self.window_.command_line.log.show_lines(self.document.log)
+            self._logged = min(self._logged, len(self.document.log))
+            self._log += self.document.log[self._logged:]
+            self._logged = len(self.document.log)
+            self.window_.command_line.log.show_lines(self._log)
         self.showing.refresh(change)
+
+    def _note(self, what: str, reply: str) -> None:
+        """Put something that is no line of the drawing language in the log that is shown."""
+        self._log.append(LogLine(what, reply))
+        self.window_.command_line.log.show_lines(self._log)
 
     def _say(self, text: str) -> None:
         self.window_.status.show_message(text)

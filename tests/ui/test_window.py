@@ -17,7 +17,10 @@ from app.ui.views import View
 from app.ui.wiring import FIRST_START
 
 WAIT_MS = 20_000
-NO_UNITS = "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n0\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n0.0\n20\n0.0\n40\n20.0\n0\nENDSEC\n0\nEOF\n"
+NO_UNITS = (
+    "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n0\n0\nENDSEC\n"
+    "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n0.0\n20\n0.0\n40\n20.0\n0\nENDSEC\n0\nEOF\n"
+)
 
 
 @pytest.fixture

@@ -1,0 +1,114 @@
+"""Measures how the window feels: `python -m tests.ui.measure_window [DRAWING]`.
+
+Prints how long the window takes to be usable, and the longest time in which it did not listen while a drawing was
+opened, computed and shown.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+from PySide6.QtCore import QEventLoop, QObject, Qt, QTimer
+
+TICK_MS = 5
+DRAWING = Path(__file__).resolve().parents[1] / "data" / "dxf" / "complex.dxf"
+USABLE = """
+import time; t = time.perf_counter()
+from PySide6.QtWidgets import QApplication
+a = QApplication([])
+from app.ui.start import build
+w, k = build(); w.show(); a.processEvents(); a.processEvents()
+print(time.perf_counter() - t)
+"""
+
+
+class Gaps(QObject):
+    """A clock of 5 ms on the window's thread: what it misses, the user feels.
+
+    Attributes:
+        longest: the longest gap so far, ms, by what was going on.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.longest: dict[str, float] = {}
+        self.doing = "start"
+        self._last = time.perf_counter()
+        self._timer = QTimer(self, interval=TICK_MS, timerType=Qt.TimerType.PreciseTimer)
+        self._timer.timeout.connect(self._tick)
+        self._timer.start()
+
+    def now(self, doing: str) -> None:
+        """Name what follows."""
+        self._tick()
+        self.doing = doing
+
+    def _tick(self) -> None:
+        now = time.perf_counter()
+        gap = 1000 * (now - self._last)
+        self._last = now
+        self.longest[self.doing] = max(self.longest.get(self.doing, 0.0), gap)
+
+
+def live_until(done, limit_s: float = 180.0) -> float:
+    """Run the event loop until `done()` or the limit; return the seconds it took."""
+    begun = time.perf_counter()
+    loop = QEventLoop()
+    while not done() and time.perf_counter() - begun < limit_s:
+        QTimer.singleShot(20, loop.quit)
+        loop.exec()
+    return time.perf_counter() - begun
+
+
+def measure_gaps(drawing: Path) -> dict[str, float]:
+    """Open a drawing in a window and compute it; return the longest gap in ms by what was going on."""
+    from app.ui.computation import State
+    from app.ui.start import build, warm_up
+
+    window, wiring = build()
+    window.show()
+    live_until(lambda: False, 0.3)
+    gaps = Gaps()
+    warmer = warm_up(window)
+    live_until(lambda: not warmer.busy)
+    wiring.computation.finished.connect(lambda: gaps.now("after"))
+    gaps.now("open")
+    wiring.open_file(drawing)
+    live_until(lambda: bool(wiring.document.part.entities))
+    live_until(lambda: False, 0.3)
+    gaps.now("compute")
+    wiring.compute()
+    took = live_until(lambda: wiring.computation.state in (State.CURRENT, State.FAILED))
+    live_until(lambda: False, 0.5)
+    window.worker.finish(30.0)
+    print(f"{drawing.name}: computed in {took:.2f} s, {wiring.computation.state.value}, longest gaps in ms: "
+          + ", ".join(f"{name} {gap:.0f}" for name, gap in gaps.longest.items()))
+    return gaps.longest
+
+
+def measure_usable() -> float:
+    """Return the seconds from nothing to a window on the screen, in a process of its own."""
+    done = subprocess.run([sys.executable, "-c", USABLE], capture_output=True, text=True, check=True)
+    return float(done.stdout)
+
+
+def main() -> None:
+    """Measure and print."""
+    from PySide6.QtWidgets import QApplication
+
+    os.environ["HITOFUDE_CONFIG"] = tempfile.mkdtemp()
+    print("window usable after " + ", ".join(f"{measure_usable():.2f}" for _ in range(3)) + " s")
+    application = QApplication.instance() or QApplication([])
+    measure_gaps(Path(sys.argv[1]) if len(sys.argv) > 1 else DRAWING)
+    application.quit()
+
+
+if __name__ == "__main__":
+    main()
