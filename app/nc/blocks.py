@@ -46,7 +46,7 @@ class Blocks:
     def block(self, text: str) -> None:
         """Write a block that is no motion; an empty text is left out."""
         if text:
-            self.lines.append(text if text.startswith("%") else self._numbered(text))
+            self.lines.append(text if text.startswith(("%", "O")) else self._numbered(text))
 
     def rapid_z(self, z: int) -> None:
         """Go straight up or down at rapid rate."""

@@ -97,7 +97,10 @@ def _blending_words(heading: Heading) -> str:
     """Return what the control may do at corners."""
     if heading.blend_mm == 0:
         return "Exact path: the control does not blend"
-    return f"Proven on the path; the control may blend by up to P {_length(heading.blend_mm, heading.job.out_units)}"
+    amount = _length(heading.blend_mm, heading.job.out_units)
+    if not heading.post.blending.blend:
+        return f"Proven on the path; the control may blend by its own setting, taken as {amount}"
+    return f"Proven on the path; the control may blend by up to P {amount}"
 
 
 def _notes(heading: Heading) -> Iterator[str]:

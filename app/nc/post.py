@@ -118,9 +118,9 @@ class Blending:
     """How the control may round corners.
 
     Attributes:
-        tolerance_mm: the farthest it may leave the path where it blends.
+        tolerance_mm: the farthest it may leave the path where it blends; where `blend` is "", what its own setting is taken as.
         blend: template of the block that says so, with the field {blend} in out units; "" where the control has none.
-        exact: block that forbids it, or "".
+        exact: block that forbids it, or "" where the control has none.
     """
 
     tolerance_mm: float
@@ -153,12 +153,14 @@ class ProgramLines:
     {coolant_off}.
 
     Attributes:
+        top: above the header's comments, such as "%" and an O word, which get no N word.
         start: before the first tool.
         tool: change to a tool, its length, spindle on; the tool stands at clearance.
         leave: after the last move of a tool, at clearance height.
         end: behind everything.
     """
 
+    top: tuple[str, ...]
     start: tuple[str, ...]
     tool: tuple[str, ...]
     leave: tuple[str, ...]

@@ -57,24 +57,25 @@ def write_program(program: Program, job: Job, post: Post, progress: Progress = N
 
     Raises:
         ParameterError: the moves are none that a machine should make, a tool is not in the job, out units are neither
-            mm nor inch, or there is no region to place the stock round.
+            mm nor inch, the control cannot promise an exact path, or there is no region to place the stock round.
         Cancelled: the job was asked to stop.
     """
     if job.out_units not in (Units.MM, Units.INCH):
         raise ParameterError(f"NC programs are in mm or inch, not in {job.out_units.name.lower()}; choose one of the two.")
+    if job.exact_path and not post.blending.exact:
+        raise ParameterError(f"{post.title} has no word for an exact path; switch exact path off.")
     check_sequence(program.moves, job)
     box = stock_box(job, program.regions)
-    sheet = Blocks(post, job.out_units)
-    for line in heading_lines(Heading(program, job, post, box, blend_mm(job, post), writing_tolerance(job, post))):
-        sheet.comment(line)
     moves = work_moves(program.moves, work_origin(job, box), job.out_units, post.digits(job.out_units))
-    lines = _Writer(job, post, sheet, moves).write(progress)
+    sheet = Blocks(post, job.out_units)
+    heading = Heading(program, job, post, box, blend_mm(job, post), writing_tolerance(job, post))
+    lines = _Writer(job, post, sheet, moves).write(heading, progress)
     return NcText("\n".join(sheet.lines) + "\n", np.array(lines, dtype=np.int32))
 
 
 def blend_mm(job: Job, post: Post) -> float:
     """Return how far the control may leave the written path, mm: what the blending block says, 0 for an exact path."""
-    if job.exact_path or not post.blending.blend:
+    if job.exact_path:
         return 0.0
     scale: int = 10 ** post.digits(job.out_units).X
     return math.floor(post.blending.tolerance_mm / job.out_units.value * scale + 1e-6) / scale * job.out_units.value
@@ -101,9 +102,12 @@ class _Writer:
             post.arcs.smallest_radius_mm / unit, post.arcs.largest_radius_mm / unit, post.arcs.radius_mismatch_mm / unit,
         )  # fmt: skip
 
-    def write(self, progress: Progress) -> list[int]:
-        """Write everything behind the header; return the line of each move."""
+    def write(self, heading: Heading, progress: Progress) -> list[int]:
+        """Write everything; return the line of each move."""
         moves, lines = self.moves, []
+        self._blocks(self.post.program.top)
+        for comment in heading_lines(heading):
+            self.sheet.comment(comment)
         self._blocks(self.post.program.start)
         for i in range(len(moves)):
             if i % MOVES_A_STEP == 0:
