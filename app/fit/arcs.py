@@ -206,11 +206,9 @@ def _trial(pieces: Pieces, first: float, last: float) -> tuple[_Fit, float]:
     places = np.linspace(first, last, max(17, 8 * math.ceil(last - first) + 1))
     points, _ = pieces.at(places)
     start, end = (float(points[0, 0]), float(points[0, 1])), (float(points[-1, 0]), float(points[-1, 1]))
-    if start == end:
-        return _Fit(first, last, ()), math.inf
     steps = np.diff(points, axis=0)
     made: tuple[Line | Arc, ...] = ()
-    if math.dist(start, end) > 0.6 * float(np.hypot(steps[:, 0], steps[:, 1]).sum()):
+    if start != end and math.dist(start, end) > 0.6 * float(np.hypot(steps[:, 0], steps[:, 1]).sum()):
         made = biarc(start, pieces.direction(first, True), end, pieces.direction(last, False))
     made = made or (Line(start, end),)
     return _Fit(first, last, made), float(distances(points[1:-1], made).max())

@@ -14,6 +14,8 @@ from app.model.curves import Ellipse, Spline
 Floats = NDArray[np.float64]
 _CORNER = 1e-4
 """A turn of the tangent between two pieces by more than this, radians, is a corner."""
+_STILL = 1e-9
+"""A piece no larger than this, mm, is a point."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +101,8 @@ class Pieces:
         aside = np.abs(arms[..., 1] * unit[:, :1] - arms[..., 0] * unit[:, 1:]).max(axis=1)
         along = np.einsum("nkd,nd->nk", arms, unit)
         beyond = np.maximum(np.maximum(-along.min(axis=1), along.max(axis=1) - length), 0.0)
-        bound: Floats = np.hypot(aside, beyond)
+        still = np.hypot(arms[..., 0], arms[..., 1]).max(axis=1)
+        bound: Floats = np.where((chord == 0.0).all(axis=1), still, np.hypot(aside, beyond))
         return bound
 
     def off_circles(self, on: Floats, centre: Floats) -> Floats:
@@ -131,8 +134,10 @@ def _products(degree: int) -> Floats:
 
 
 def pieces_of(curve: Ellipse | Spline) -> Pieces:
-    """Return the same curve, exactly, as Bézier pieces in its direction of travel."""
-    return _of_ellipse(curve) if isinstance(curve, Ellipse) else _of_spline(curve)
+    """Return the same curve, exactly, as Bézier pieces in its direction of travel; pieces that stand still are left out."""
+    pieces = _of_ellipse(curve) if isinstance(curve, Ellipse) else _of_spline(curve)
+    extent = np.ptp(pieces.polygon, axis=1).max(axis=1)
+    return Pieces(pieces.control[extent > _STILL])
 
 
 def _of_ellipse(curve: Ellipse) -> Pieces:
