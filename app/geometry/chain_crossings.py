@@ -46,7 +46,7 @@ def crossings(contours: Sequence[Contour], branches: Sequence[Point] = ()) -> li
     """
     table = _table(contours)
     i, j = near_pairs(table.rows, tolerances.WELD)
-    points, i, j = _contacts(table.rows, i, j)
+    points, i, j = contacts(table.rows, i, j)
     keep = ~_is_joint(table, points, i, j)
     points, i, j = points[keep], i[keep], j[keep]
     crossing = _crosses(table, points, i, j)
@@ -100,7 +100,7 @@ def _table(contours: Sequence[Contour]) -> _Table:
     return _Table(whole, np.array(contour, np.int64), np.array(before, np.int64), np.array(after, np.int64))
 
 
-def _contacts(rows: Rows, i: Indices, j: Indices) -> tuple[Floats, Indices, Indices]:
+def contacts(rows: Rows, i: Indices, j: Indices) -> tuple[Floats, Indices, Indices]:
     """Return the points (m, 2) where rows i and j meet, with their rows; a pair may meet twice."""
     line_i, line_j = rows[i, TURN] == 0, rows[j, TURN] == 0
     found: list[tuple[Floats, Indices, Indices]] = []
