@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from PySide6.QtCore import QRectF
 from PySide6.QtGui import QPainter, QPainterPath, QShowEvent
 from PySide6.QtWidgets import QWidget
 
@@ -25,6 +26,9 @@ from app.ui.canvas.view import fitted
 from app.ui.theme import Theme
 
 __all__ = ["Canvas", "CanvasMode", "CanvasTool", "ColourBy", "Frame", "PathLayers"]
+
+_BLEED_PX = 8.0
+"""How far lines and marks reach beyond the shape they belong to."""
 
 _LARGE = 0.35
 """A part that takes up this share of the frame's span is shown together with the frame."""
@@ -112,11 +116,10 @@ class Canvas(Hands):
         """Bring a point in mm to the middle."""
         self.glide_to_point((x, y))
 
-    def paint_scene(self, painter: QPainter, draft: bool) -> None:
-        """Paint paper, paths, part and rulers."""
-        area, theme = self.area, self._look.theme
-        box = self.view.world_box(area)
-        painter.setClipRect(area)
+    def paint_scene(self, painter: QPainter, area: QRectF, draft: bool) -> None:
+        """Paint paper, paths and part within a screen rectangle."""
+        theme = self._look.theme
+        box = self.view.world_box(area.adjusted(-_BLEED_PX, -_BLEED_PX, _BLEED_PX, _BLEED_PX))
         paint_paper(painter, self.view, area, self.frame, theme)
         program = self._program if self._mode is CanvasMode.PATHS else None
         if program is not None:
@@ -124,8 +127,10 @@ class Canvas(Hands):
         if program is None or PathLayers.PART in self._look.layers:
             self.picture.paint(painter, self.view, box, theme, draft)
         paint_origin(painter, self.view, theme)
-        painter.setClipping(False)
-        paint_rulers(painter, self.view, self.width(), self.height(), theme)
+
+    def paint_margins(self, painter: QPainter) -> None:
+        """Paint the rulers."""
+        paint_rulers(painter, self.view, self.width(), self.height(), self._look.theme)
 
     def paint_overlay(self, painter: QPainter) -> None:
         """Paint what follows the mouse."""
@@ -163,9 +168,7 @@ class Canvas(Hands):
             shapes = self._program.shapes
             move = nearest_move(shapes, point, reach, shown_purposes(self._look.layers))
             if move is not None:
-                text = describe(shapes, move, self.document.job)
-                piece = shapes.piece[move]
-                return text, shapes.path(int(shapes.first[piece]), int(shapes.last[piece]))
+                return describe(shapes, move, self.document.job), shapes.piece_path(move)
         entity = self.picture.nearest(point, reach)
         return (describe_entity(entity), curve_path(entity.curve)) if entity is not None else None
 

@@ -72,9 +72,9 @@ def paint_rulers(painter: QPainter, view: View, width: float, height: float, the
     tick = QColor(theme.muted)
     tick.setAlphaF(0.6)
     for value in _multiples((RULER - view.ox) / view.scale, (width - view.ox) / view.scale, minor):
-        _top_mark(painter, round(view.ox + value * view.scale), _text_at(value, major), (tick, theme.muted))
+        _top_mark(painter, _px(view.ox + value * view.scale), _text_at(value, major), (tick, theme.muted))
     for value in _multiples((view.oy - height) / view.scale, (view.oy - RULER) / view.scale, minor):
-        _left_mark(painter, round(view.oy - value * view.scale), _text_at(value, major), (tick, theme.muted))
+        _left_mark(painter, _px(view.oy - value * view.scale), _text_at(value, major), (tick, theme.muted))
     painter.fillRect(QRectF(0, 0, RULER, RULER), theme.paper)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
 
@@ -118,8 +118,8 @@ def _text_at(value: float, major: float) -> str:
 
 def _paint_raster(painter: QPainter, view: View, area: QRectF, step: float, colour: QColor) -> None:
     x0, y0, x1, y1 = view.world_box(area)
-    columns = [round(view.ox + x * view.scale) for x in _multiples(x0, x1, step)]
-    rows = [round(view.oy - y * view.scale) for y in _multiples(y0, y1, step)]
+    columns = [_px(view.ox + x * view.scale) for x in _multiples(x0, x1, step)]
+    rows = [_px(view.oy - y * view.scale) for y in _multiples(y0, y1, step)]
     painter.setPen(_line(colour))
     painter.drawLines([QLineF(x, area.top(), x, area.bottom()) for x in columns]
                       + [QLineF(area.left(), y, area.right(), y) for y in rows])
@@ -135,8 +135,8 @@ def _paint_cells(painter: QPainter, view: View, part: QRectF, frame: Frame, them
     columns = [frame.x0 + step for step in _multiples(x0 - frame.x0, x1 - frame.x0, frame.pitch)]
     rows = [frame.y0 + step for step in _multiples(y0 - frame.y0, y1 - frame.y0, frame.pitch)]
     painter.setPen(_line(colour))
-    painter.drawLines([QLineF(x, part.top(), x, part.bottom()) for x in (round(view.ox + c * view.scale) for c in columns)]
-                      + [QLineF(part.left(), y, part.right(), y) for y in (round(view.oy - r * view.scale) for r in rows)])
+    painter.drawLines([QLineF(x, part.top(), x, part.bottom()) for x in (_px(view.ox + c * view.scale) for c in columns)]
+                      + [QLineF(part.left(), y, part.right(), y) for y in (_px(view.oy - r * view.scale) for r in rows)])
 
 
 def _multiples(first: float, last: float, step: float) -> Iterator[float]:
@@ -146,6 +146,11 @@ def _multiples(first: float, last: float, step: float) -> Iterator[float]:
 def _within(outline: QRectF, area: QRectF) -> QRectF:
     """Return the outline cut to a little more than the area, so that huge frames stay paintable."""
     return outline.intersected(area.adjusted(-4, -4, 4, 4))
+
+
+def _px(position: float) -> int:
+    """Return the whole px nearest to a position; unlike `round`, the same for a scene shifted by whole px."""
+    return math.floor(position + 0.5)
 
 
 def _line(colour: QColor, width: float = 1.0) -> QPen:

@@ -19,6 +19,8 @@ RUN = 96
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+_LIT = 300
+
 
 @dataclass(frozen=True, slots=True)
 class PathStyle:
@@ -77,8 +79,10 @@ class MoveShapes:
         m = self.moves
         return PathStyle(Purpose(int(m.purpose[move])), int(m.operation[move]), int(m.tool[move]), int(m.region[move]))
 
-    def path(self, first: int, last: int) -> QPainterPath:
-        """Return the painter path in mm of moves first … last - 1."""
+    def piece_path(self, move: int) -> QPainterPath:
+        """Return the painter path in mm of the piece that a move belongs to; of a very long one, 300 moves each way."""
+        piece = self.piece[move]
+        first, last = max(int(self.first[piece]), move - _LIT), min(int(self.last[piece]), move + _LIT)
         head = np.array([(MOVE_TO, self.start[first, 0], self.start[first, 1])], dtype=ELEMENT)
         return path_of(head, self.elements[self.offset[first]:self.offset[last]])
 

@@ -34,6 +34,7 @@ class Viewport(QWidget):
         self.view = View()
         self.scene_ms = 0.0
         self._scene: QPixmap | None = None
+        self._scene_view = self.view
         self._draft = False
         self._full_ms = 0.0
         self._pan_from: QPointF | None = None
@@ -52,8 +53,12 @@ class Viewport(QWidget):
         """The part of the widget that shows the drawing, beside the rulers."""
         return QRectF(RULER, RULER, max(self.width() - RULER, 1), max(self.height() - RULER, 1))
 
-    def paint_scene(self, painter: QPainter, draft: bool) -> None:
-        """Paint everything that stays while only the mouse moves; `draft` asks for haste."""
+    def paint_scene(self, painter: QPainter, area: QRectF, draft: bool) -> None:
+        """Paint what lies in a screen rectangle and stays while only the mouse moves; `draft` asks for haste."""
+        raise NotImplementedError
+
+    def paint_margins(self, painter: QPainter) -> None:
+        """Paint what stands round the drawing."""
         raise NotImplementedError
 
     def paint_overlay(self, painter: QPainter) -> None:
@@ -61,12 +66,15 @@ class Viewport(QWidget):
         raise NotImplementedError
 
     def set_view(self, view: View) -> None:
-        """Look at the drawing this way."""
-        self._draft = self._full_ms > _SLOW_MS
-        if self._draft:
-            self._settle.start()
+        """Look at the drawing this way; a shift by whole px keeps what was painted."""
         self.view = view
-        self.repaint_scene()
+        scrolled = self._scroll() is not None
+        if not scrolled:
+            self._draft = self._full_ms > _SLOW_MS
+            self._scene = None
+        if scrolled or self._draft:
+            self._settle.start()
+        self.update()
         self.view_changed.emit()
 
     def repaint_scene(self) -> None:
@@ -98,8 +106,9 @@ class Viewport(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Show the kept scene and paint over it."""
-        if self._scene is None:
-            self._scene = self._painted()
+        if self._scene is None or self._scene_view != self.view:
+            self._scene = self._painted(self._scene, self._scroll())
+            self._scene_view = self.view
         painter = QPainter(self)
         painter.drawPixmap(0, 0, self._scene)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -142,17 +151,30 @@ class Viewport(QWidget):
         self._pan_from = None
         return held
 
-    def _painted(self) -> QPixmap:
+    def _scroll(self) -> QPointF | None:
+        """Return by how many whole px the kept scene is to be shifted for the view, or None when that is not enough."""
+        shift = QPointF(self.view.ox - self._scene_view.ox, self.view.oy - self._scene_view.oy)
+        whole = QPointF(round(shift.x()), round(shift.y()))
+        same = self.view.scale == self._scene_view.scale and (shift - whole).manhattanLength() < 1e-6
+        return whole if self._scene is not None and same and self.devicePixelRatioF().is_integer() else None
+
+    def _painted(self, old: QPixmap | None, scroll: QPointF | None) -> QPixmap:
         ratio = self.devicePixelRatioF()
         pixmap = QPixmap(round(self.width() * ratio), round(self.height() * ratio))
         pixmap.setDevicePixelRatio(ratio)
         begun = time.perf_counter()
         painter = QPainter(pixmap)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        self.paint_scene(painter, self._draft)
+        if old is not None and scroll is not None:
+            painter.drawPixmap(scroll, old)
+        for part in [self.area] if scroll is None else _uncovered(self.area, scroll):
+            painter.setClipRect(part)
+            self.paint_scene(painter, part, self._draft)
+        painter.setClipping(False)
+        self.paint_margins(painter)
         painter.end()
         self.scene_ms = (time.perf_counter() - begun) * 1000
-        if not self._draft:
+        if not self._draft and scroll is None:
             self._full_ms = self.scene_ms
         return pixmap
 
@@ -162,3 +184,18 @@ class Viewport(QWidget):
 
     def _glide_on(self, share: float) -> None:
         self.set_view(self._way[0].towards(self._way[1], float(share), self.area))
+
+
+def _uncovered(area: QRectF, scroll: QPointF) -> list[QRectF]:
+    """Return the strips of an area that its own picture, shifted, does not cover."""
+    strips = []
+    kept = area.translated(scroll).intersected(area)
+    if kept.isEmpty():
+        return [area]
+    if scroll.x():
+        left = area.left() if scroll.x() > 0 else kept.right()
+        strips.append(QRectF(left, area.top(), area.width() - kept.width(), area.height()))
+    if scroll.y():
+        top = area.top() if scroll.y() > 0 else kept.bottom()
+        strips.append(QRectF(area.left(), top, area.width(), area.height() - kept.height()))
+    return strips
