@@ -19,7 +19,7 @@ Observer = Callable[[int, Plane], None]
 """Gets the number of a step of the text and the picture (rows, cols) that the display memory shows after it."""
 
 _BAND = 1 << 20
-"""Pixels from which a second thread is worth its start."""
+"""Pixels that are worth a thread's start."""
 
 
 def fill(frame: Frame, contours: Sequence[Contour] | Rows, observer: Observer | None = None) -> Codes:
@@ -42,10 +42,9 @@ def fill(frame: Frame, contours: Sequence[Contour] | Rows, observer: Observer | 
     if observer is not None:
         _show_tracing(plane, observer)
         observer(206, plane.copy())
-    _scan(plane, left)
-    codes = Codes(frame, plane)
+    codes = Codes(frame, _scan(plane, left))
     if observer is not None:
-        observer(208, plane.copy())
+        observer(208, codes.plane.copy())
         observer(130, codes.filled.astype(np.uint8))
     return codes
 
@@ -61,13 +60,16 @@ def _show_tracing(plane: Plane, observer: Observer) -> None:
     observer(203, traced)
 
 
-def _scan(plane: Plane, left: Plane) -> None:
+def _scan(plane: Plane, left: Plane) -> Plane:
+    """Return the plane with its inside marked; rows are padded to whole words of eight pixels while they are scanned."""
     from app.bitmap import kernels
 
-    bands = 1 if plane.size < _BAND else 4
-    cuts = np.linspace(0, len(plane), bands + 1).astype(int)
-    jobs = [(plane[a:b], left[a:b]) for a, b in pairwise(cuts)]
-    if bands == 1:
-        kernels.scan(*jobs[0])
+    rows, cols = plane.shape
+    wide = plane if cols % 8 == 0 else np.pad(plane, ((0, 0), (0, -cols % 8)))
+    cuts = np.linspace(0, rows, 1 + plane.size // _BAND).astype(int) if plane.size >= 2 * _BAND else [0, rows]
+    bands = [(wide[a:b], wide[a:b].view(np.uint64), left[a:b]) for a, b in pairwise(cuts)]
+    if len(bands) == 1:
+        kernels.scan(*bands[0])
     else:
-        list(pool().map(kernels.scan, *zip(*jobs, strict=True)))
+        list(pool().map(lambda band: kernels.scan(*band), bands))
+    return np.ascontiguousarray(wide[:, :cols])

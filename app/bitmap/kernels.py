@@ -120,17 +120,28 @@ def draw(rows, plane, left):  # type: ignore[no-untyped-def]
                 _draw_piece(plane, left, row[4:7], ends[k - 1], ends[k])
 
 
-@kernel("void(uint8[:, ::1], uint8[::1])")
-def scan(plane, left):  # type: ignore[no-untyped-def]
-    """Steps 207 and 208: count the 2s along every row; an empty pixel after an odd number of them gets code 4 (I)."""
+@kernel("void(uint8[:, ::1], uint64[:, ::1], uint8[::1])")
+def scan(plane, words, left):  # type: ignore[no-untyped-def]
+    """Steps 207 and 208: count the 2s along every row; an empty pixel after an odd number of them gets code 4 (I).
+
+    Args:
+        plane: (r, 8 c) codes.
+        words: (r, c) the same memory, eight pixels at a time: most of a picture is empty.
+        left: (r,) 1 where an odd number of crossings lies left of the picture.
+    """
     for j in range(plane.shape[0]):
         inside = left[j]
-        for i in range(plane.shape[1]):
-            code = plane[j, i]
-            if code == 2:
-                inside ^= 1
-            elif code == 0 and inside == 1:
-                plane[j, i] = 4
+        for k in range(words.shape[1]):
+            if words[j, k] == 0:
+                if inside == 1:
+                    words[j, k] = 0x0404040404040404
+                continue
+            for i in range(8 * k, 8 * k + 8):
+                code = plane[j, i]
+                if code == 2:
+                    inside ^= 1
+                elif code == 0 and inside == 1:
+                    plane[j, i] = 4
 
 
 @kernel("int64(uint8[:, ::1], int64, int64, int64)")
