@@ -39,9 +39,12 @@ class Blocks:
 
     def comment(self, text: str) -> None:
         """Write a comment, in several lines if it is wider than the control takes."""
-        style = self._post.comments
-        for line in _wrapped(text, style.width):
-            self.lines.append(f"{style.open}{line}{style.close}")
+        for line in _wrapped(text, self._post.comments.width):
+            self.note(line)
+
+    def note(self, text: str) -> None:
+        """Write a comment that a program reads, whole."""
+        self.lines.append(f"{self._post.comments.open}{text}{self._post.comments.close}")
 
     def block(self, text: str) -> None:
         """Write a block that is no motion; an empty text is left out."""

@@ -5,12 +5,15 @@ Comments that begin with `hitofude:` hold one `key=value` each, in this order an
     program=1                                       version of this list
     part=NAME                                       as in the first comment, which begins with a word of its own:
                                                     controls obey comments that begin with MSG or PRINT
+    drawing_units=mm|inch|cm|m|foot|micron          of the drawing that the part came from
+    layer=NAME                                      one a layer, where layers were chosen; see `spelled_name`
+    join_tolerance_mm=T                             at which loose ends of the drawing were joined
     units=mm|in                                     of the program's words
     origin_mm=X,Y,Z                                 the work origin; part = program + origin
     stock_mm=X0,Y0,Z0,X1,Y1,Z1                      the stock's box
     tool=NUMBER,KIND,DIAMETER                       one a tool, in the order of use
     operation=KIND,TOOL,DEPTH,STOCK_TO_LEAVE        one an operation that cuts
-    path_tolerance_mm=T                             proven: the written path against the exact offset
+    path_tolerance_mm=T                             proven: the written path against the exact offset of the drawing
     blend_mm=P                                      how far the control may leave the written path
 """
 
@@ -59,6 +62,11 @@ def safe_name(text: str) -> str:
     return kept.strip()[:LONGEST_NAME].rstrip() or "untitled"
 
 
+def spelled_name(text: str) -> str:
+    """Return a name in safe characters from which it can be read again: others become their code point, "+DF+"."""
+    return "".join(c if c in ALLOWED and c != "+" else f"+{ord(c):X}+" for c in text)
+
+
 def tool_words(tool: Tool, units: Units) -> str:
     """Return a tool in the trade's habit: "T1 flat 6 mm"; a V or drill with its name, if it has one."""
     words = f"T{tool.number} {tool.kind.value} {_length(tool.diameter, units)}"
@@ -78,7 +86,7 @@ def operation_words(operation: Operation, job: Job) -> str:
 
 
 def heading_lines(heading: Heading) -> Iterator[str]:
-    """Yield the comments of the header, without their brackets."""
+    """Yield the comments for the operator, without their brackets."""
     job, units = heading.job, heading.job.out_units
     yield f"Part {safe_name(job.part.name)}"
     yield f"Hitofude for {heading.post.title}, lengths in {units.name.lower()}"
@@ -88,8 +96,12 @@ def heading_lines(heading: Heading) -> Iterator[str]:
     yield f"It is at {origin} of the drawing, whose Z 0 is the top of stock"
     yield from (tool_words(tool, units) + f", {tool.spindle_speed:.0f} rpm" for tool in _tools(heading))
     yield from (operation_words(operation, job) + ("" if cuts else ", makes no moves") for operation, cuts in _operations(heading))
-    yield f"Path within {_length(_path_tolerance(heading), units)} of the exact offset"
+    yield f"Path within {_length(_path_tolerance(heading), units)} of the exact offset of the drawing"
     yield _blending_words(heading)
+
+
+def heading_notes(heading: Heading) -> Iterator[str]:
+    """Yield the comments for `hitofude cut --against`, without their brackets."""
     yield from (f"hitofude: {note}" for note in _notes(heading))
 
 
@@ -104,10 +116,13 @@ def _blending_words(heading: Heading) -> str:
 
 
 def _notes(heading: Heading) -> Iterator[str]:
-    """Yield the machine's lines."""
+    """Yield every key and its value."""
     job, box = heading.job, heading.box
     yield "program=1"
     yield f"part={safe_name(job.part.name)}"
+    yield f"drawing_units={job.part.units.name.lower()}"
+    yield from (f"layer={spelled_name(name)}" for name in job.layer_names)
+    yield f"join_tolerance_mm={_numbers(job.join_tolerance)}"
     yield f"units={_unit(job.out_units)}"
     yield f"origin_mm={_numbers(*work_origin(job, box))}"
     yield f"stock_mm={_numbers(box.x0, box.y0, box.z0, box.x1, box.y1, box.z1)}"
@@ -122,8 +137,9 @@ def _notes(heading: Heading) -> Iterator[str]:
 
 
 def _path_tolerance(heading: Heading) -> float:
-    """Return how far the written path may be from the exact one, mm."""
-    return LEVEL + heading.writing_mm
+    """Return how far the written path may be from the exact one, mm: curves as arcs, the path's levels, its writing."""
+    curves = max((contour.deviation for region in heading.program.regions for contour in region.contours), default=0.0)
+    return curves + LEVEL + heading.writing_mm
 
 
 def _tools(heading: Heading) -> list[Tool]:

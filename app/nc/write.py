@@ -17,7 +17,7 @@ from app.model.tool import Tool
 from app.nc.arcs import ArcRules, written_pieces
 from app.nc.blocks import Blocks
 from app.nc.grid import spelled
-from app.nc.header import Heading, heading_lines, operation_words, tool_words
+from app.nc.header import Heading, heading_lines, heading_notes, operation_words, tool_words
 from app.nc.post import Coolant, Post
 from app.nc.sequence import check_sequence
 from app.nc.work_moves import WorkMoves, work_moves
@@ -108,6 +108,8 @@ class _Writer:
         self._blocks(self.post.program.top)
         for comment in heading_lines(heading):
             self.sheet.comment(comment)
+        for note in heading_notes(heading):
+            self.sheet.note(note)
         self._blocks(self.post.program.start)
         for i in range(len(moves)):
             if i % MOVES_A_STEP == 0:

@@ -18,7 +18,7 @@ from app.nc.post import Coolant
 from app.nc.posts import load_post
 from app.nc.write import NcText, blend_mm, write_program, writing_tolerance
 from app.progress import Progress
-from tests.nc.programs import Path, job, two_tools
+from tests.nc.programs import Path, job, square, two_tools
 from tests.nc.rs274_oracle import canonical_calls
 
 LINUXCNC = load_post("linuxcnc")
@@ -191,6 +191,21 @@ def test_header_names_stock_origin_tools_and_operations() -> None:
     ):  # fmt: skip
         assert words in comments
     assert not [line for line in comments if line.startswith("T3")]
+
+
+def test_header_tells_what_a_later_comparison_needs() -> None:
+    part = Part(name="plate", units=Units.INCH)
+    text = write(two_tools(), part=part, layer_names=("Kontur außen (1+2)", "0"), join_tolerance=0.05).text
+    for note in ("drawing_units=inch", "layer=Kontur au+DF+en +28+1+2B+2+29+", "layer=0", "join_tolerance_mm=0.05"):
+        assert f"(hitofude: {note})" in text
+    canonical_calls(text)
+
+
+def test_the_stated_tolerance_counts_curves_that_became_arcs() -> None:
+    region = square()
+    curved = replace(region, boundary=replace(region.boundary, deviation=0.0007))
+    text = write_program(two_tools().program(curved), job(), LINUXCNC).text
+    assert "(Path within 0.0019 mm of the exact offset of the drawing)" in text
 
 
 def test_out_units_must_be_known_to_controls() -> None:
