@@ -3,7 +3,8 @@
 Three areas are told apart on the floor of the deepest pass: cleared; left although a tool of the job could cut it
 (must be 0); out of reach of every tool of the job. A tool of radius r that keeps the stock to leave reaches the
 opening of the area by its disc. The swept area is the union of all cutting moves at full depth, each as wide as its
-tool. Method: polygons (shapely), arcs as chords within CHORD; strips thinner than STRIP are numeric and not counted.
+tool. Method: polygons (shapely), arcs as chords within CHORD, wherever a coarse picture does not prove the floor
+cleared; strips thinner than STRIP are numeric and not counted.
 """
 
 from __future__ import annotations
@@ -15,12 +16,14 @@ import shapely
 from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
+from app.geometry.primitives import Rows
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program
 from app.model.operation import Operation, PocketOperation
 from app.progress import NO_PROGRESS, Progress
-from app.toolpath.flat import area_shape, flattened, grown, move_rows
+from app.toolpath.flat import area_shape, flattened, grown, lines, move_rows
+from app.toolpath.proven import uncertain
 
 CHORD = 1e-3
 """mm; arcs are measured as chords that stay within this of them."""
@@ -133,32 +136,40 @@ def _beyond_band(regions: Shape, operations: list[Operation], job: Job) -> Shape
 
 
 def _left(wanted: Shape, moves: Moves, where: tuple[Job, float], progress: Progress) -> Shape:
-    """Return what of a wanted area no move at the floor has cut."""
+    """Return what of a wanted area no move at the floor has cut; the tool with the shortest path first."""
     job, floor = where
-    numbers = [int(number) for number in np.unique(moves.tool)]
+    deep = np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -floor + _DEPTH
+    chosen = deep & (moves.kind != MoveKind.RAPID)
+    numbers = sorted(map(int, np.unique(moves.tool[chosen])), key=lambda number: int(np.sum(chosen & (moves.tool == number))))
     for done, number in enumerate(numbers):
         progress.step(done / len(numbers), f"Measuring what T{number} leaves")
-        wanted = shapely.difference(wanted, swept(moves, number, job.tool(number).radius, floor))
+        wanted = _uncut(wanted, moves, np.flatnonzero(chosen & (moves.tool == number)), job.tool(number).radius)
     return _solid(wanted)
 
 
-def swept(moves: Moves, tool: int, radius: float, floor: float) -> Shape:
-    """Return the area that one tool's cutting moves at full depth cover.
+def _uncut(wanted: Shape, moves: Moves, chosen: NDArray[np.int64], radius: float) -> Shape:
+    """Return what of a wanted area some moves of one tool do not cover.
 
     Args:
-        moves: of the whole program.
-        tool: T number. radius: of that tool, mm.
-        floor: depth, mm, > 0; moves whose both ends are at least this deep count.
+        wanted: polygons, mm.
+        moves: of the whole program. chosen: (n,) indices of the moves, ascending.
+        radius: of the tool, mm.
     """
-    deep = np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -floor + _DEPTH
-    chosen = np.flatnonzero(deep & (moves.kind != MoveKind.RAPID) & (moves.tool == tool))
-    if not len(chosen):
-        return shapely.Polygon()
     rows = move_rows(moves)[chosen]
+    tiles = uncertain(wanted, _runs(rows, chosen), radius)
+    wanted = shapely.intersection(wanted, shapely.union_all(tiles))
+    near = np.unique(shapely.STRtree(tiles).query(lines(rows, CHORD), predicate="dwithin", distance=radius + STRIP)[0])
+    if not len(near):
+        return wanted
+    swept = [grown(shapely.linestrings(path), radius, CHORD) for path in _runs(rows[near], chosen[near])]
+    return shapely.difference(wanted, shapely.union_all(swept))
+
+
+def _runs(rows: Rows, chosen: NDArray[np.int64]) -> list[NDArray[np.float64]]:
+    """Return the points of each run of moves that follow one another."""
     owner, points = flattened(rows, CHORD)
-    run = np.concatenate([[0], np.cumsum(np.diff(chosen) != 1)])
-    paths = shapely.linestrings(points, indices=run[owner])
-    return shapely.union_all([grown(path, radius, CHORD) for path in np.atleast_1d(paths)])
+    run = np.concatenate([[0], np.cumsum(np.diff(chosen) != 1)])[owner]
+    return np.split(points, np.flatnonzero(np.diff(run)) + 1)
 
 
 def _solid(shape: Shape) -> Shape:

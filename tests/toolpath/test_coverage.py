@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
 
 from app.model.curves import Circle
 from app.model.finding import FindingKind
@@ -15,6 +16,7 @@ from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.model.part import Contour, Part, Region
 from app.model.tool import Tool
 from app.toolpath.coverage import coverage_findings, measure
+from app.toolpath.proven import uncertain
 from tests.nc.programs import Path, square
 
 DISC = Region(1, Contour((Circle((0.0, 0.0), 10.0),)))
@@ -59,8 +61,10 @@ def test_a_pass_that_is_not_deep_enough_clears_nothing() -> None:
 
 def test_corners_are_out_of_reach_and_no_finding_that_counts() -> None:
     path = Path().into_work(3, 3, -2)
-    for x, y in ((37, 3), (37, 27), (3, 27), (3, 3), (3, 7), (37, 7), (37, 11), (3, 11), (3, 15), (37, 15), (37, 19), (3, 19), (3, 23), (37, 23)):
+    for x, y in ((37, 3), (37, 27), (3, 27), (3, 3)):
         path.line(x, y, -2)
+    for y in (7, 11, 15, 19, 23):
+        path.line(3, y, -2).line(37, y, -2).line(3, y, -2)
     found = measure(path.out_of_work().program(square()), one_tool())
     assert found.reachable_left_mm2 == 0
     assert found.unreachable_mm2 == pytest.approx((4 - math.pi) * 9, abs=0.02)
@@ -117,3 +121,27 @@ def test_no_operation_no_region_no_moves() -> None:
     assert measure(rings(7.0).program(DISC), replace(one_tool(), operations=())).area_mm2 == 0
     off = replace(one_tool(), operations=(PocketOperation(Cut(1, enabled=False)),))
     assert measure(rings(7.0).program(DISC), off).places == ()
+
+
+@pytest.mark.parametrize("radii", [(7.0, 4.0, 1.0), (7.0, 1.0), (6.0,)])
+def test_what_the_coarse_picture_proves_changes_nothing(radii: tuple[float, ...], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every tile taken as uncertain gives the same answer, also for an area of several parts with holes."""
+    island = Contour((Circle((30.0, 0.0), 1.5, ccw=False),))
+    regions = (DISC, Region(2, Contour((Circle((30.0, 0.0), 9.0),)), (island,)), Region(3, Contour((Circle((0.0, 25.0), 9.0),))))
+    program = rings(*radii).program(*regions)
+    quick = measure(program, one_tool())
+    monkeypatch.setattr("app.toolpath.coverage.uncertain", lambda wanted, paths, radius: np.array([shapely.box(*wanted.bounds)]))
+    full = measure(program, one_tool())
+    assert quick.reachable_left_mm2 == pytest.approx(full.reachable_left_mm2, abs=1e-6)
+    assert quick.reachable_left_mm2 > 300
+    assert quick.unreachable_mm2 == full.unreachable_mm2
+    assert len(quick.places) == len(full.places)
+
+
+def test_an_uncertain_tile_lies_wherever_the_floor_is_not_cut() -> None:
+    area = shapely.box(0, 0, 40, 30).difference(shapely.Point(20, 15).buffer(4))
+    path = np.array([[3.0, 3.0], [37.0, 3.0], [37.0, 27.0]])
+    uncut = area.difference(shapely.LineString(path).buffer(3, quad_segs=64))
+    tiles = shapely.union_all(uncertain(area, [path], 3.0))
+    assert tiles.covers(uncut)
+    assert 0 < area.difference(tiles).area < area.area - uncut.area

@@ -167,7 +167,9 @@ def test_one_tool_does_both_jobs() -> None:
 
 
 def test_depth_passes_origin_and_units_reach_the_program() -> None:
-    options = MakeOptions(depth=5, stepdown=2, origin_xy=OriginXY.CENTRE, origin_z=OriginZ.BOTTOM, out_units=Units.INCH, safe_z=0.5, feed=333)
+    options = MakeOptions(
+        depth=5, stepdown=2, origin_xy=OriginXY.CENTRE, origin_z=OriginZ.BOTTOM, out_units=Units.INCH, safe_z=0.5, feed=333,
+    )  # fmt: skip
     this = make("fig2.dxf", drawing("fig2.dxf").read_bytes(), options)
     depths = sorted({round(float(z), 6) for z in this.program.moves.end[:, 2] if z < 0})
     assert depths == pytest.approx([-5, -10 / 3, -5 / 3])
