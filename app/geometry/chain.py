@@ -62,9 +62,9 @@ def _thinned(pieces: list[Piece], nodes: Nodes, join_tolerance: float) -> tuple[
     shared = [Shared(pieces[o.first], pieces[o.second], o) for o in repeats]
     known = {(s.first.entity, s.second.entity) for s in shared}
     pieces, nodes = _without(pieces, nodes, repeats)
-    overlaps = [o for o in shared_stretches(pieces, reach)
-                if (pieces[o.first].entity, pieces[o.second].entity) not in known]
-    overlaps = covered(pieces, nodes, overlaps, reach)
+    stretches = shared_stretches(pieces, reach)
+    new = [o for o in stretches if (pieces[o.first].entity, pieces[o.second].entity) not in known]
+    overlaps = covered(pieces, nodes, new, reach)
     shared += [Shared(pieces[o.first], pieces[o.second], o) for o in overlaps]
     return *_without(pieces, nodes, overlaps), shared
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app import tolerances
+from app.geometry.chain_overlap import repeated
 from app.geometry.chain_pieces import Piece, length_of, with_ends
 from app.model.curves import Arc, Line, Point
 
@@ -20,14 +21,15 @@ def nodes_of(pieces: Sequence[Piece], join_tolerance: float) -> Nodes:
 
     Ends within WELD of one another are one point. Of what is loose then, the nearest two within the tolerance are
     joined first, so that joining never swallows a detail that is already connected; a loose end without such a
-    partner is joined to the nearest point within the tolerance.
+    partner is joined to the nearest point within the tolerance. A curve drawn twice does not connect its own copy.
     """
     ends = np.array([(*p.start, *p.end) for p in pieces], dtype=np.float64).reshape(-1, 2)
     nodes = _welded(ends)
-    circles = np.array([p.is_circle for p in pieces], dtype=bool)
-    nodes[np.repeat(circles, 2)] = -1
+    nodes[np.repeat(np.array([p.is_circle for p in pieces], dtype=bool), 2)] = -1
     if join_tolerance > tolerances.WELD and len(pieces):
-        _join_loose(pieces, ends, nodes, join_tolerance + tolerances.WELD)
+        single = np.ones(len(pieces), dtype=bool)
+        single[[overlap.second for overlap in repeated(pieces, nodes.reshape(-1, 2), tolerances.WELD)]] = False
+        _join_loose(pieces, ends, np.where(np.repeat(single, 2), nodes, -1), (nodes, join_tolerance + tolerances.WELD))
     return nodes.reshape(-1, 2)
 
 
@@ -46,30 +48,38 @@ def _welded(ends: NDArray[np.float64]) -> Nodes:
     return nodes.ravel().astype(np.int64)
 
 
-def _join_loose(pieces: Sequence[Piece], ends: NDArray[np.float64], nodes: Nodes, reach: float) -> None:
-    """Give loose ends that belong together the same number, in place."""
+def _join_loose(pieces: Sequence[Piece], ends: NDArray[np.float64], single: Nodes, joined: tuple[Nodes, float]) -> None:
+    """Give points that belong together the same number, in place.
+
+    Args:
+        pieces, ends: what is joined.
+        single: number of each end's point, -1 for circles and for curves that repeat another.
+        joined: the numbers of all ends, which change, and the distance within which to join, mm.
+    """
     from scipy.spatial import cKDTree
 
-    loose = _loose(nodes)
+    nodes, reach = joined
+    loose = _loose(single)
     if len(loose) == 0:
         return
     pairs = cKDTree(ends[loose]).query_pairs(reach, output_type="ndarray")
     gaps = np.hypot(*(ends[loose[pairs[:, 0]]] - ends[loose[pairs[:, 1]]]).T)
     free = set(loose.tolist())
+    becomes = np.arange(single.max() + 1)
     for k in np.lexsort((pairs[:, 1], pairs[:, 0], np.round(gaps, 9))):
         a, b = int(loose[pairs[k, 0]]), int(loose[pairs[k, 1]])
         if a in free and b in free and _may_meet(pieces, a, b, float(gaps[k])):
-            nodes[b] = nodes[a]
+            becomes[single[b]] = single[a]
             free -= {a, b}
-    if not free:
-        return
-    joined = np.flatnonzero(nodes >= 0)
-    tree = cKDTree(ends[joined])
-    for a in sorted(free):
-        near = [(math.dist(ends[a], ends[b]), int(b)) for b in joined[tree.query_ball_point(ends[a], reach)] if nodes[b] != nodes[a]]
-        allowed = [(gap, b) for gap, b in near if _may_meet(pieces, a, b, gap)]
-        if allowed:
-            nodes[a] = nodes[min(allowed)[1]]
+    if free:
+        points = np.flatnonzero(single >= 0)
+        tree = cKDTree(ends[points])
+        for a in sorted(free):
+            near = [(math.dist(ends[a], ends[b]), int(b)) for b in points[tree.query_ball_point(ends[a], reach)]]
+            allowed = [b for gap, b in sorted(near) if becomes[single[b]] != becomes[single[a]] and _may_meet(pieces, a, b, gap)]
+            if allowed:
+                becomes[single[a]] = becomes[single[allowed[0]]]
+    nodes[nodes >= 0] = becomes[nodes[nodes >= 0]]
 
 
 def _loose(nodes: Nodes) -> Nodes:

@@ -67,15 +67,15 @@ def _forward(steps: list[Step]) -> list[Step]:
 def _couples(ends: list[int], pieces: Sequence[Piece], spurs: set[int]) -> list[tuple[int, int]]:
     """Pair the ends that meet at one point.
 
-    Curves that belong to a loop come before those that belong to none. Where an even number meets, curves drawn one
-    after the other stay together (two outlines that touch stay two); else the smallest turn wins.
+    Curves that belong to a loop come before those that belong to none. Where an even number meets, a curve stays with
+    the one that was drawn next from its end on (two outlines that touch stay two); else the smallest turn wins.
     """
     directions = {end: _away(pieces[end // 2], end % 2 == 0) for end in ends}
 
     def cost(a: int, b: int) -> tuple[int, int, float, int, int]:
         (ax, ay), (bx, by) = directions[a], directions[b]
         turn = math.pi - abs(math.atan2(ax * by - ay * bx, ax * bx + ay * by))
-        apart = int(len(ends) % 2 == 1 or abs(a // 2 - b // 2) != 1)
+        apart = int(len(ends) % 2 == 1 or a % 2 == 0 or b != a + 1)
         return (a // 2 in spurs) + (b // 2 in spurs), apart, round(turn, 9), a, b
 
     couples = []
