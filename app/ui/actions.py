@@ -155,5 +155,11 @@ def keys_text() -> str:
         ("Repeat the last tool, end a chain", "Enter"), ("Straight up or across while drawing", "Shift"),
         ("Place by number", "x,y   @dx,dy   @length<angle"),
     ]
-    cells = "".join(f"<tr><td>{name}</td><td style='padding-left:24px'><b>{key.replace('<', '&lt;')}</b></td></tr>" for name, key in rows)
-    return f"<table cellspacing='4'>{cells}</table>"
+    half = (len(rows) + 1) // 2
+    rows += [("", "")] * (2 * half - len(rows))
+    lines = "".join(f"<tr>{_key_cells(*left)}{_key_cells(*right)}</tr>" for left, right in zip(rows[:half], rows[half:], strict=True))
+    return f"<table cellspacing='5'>{lines}</table>"
+
+
+def _key_cells(name: str, key: str) -> str:
+    return f"<td style='white-space:pre'>{name}</td><td style='white-space:pre'><b>{key.replace('<', '&lt;')}</b>        </td>"

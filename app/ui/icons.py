@@ -8,7 +8,7 @@ from PySide6.QtSvg import QSvgRenderer
 from PySide6.QtWidgets import QLabel, QToolButton, QWidget
 
 from app.resources import resource
-from app.ui.theme import Theme
+from app.ui.theme import LIGHT, Theme
 
 SIZE = 20
 _SCALES = (1, 2, 3)
@@ -63,11 +63,11 @@ class IconLabel(QLabel):
 
 
 class IconButton(QToolButton):
-    """A flat button with one icon that follows the theme."""
+    """A flat button with an icon that follows the theme."""
 
     def __init__(self, name: str, tip: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._name = name
+        self._name, self._theme = name, LIGHT
         self.setToolTip(tip)
         self.setAccessibleName(tip)
         self.setAutoRaise(True)
@@ -77,4 +77,12 @@ class IconButton(QToolButton):
 
     def set_theme(self, theme: Theme) -> None:
         """Draw the icon in the theme's ink."""
+        self._theme = theme
         self.setIcon(icon(self._name, theme))
+
+    def show_icon(self, name: str, tip: str) -> None:
+        """Take another icon."""
+        self._name = name
+        self.setToolTip(tip)
+        self.setAccessibleName(tip)
+        self.set_theme(self._theme)

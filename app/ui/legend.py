@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QToolBut
 from app.model.job import Job
 from app.model.operation import ContourOperation, Operation, PocketOperation
 from app.ui.canvas.modes import ColourBy
+from app.ui.icons import IconButton
 from app.ui.panels.fields import ChoiceField, muted
 from app.ui.panels.section import hairline, heading
 from app.ui.samples import LineSample, Sample
@@ -66,8 +67,13 @@ class Legend(QFrame):
         column = QVBoxLayout(self)
         column.setContentsMargins(12, 10, 12, 10)
         column.setSpacing(0)
-        column.addWidget(heading("Legend"))
+        column.addLayout(self._head())
         column.addSpacing(4)
+        self.body = QWidget()
+        column.addWidget(self.body)
+        column = QVBoxLayout(self.body)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
         self.rows: dict[Sample, _LegendRow] = {}
         for sample in Sample:
             row = _LegendRow(sample)
@@ -82,6 +88,21 @@ class Legend(QFrame):
         self.colour.show_value(ColourBy.TOOL)
         self.colour.chosen.connect(self.colour_chosen)
         column.addWidget(self.colour)
+
+    def _head(self) -> QHBoxLayout:
+        head = QHBoxLayout()
+        self.fold = IconButton("up", "Fold the legend")
+        self.fold.setCheckable(True)
+        self.fold.toggled.connect(self._fold)
+        head.addWidget(heading("Legend"))
+        head.addStretch(1)
+        head.addWidget(self.fold)
+        return head
+
+    def _fold(self, folded: bool) -> None:
+        self.body.setVisible(not folded)
+        self.fold.show_icon("down" if folded else "up", "Unfold the legend" if folded else "Fold the legend")
+        self.adjustSize()
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QMainWindow, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QLayout, QMainWindow, QVBoxLayout, QWidget
 
 from app.edit.document import Document
 from app.settings import Settings, ThemeChoice
@@ -83,6 +83,11 @@ class MainWindow(QMainWindow):
         self.setMinimumSize(960, 640)
         self.resize(*SIZE)
         self.canvas.setFocus()
+
+    def lay_out_now(self) -> None:
+        """Give every part its place at once, so that what is fitted into it fits."""
+        for layout in self.findChildren(QLayout):
+            layout.activate()
 
     def _theme_for(self, choice: ThemeChoice) -> Theme:
         if choice is ThemeChoice.SYSTEM:

@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
 
 from app.ui.icons import IconButton
+from app.ui.panels.fields import restyle
 
 Answers = Sequence[tuple[str, Callable[[], None]]]
 
@@ -44,9 +45,10 @@ class Notice(QWidget):
             button.deleteLater()
         self.buttons = []
         self.text.setText(sentence)
+        self.setProperty("error", "true" if error else "false")
         self.text.setProperty("role", "error" if error else "")
-        self.text.style().unpolish(self.text)
-        self.text.style().polish(self.text)
+        for widget in (self, self.text):
+            restyle(widget)
         for at, (text, act) in enumerate(answers):
             button = QPushButton(text)
             button.clicked.connect(self.hide)

@@ -67,6 +67,10 @@ class Showing(QObject):
         made = self._computation.made
         return made.findings if made is not None else self._computation.drawing_findings
 
+    def _marked(self) -> tuple[Finding, ...]:
+        """Return the findings that are marked on the canvas: those that count; a remark only when it is picked."""
+        return tuple(finding for finding in self.findings if finding.counts)
+
     def part_size(self) -> tuple[float, float] | None:
         """Return width and height of the drawing, mm; None when it is empty."""
         part = self._document.part
@@ -138,7 +142,7 @@ class Showing(QObject):
             self._window.canvas.set_program(made.program if made is not None else None)
             if made is not None:
                 self._window.views.nc.show_program(made.nc.text, made.nc.lines, made.program.moves)
-            self._window.canvas.set_findings(self.findings)
+            self._window.canvas.set_findings(self._marked())
         strokes = made.program.strokes if made is not None and state is State.CURRENT else None
         self._window.panel.show_results(self._computation.operation_times(), strokes)
         self._show_badge()
@@ -179,6 +183,7 @@ class Showing(QObject):
         """Show the place of a finding on the canvas."""
         if finding.x is None or finding.y is None:
             return
+        self._window.canvas.set_findings((*self._marked(), finding))
         if self.view is View.NC:
             self.show_view(View.PATHS)
         self._window.canvas.go_to(finding.x, finding.y)

@@ -77,6 +77,10 @@ class StatusBar(QWidget):
         self.place_x.setText(f"X {x:.3f}")
         self.place_y.setText(f"Y {y:.3f}")
 
+    def show_grid(self, step: float) -> None:
+        """Show the grid's step at this zoom, mm."""
+        self.grid.setText(f"Grid {step:.3f}")
+
     def show_message(self, text: str, error: bool = False) -> None:
         """Show one sentence; the whole of it is in the tool tip."""
         self.message.setText(text)

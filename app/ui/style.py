@@ -89,10 +89,12 @@ QScrollBar::add-line, QScrollBar::sub-line, QScrollBar::add-page, QScrollBar::su
 QProgressBar { background: $hairline; border: 0; border-radius: 2px; }
 QProgressBar::chunk { background: $accent; border-radius: 2px; }
 QWidget#notice { background: $notice; border-bottom: 1px solid $hairline; }
+QWidget#notice[error="true"] { background: $notice_error; }
 QFrame#findings { background: $raised; border: 1px solid $edge; border-radius: 4px; }
 QWidget[row="true"] { background: transparent; }
 QWidget[row="true"]:hover { background: $hover; }
 QWidget[row="true"][chosen="true"] { background: $chosen; }
+QWidget[row="true"]:focus { border-left: 2px solid $accent; }
 QDialog { background: $paper; }
 """
 
@@ -118,6 +120,7 @@ def style_sheet(theme: Theme, arrow: str = "") -> str:
         "warning_fill": _mix(theme.paper, theme.contour, 0.2),
         "gouge_fill": "#D32F2F",
         "notice": _mix(theme.paper, theme.accent, 0.10 if dark else 0.12),
+        "notice_error": _mix(theme.paper, theme.error, 0.12),
         "arrow": arrow,
     }
     return Template(_BARS + _BUTTONS + _FIELDS).substitute(colours)

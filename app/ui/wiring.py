@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, QObject, QTimer
+from PySide6.QtCore import QByteArray, QObject
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from app import __version__
@@ -135,6 +135,7 @@ class Wiring(QObject):
             self._on(name, partial(canvas.set_tool, tool))
         window.actions_["tool_select"].setChecked(True)
         canvas.cursor_moved.connect(window.status.show_place)
+        canvas.cursor_moved.connect(lambda *_: window.status.show_grid(canvas.grid_step))
         canvas.prompt_changed.connect(window.command_line.set_prompt)
         canvas.hovered.connect(self.showing.show_hovered)
         canvas.message.connect(self._say_error)
@@ -169,6 +170,7 @@ class Wiring(QObject):
         """Begin an empty drawing with the same tools."""
         self.document.load(replace(self.document.job, part=Part()))
         self.computation.forget()
+        self._note("new", "Empty drawing, same tools.")
         self.window_.notice.hide()
         self.showing.show_view(View.DRAW)
 
@@ -232,7 +234,8 @@ class Wiring(QObject):
             self.window_.notice.ask(FIRST_START, [("Draw your own", lambda: self._leave_drawing("Begin a new drawing", self.new))])
         elif not opened.drawing.units_named:
             self._ask_units(opened)
-        QTimer.singleShot(0, self.window_.canvas.fit)
+        self.window_.lay_out_now()
+        self.window_.canvas.fit()
 
     def _size_sentence(self) -> str:
         size = self.showing.part_size() or (0.0, 0.0)

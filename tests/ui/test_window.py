@@ -9,6 +9,7 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication
 
 from app.settings import ThemeChoice, load_settings
+from app.ui.canvas.modes import CanvasTool, ColourBy
 from app.ui.computation import State
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.start import build
@@ -274,3 +275,37 @@ def test_legend_switches_layers(qtbot, computed):
     for row in legend.rows.values():
         qtbot.mouseClick(row, Qt.MouseButton.LeftButton)
     assert computed.window_.canvas.grab().toImage() != before
+
+
+def test_legend_folds_and_colours_by_region(qtbot, computed):
+    legend = computed.window_.views.legend
+    qtbot.mouseClick(legend.colour.buttons[ColourBy.REGION], Qt.MouseButton.LeftButton)
+    assert computed.window_.canvas.colour_by is ColourBy.REGION
+    tall = legend.height()
+    qtbot.mouseClick(legend.fold, Qt.MouseButton.LeftButton)
+    assert legend.height() < tall / 2
+
+
+def test_tool_strip_follows_the_canvas(qtbot, wiring):
+    line = wiring.window_.command_line.edit
+    qtbot.keyClicks(line, "li")
+    qtbot.keyClick(line, Qt.Key.Key_Return)
+    assert wiring.window_.tool_strip.buttons["tool_line"].isChecked()
+    assert wiring.window_.canvas.tool is CanvasTool.LINE
+    qtbot.keyClicks(line, "10,10")
+    qtbot.keyClick(line, Qt.Key.Key_Return)
+    qtbot.keyClicks(line, "@30<90")
+    qtbot.keyClick(line, Qt.Key.Key_Return)
+    assert wiring.showing.part_size() == pytest.approx((0.0, 30.0))
+    press(qtbot, wiring, Qt.Key.Key_Escape)
+    press(qtbot, wiring, Qt.Key.Key_Escape)
+    assert wiring.window_.tool_strip.buttons["tool_select"].isChecked()
+
+
+def test_hidden_field_does_not_choose_another_row(qtbot, wiring):
+    panel = wiring.window_.panel
+    panel.choose(Subject(SubjectKind.TOOL, 1))
+    panel.tool_form.diameter.edit.setFocus()
+    panel.choose(Subject(SubjectKind.JOB))
+    qtbot.wait(20)
+    assert panel.subject == Subject(SubjectKind.JOB)
