@@ -20,23 +20,28 @@ Compiled = Callable[..., Any]
 """A kernel: its types are those of its signature, which mypy does not read."""
 
 
-def _version() -> str:
-    """Return a name that changes with any kernel's source: numba itself looks at one file, not at what it calls."""
-    sources = sorted(Path(__file__).parent.rglob("*kernels*.py"))
-    return hashlib.sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()[:16]
+def _sources_digest() -> str:
+    """Return a digest of all kernel files.
+
+    It names the cache's folder, because numba looks only at a kernel's own file: one that calls a kernel of another
+    file would go on using the old code of that after a change.
+    """
+    digest = hashlib.sha256()
+    for path in sorted(Path(__file__).parent.glob("*/**/*kernels*.py")):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:12]
 
 
 def _cache_folder() -> str:
     """Return a folder that can be written, creating it."""
-    version = _version()
-    for base in (Path(platformdirs.user_cache_dir("hitofude")) / "kernels", Path(tempfile.gettempdir()) / "hitofude-kernels"):
-        folder = base / version
+    for folder in (Path(platformdirs.user_cache_dir("hitofude")), Path(tempfile.gettempdir()) / "hitofude-cache"):
+        kernels = folder / "kernels" / _sources_digest()
         try:
-            folder.mkdir(parents=True, exist_ok=True)
+            kernels.mkdir(parents=True, exist_ok=True)
         except OSError:
             continue
-        if os.access(folder, os.W_OK):
-            return str(folder)
+        if os.access(kernels, os.W_OK):
+            return str(kernels)
     return tempfile.mkdtemp(prefix="hitofude-kernels-")
 
 
