@@ -14,6 +14,7 @@ from app.edit.sample import Box, union
 from app.model.curves import Point
 from app.model.finding import Finding
 from app.model.moves import Program
+from app.model.part import Entity
 from app.ui.canvas import overlay
 from app.ui.canvas.curve_path import curve_path
 from app.ui.canvas.describe import describe_entity
@@ -48,7 +49,8 @@ class Canvas(Hands):
         self._look, self._mode = PathLook(theme), CanvasMode.DRAW
         self._program: ProgramPicture | None = None
         self._findings: tuple[Finding, ...] = ()
-        self._lit: tuple[str, QPainterPath] | None = None
+        self._lit: int | Entity | None = None
+        self._lit_path = QPainterPath()
         self._fresh = True
         self.setMinimumSize(200, 150)
         document.subscribe(self._follow)
@@ -116,16 +118,16 @@ class Canvas(Hands):
         """Bring a point in mm to the middle."""
         self.glide_to_point((x, y))
 
-    def paint_scene(self, painter: QPainter, area: QRectF, draft: bool) -> None:
+    def paint_scene(self, painter: QPainter, area: QRectF) -> None:
         """Paint paper, paths and part within a screen rectangle."""
         theme = self._look.theme
         box = self.view.world_box(area.adjusted(-_BLEED_PX, -_BLEED_PX, _BLEED_PX, _BLEED_PX))
         paint_paper(painter, self.view, area, self.frame, theme)
         program = self._program if self._mode is CanvasMode.PATHS else None
         if program is not None:
-            program.paint(painter, self.view, box, replace(self._look, draft=draft))
+            program.paint(painter, self.view, box, self._look)
         if program is None or PathLayers.PART in self._look.layers:
-            self.picture.paint(painter, self.view, box, theme, draft)
+            self.picture.paint(painter, self.view, box, theme)
         paint_origin(painter, self.view, theme)
 
     def paint_margins(self, painter: QPainter) -> None:
@@ -137,7 +139,7 @@ class Canvas(Hands):
         theme = self._look.theme
         painter.setClipRect(self.area)
         if self._lit is not None:
-            overlay.paint_highlight(painter, self.view, self._lit[1], theme)
+            overlay.paint_highlight(painter, self.view, self._lit_path, theme)
         overlay.paint_findings(painter, self.view, self._findings, theme)
         if self.runner.tool is not None:
             self._paint_tool(painter)
@@ -150,10 +152,11 @@ class Canvas(Hands):
     def look_at(self, point: Point | None) -> None:
         """Light up the move or the entity under the mouse, and say what it is."""
         lit = self._under(point) if point is not None else None
-        if (lit and lit[0]) != (self._lit and self._lit[0]):
-            self.hovered.emit(lit[0] if lit else "")
-            self.update()
-        self._lit = lit
+        if lit == self._lit:
+            return
+        self._lit, self._lit_path = lit, self._path_of(lit)
+        self.hovered.emit(self._words_for(lit))
+        self.update()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
         """Look at the whole of a document that was opened meanwhile."""
@@ -161,16 +164,24 @@ class Canvas(Hands):
         if self._fresh:
             self._show_all()
 
-    def _under(self, point: Point) -> tuple[str, QPainterPath] | None:
-        """Return what lies under the mouse in words and as a path in mm."""
+    def _under(self, point: Point) -> int | Entity | None:
+        """Return what lies under the mouse: the number of a move, or an entity."""
         reach = PICK_PX / self.view.scale
         if self._mode is CanvasMode.PATHS and self._program is not None:
-            shapes = self._program.shapes
-            move = nearest_move(shapes, point, reach, shown_purposes(self._look.layers))
+            move = nearest_move(self._program.shapes, point, reach, shown_purposes(self._look.layers))
             if move is not None:
-                return describe(shapes, move, self.document.job), shapes.piece_path(move)
-        entity = self.picture.nearest(point, reach)
-        return (describe_entity(entity), curve_path(entity.curve)) if entity is not None else None
+                return move
+        return self.picture.nearest(point, reach)
+
+    def _path_of(self, lit: int | Entity | None) -> QPainterPath:
+        if isinstance(lit, Entity):
+            return curve_path(lit.curve)
+        return self._program.shapes.piece_path(lit) if lit is not None and self._program is not None else QPainterPath()
+
+    def _words_for(self, lit: int | Entity | None) -> str:
+        if isinstance(lit, Entity):
+            return describe_entity(lit)
+        return describe(self._program.shapes, lit, self.document.job) if lit is not None and self._program is not None else ""
 
     def _paint_tool(self, painter: QPainter) -> None:
         tool, theme = self.runner.tool, self._look.theme
@@ -186,7 +197,7 @@ class Canvas(Hands):
     def _follow(self, change: Change) -> None:
         if Change.PART in change:
             self.picture.update(self.document.part)
-            self._lit = None
+            self.look_at(None)
         if change & (Change.PART | Change.SELECTION):
             self.picture.select(self.document.selection)
             self.repaint_scene()

@@ -23,7 +23,7 @@ ELEMENT = np.dtype([("kind", ">i4"), ("x", ">f8"), ("y", ">f8")])
 
 Elements = NDArray[np.void]
 
-MANY = 6000
+MANY = 5000
 """A scene with more elements in view is painted with pens of one px, which Qt strokes about eight times as fast."""
 
 

@@ -43,19 +43,19 @@ class PartPicture:
         chosen = [e for e in self.lookup.entities if e.id in ids] if ids else []
         self._selected = [_path(chosen[at:at + _BATCH]) for at in range(0, len(chosen), _BATCH)]
 
-    def paint(self, painter: QPainter, view: View, box: Box, theme: Theme, draft: bool) -> None:
+    def paint(self, painter: QPainter, view: View, box: Box, theme: Theme) -> None:
         """Paint what lies in a box in mm; the painter works in screen px."""
         painter.save()
         painter.setTransform(view.transform(), True)
         painter.setBrush(Qt.BrushStyle.NoBrush)
         seen = [c for c in self.lookup.chunks
                 if c.box[0] <= box[2] and c.box[2] >= box[0] and c.box[1] <= box[3] and c.box[3] >= box[1]]
-        fine = draft or sum(path.elementCount() for c in seen for path in c.paths.values()) > MANY
+        fine = sum(path.elementCount() for c in seen for path in c.paths.values()) > MANY
         for chunk in seen:
             for layer, path in chunk.paths.items():
                 painter.setPen(_pen(QColor(self._colours.get(layer) or theme.ink), 1.0 if fine else PART_WIDTH))
                 painter.drawPath(path)
-        fine = draft or sum(path.elementCount() for path in self._selected) > MANY
+        fine = sum(path.elementCount() for path in self._selected) > MANY
         painter.setPen(_pen(theme.selection, 1.0 if fine else 2.6))
         for path in self._selected:
             painter.drawPath(path)

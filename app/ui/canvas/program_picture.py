@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
@@ -26,16 +26,11 @@ _ORDER = (Purpose.RAPID, Purpose.LINK, Purpose.POCKET, Purpose.LEAD, Purpose.CON
 
 @dataclass(frozen=True, slots=True)
 class PathLook:
-    """How paths are shown.
-
-    Attributes:
-        draft: pens of one px only, while the view moves.
-    """
+    """How paths are shown."""
 
     theme: Theme
     layers: PathLayers = PathLayers.ALL
     colour_by: ColourBy = ColourBy.TOOL
-    draft: bool = False
 
 
 def shown_purposes(layers: PathLayers) -> frozenset[Purpose]:
@@ -72,10 +67,9 @@ class ProgramPicture:
             self._paint_regions(painter, look)
         painter.setBrush(Qt.BrushStyle.NoBrush)
         seen = [c for c in self._chunks if _LAYER_OF[c.style.purpose] in look.layers and _meet(c.box, box)]
-        if sum(c.path.elementCount() for c in seen) > MANY:
-            look = replace(look, draft=True)
+        fine = sum(c.path.elementCount() for c in seen) > MANY
         for chunk in seen:
-            pen = self.pen(chunk.style, look)
+            pen = self.pen(chunk.style, look, fine)
             if chunk.begins_at:
                 pen.setDashOffset(chunk.begins_at * view.scale / pen.widthF())
             painter.setPen(pen)
@@ -84,10 +78,10 @@ class ProgramPicture:
         if PathLayers.PLUNGE in look.layers:
             self._paint_plunges(painter, view, box, look.theme)
 
-    def pen(self, style: PathStyle, look: PathLook) -> QPen:
-        """Return the pen for paths of a style."""
+    def pen(self, style: PathStyle, look: PathLook, fine: bool = False) -> QPen:
+        """Return the pen for paths of a style; `fine` ones are one px."""
         widths = {Purpose.RAPID: RAPID_WIDTH, Purpose.LINK: LINK_WIDTH, Purpose.LEAD: LINK_WIDTH}
-        width = 1.0 if look.draft else widths.get(style.purpose, CUT_WIDTH)
+        width = 1.0 if fine else widths.get(style.purpose, CUT_WIDTH)
         pen = QPen(self._colour(style, look), width)
         pen.setCosmetic(True)
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)

@@ -15,7 +15,8 @@ from app.ui.canvas.view import View, fitted
 
 GLIDE_MS = 150
 _SETTLE_MS = 90
-_SLOW_MS = 12.0
+"""After this rest a shifted scene is painted anew, so that dashes meet where the strips met."""
+
 _NOTCH = 1.2
 
 
@@ -35,11 +36,9 @@ class Viewport(QWidget):
         self.scene_ms = 0.0
         self._scene: QPixmap | None = None
         self._scene_view = self.view
-        self._draft = False
-        self._full_ms = 0.0
         self._pan_from: QPointF | None = None
         self._settle = QTimer(self, singleShot=True, interval=_SETTLE_MS)
-        self._settle.timeout.connect(self._paint_fully)
+        self._settle.timeout.connect(self.repaint_scene)
         self._glide = QVariantAnimation(self)
         self._glide.setDuration(GLIDE_MS)
         self._glide.setEasingCurve(QEasingCurve.Type.OutCubic)
@@ -53,8 +52,8 @@ class Viewport(QWidget):
         """The part of the widget that shows the drawing, beside the rulers."""
         return QRectF(RULER, RULER, max(self.width() - RULER, 1), max(self.height() - RULER, 1))
 
-    def paint_scene(self, painter: QPainter, area: QRectF, draft: bool) -> None:
-        """Paint what lies in a screen rectangle and stays while only the mouse moves; `draft` asks for haste."""
+    def paint_scene(self, painter: QPainter, area: QRectF) -> None:
+        """Paint what lies in a screen rectangle and stays while only the mouse moves."""
         raise NotImplementedError
 
     def paint_margins(self, painter: QPainter) -> None:
@@ -68,11 +67,9 @@ class Viewport(QWidget):
     def set_view(self, view: View) -> None:
         """Look at the drawing this way; a shift by whole px keeps what was painted."""
         self.view = view
-        scrolled = self._scroll() is not None
-        if not scrolled:
-            self._draft = self._full_ms > _SLOW_MS
+        if self._scroll() is None:
             self._scene = None
-        if scrolled or self._draft:
+        else:
             self._settle.start()
         self.update()
         self.view_changed.emit()
@@ -169,18 +166,12 @@ class Viewport(QWidget):
             painter.drawPixmap(scroll, old)
         for part in [self.area] if scroll is None else _uncovered(self.area, scroll):
             painter.setClipRect(part)
-            self.paint_scene(painter, part, self._draft)
+            self.paint_scene(painter, part)
         painter.setClipping(False)
         self.paint_margins(painter)
         painter.end()
         self.scene_ms = (time.perf_counter() - begun) * 1000
-        if not self._draft and scroll is None:
-            self._full_ms = self.scene_ms
         return pixmap
-
-    def _paint_fully(self) -> None:
-        self._draft = False
-        self.repaint_scene()
 
     def _glide_on(self, share: float) -> None:
         self.set_view(self._way[0].towards(self._way[1], float(share), self.area))
