@@ -98,13 +98,13 @@ def _add_turn(path: QPainterPath, centre: Point, major: Point, ratio: float, spa
 
 
 def _add_spline(path: QPainterPath, spline: Spline) -> None:
-    """Add a spline as cubics, four to a knot span, with slopes by central differences."""
+    """Add a spline as cubics, eight to a knot span, with slopes by differences."""
     if spline.degree == 1:
         for x, y in sample(spline):
             path.lineTo(x, y)
         return
     knots = np.unique(spline.knots)
-    t = np.append(np.linspace(knots[:-1], knots[1:], 4, endpoint=False, axis=1).ravel(), knots[-1])
+    t = np.append(np.linspace(knots[:-1], knots[1:], 8, endpoint=False, axis=1).ravel(), knots[-1])
     width = np.diff(t)[:, None]
     a, b = t[:-1] + 1e-5 * width[:, 0], t[1:] - 1e-5 * width[:, 0]
     points = spline_points(spline, t)
