@@ -99,6 +99,9 @@ class Opening(QObject):
     def _on_done(self, answer: Answer) -> None:
         if answer.job_id != self._job_id or not isinstance(answer.value, Opened):
             return
+        if answer.revision != self._document.revision and self._document.modified:
+            self.failed.emit(f"The drawing was changed while {answer.value.path.name} was being read, so it was kept. Open the file again.")
+            return
         self.read.emit(answer.value)
         self._document.load(answer.value.job, answer.value.path)
         self.opened.emit(answer.value)

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import signal
 import sys
+import traceback
+from functools import partial
 from pathlib import Path
+from types import TracebackType
 
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
@@ -38,17 +42,24 @@ def warm_up(window: MainWindow) -> Worker:
     return warmer
 
 
+def _tell_mistake(window: MainWindow, kind: type[BaseException], fault: BaseException, trace: TracebackType | None) -> None:
+    traceback.print_exception(kind, fault, trace)
+    window.notice.ask(f"The program made a mistake here ({kind.__name__}: {fault}). Your drawing is safe; please report this.", error=True)
+
+
 def start(path: Path | None = None) -> int:
     """Open the window with a drawing, or with the sample part, and stay until it is closed.
 
     Returns:
         Exit status.
     """
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     application = QApplication(sys.argv[:1])
     application.setApplicationName("Hitofude")
     application.setDesktopFileName("hitofude")
     window, wiring = build()
     wiring.restore_geometry()
+    sys.excepthook = partial(_tell_mistake, window)
     window.show()
     warmer = warm_up(window)
     QTimer.singleShot(0, lambda: wiring.open_file(path) if path is not None else wiring.open_sample())

@@ -120,13 +120,12 @@ class Wiring(QObject):
         self._on("add_pocket", lambda: panel.operations.added.emit(PocketOperation))
         self._on("add_contour", lambda: panel.operations.added.emit(ContourOperation))
         self._on("compute", self.compute)
-        self._on("cancel", self.window_.worker.cancel)
+        self._on("cancel", self.cancel)
         self._on("findings", self.showing.open_findings)
         panel.refused.connect(self._say_error)
         computation.failed.connect(self._say_error)
         computation.finished.connect(self._on_computed)
-        self.window_.status.cancelled.connect(self.window_.worker.cancel)
-        self.window_.worker.cancelled.connect(lambda _: self._say("Cancelled; nothing has changed."))
+        self.window_.status.cancelled.connect(self.cancel)
 
     def _connect_canvas(self) -> None:
         canvas, window = self.window_.canvas, self.window_
@@ -138,7 +137,7 @@ class Wiring(QObject):
         canvas.cursor_moved.connect(lambda *_: window.status.show_grid(canvas.grid_step))
         canvas.prompt_changed.connect(window.command_line.set_prompt)
         canvas.hovered.connect(self.showing.show_hovered)
-        canvas.message.connect(self._say_error)
+        canvas.message.connect(lambda text: window.status.show_message(text, error=True))
         canvas.key_typed.connect(window.command_line.begin)
         canvas.tool_changed.connect(lambda tool: window.actions_[names[tool]].setChecked(True))
         window.command_line.set_prompt(canvas.prompt)
@@ -157,6 +156,12 @@ class Wiring(QObject):
         self.computation.start()
         if self.showing.view is View.DRAW:
             self.showing.show_view(View.PATHS)
+
+    def cancel(self) -> None:
+        """Leave the running job."""
+        if self.window_.worker.busy:
+            self.window_.worker.cancel()
+            self._say("Cancelled; nothing has changed.")
 
     def open_file(self, path: Path, units: Units | None = None) -> None:
         """Open a drawing, after asking when changes would be lost."""
@@ -240,7 +245,9 @@ class Wiring(QObject):
     def _size_sentence(self) -> str:
         size = self.showing.part_size() or (0.0, 0.0)
         curves = counted(len(self.document.part.entities), "curve")
-        return f"{curves}, {grouped(size[0])} by {grouped(size[1])} mm."
+        findings = len(self.computation.drawing_findings)
+        more = f" {counted(findings, 'remark')} on the drawing: see Compute, Findings." if findings else ""
+        return f"{curves}, {grouped(size[0])} by {grouped(size[1])} mm.{more}"
 
     def _ask_units(self, opened: Opened) -> None:
         size = self.showing.part_size()

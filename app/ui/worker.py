@@ -132,7 +132,7 @@ class Worker(QObject):
         Returns:
             The job's id, as in the answer.
         """
-        self._drop()
+        replaced = self._drop()
         work = _Work(self._next_id, revision, function, threading.Event())
         self._next_id += 1
         self._current = work
@@ -140,6 +140,8 @@ class Worker(QObject):
         runner = _Runner(work, self)
         self._threads.append(runner)
         runner.start()
+        if replaced is not None:
+            self.cancelled.emit(replaced.job_id)
         self.busy_changed.emit(True)
         return work.job_id
 

@@ -309,3 +309,19 @@ def test_hidden_field_does_not_choose_another_row(qtbot, wiring):
     panel.choose(Subject(SubjectKind.JOB))
     qtbot.wait(20)
     assert panel.subject == Subject(SubjectKind.JOB)
+
+
+def test_opening_while_computing_leaves_the_computation(qtbot, computed, samples):
+    computed.computation.start()
+    with qtbot.waitSignal(computed.opening.opened, timeout=WAIT_MS):
+        computed.opening.open(samples / "fig2.dxf")
+    qtbot.waitUntil(lambda: computed.computation.state is not State.RUNNING, timeout=WAIT_MS)
+    assert not computed.window_.status.bar.isVisible() or computed.window_.worker.busy
+
+
+def test_drawing_that_changed_while_a_file_was_read_is_kept(qtbot, wiring, samples):
+    with qtbot.waitSignal(wiring.opening.failed, timeout=WAIT_MS) as caught:
+        wiring.opening.open(samples / "fig2.dxf")
+        wiring.document.run("circle 10,10 5")
+    assert "was changed while fig2.dxf was being read" in caught.args[0]
+    assert len(wiring.document.part.entities) == 1
