@@ -97,8 +97,8 @@ def with_ends(piece: Piece, start: Point, end: Point) -> Piece:
     """Return the piece with its ends moved to meet its neighbours exactly.
 
     Lines turn, and one that is shorter than its gaps may vanish (no primitives are left). Arcs stay true arcs, with
-    the centre nearest to the old one that is equally far from both ends. An arc that would leave its circle by more
-    than twice the gap, as nearly full ones do, stays as it is and a short line bridges the gap.
+    the centre moved least or with their sweep, whichever keeps nearer to the old circle. An arc that would leave it by
+    more than twice the gap, as nearly full ones do, stays as it is and a short line bridges the gap.
     """
     if piece.is_circle or (start == piece.start and end == piece.end):
         return piece
@@ -131,16 +131,33 @@ def _moved(primitive: Primitive, start: Point, end: Point) -> tuple[list[Primiti
     if isinstance(primitive, Line):
         return ([Line(start, end)] if start != end else []), gap
     if isinstance(primitive, Arc) and start != end:
-        arc = Arc(start, end, equally_far(start, end, primitive.centre), primitive.ccw)
-        off = max(math.dist(arc.centre, primitive.centre) + abs(arc.radius - primitive.radius), gap)
-        if off <= max(_AMPLIFIED * gap, tolerances.WELD) and abs(arc.sweep - primitive.sweep) < math.pi:
-            return [arc], off
+        arc, off = min(((made, _off(made, primitive)) for made in _refitted(primitive, start, end)), key=lambda choice: choice[1])
+        if off <= _AMPLIFIED * gap:
+            return [arc], max(off, gap)
     bridges: list[Primitive] = [primitive]
     if gaps[0] > 0:
         bridges.insert(0, Line(start, primitive.start))
     if gaps[1] > 0:
         bridges.append(Line(primitive.end, end))
     return bridges, gap
+
+
+def _refitted(arc: Arc, start: Point, end: Point) -> list[Arc]:
+    """Return arcs between new ends: with the centre moved least, and with the same sweep."""
+    half = arc.sweep / 2
+    height = 1 / (2 * math.tan(half))
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    turned = (start[0] + end[0]) / 2 - dy * height, (start[1] + end[1]) / 2 + dx * height
+    return [Arc(start, end, centre, arc.ccw) for centre in (equally_far(start, end, arc.centre), turned)]
+
+
+def _off(arc: Arc, old: Arc) -> float:
+    """Return how far an arc leaves the circle of the old one, mm; inf when it runs the other way round."""
+    if abs(arc.sweep - old.sweep) > math.pi:
+        return math.inf
+    angles = [arc.start_angle + arc.sweep * k / 16 for k in range(17)]
+    points = [(arc.centre[0] + arc.radius * math.cos(a), arc.centre[1] + arc.radius * math.sin(a)) for a in angles]
+    return max(abs(math.dist(p, old.centre) - old.radius) for p in points)
 
 
 def equally_far(start: Point, end: Point, centre: Point) -> Point:
