@@ -43,7 +43,7 @@ def fig2() -> list[Contour]:
 def random_star(rng: np.random.Generator, centre: Point, radii: tuple[float, float], bulge: float) -> Contour:
     """A star with 3 to 20 corners, some of its edges arcs; with bulge it may cross itself."""
     count = int(rng.integers(3, 21))
-    angles = np.sort(rng.uniform(0, math.tau, count))
+    angles = (np.arange(count) + rng.uniform(-0.24, 0.24, count)) * math.tau / count
     radius = rng.uniform(*radii, count)
     x, y = centre[0] + radius * np.cos(angles), centre[1] + radius * np.sin(angles)
     bulges = np.where(rng.random(count) < 0.5, rng.uniform(-bulge, bulge, count), 0.0)

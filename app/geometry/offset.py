@@ -90,7 +90,7 @@ class _Engine:
         rows = primitives.rows - self._shift * np.where(primitives.rows[:, 7:8] != 0, 1, [1, 1, 1, 1, 0, 0, 0, 0])
         self._primitives = primitives
         self._rows = np.ascontiguousarray(rows)
-        self._field = DistanceField.of(self._rows[primitives.forward])
+        self._field = DistanceField.of(self._rows)
         self._boxes = np.ascontiguousarray(boxes(self._rows))
         self._slack = 2e-13 * max(float(np.abs(self._rows[:, :4]).max()), 100.0)
         self._vertices = np.zeros((len(rows), 2))
@@ -123,7 +123,7 @@ class _Engine:
             count = offset_kernels.trim(self._rows, self._vertices, order, nodes, self._boxes, self._active,
                                         np.array([distance, self._slack]), pieces)
             if count < room:
-                return self._inside(np.ascontiguousarray(pieces[:count]), distance)
+                return np.ascontiguousarray(pieces[:count])
             room *= 4
 
     def _blockers(self, distance: float) -> tuple[Indices, Rows]:
@@ -138,13 +138,6 @@ class _Engine:
         used = np.unique(np.where(elements >= len(self._rows), elements - len(self._rows), elements))
         order, nodes = kernels.build_tree(np.ascontiguousarray(self._boxes[used]))
         return used[order], nodes
-
-    def _inside(self, pieces: Rows, distance: float) -> Rows:
-        """Where contours cross, keep only pieces inside by the even-odd rule."""
-        if self._primitives.forward.all() or len(pieces) == 0:
-            return pieces
-        middle = points_at(self._piece_rows(pieces, distance), np.full(len(pieces), 0.5))
-        return np.ascontiguousarray(pieces[self._field.inside(middle)])
 
     def _piece_rows(self, pieces: Rows, distance: float) -> Rows:
         out = np.empty((len(pieces), 8))

@@ -36,8 +36,7 @@ def polyline_loops(field: DistanceField, rows: Rows, primitives: Primitives, dis
 def _area(rows: Rows, primitives: Primitives, number: int) -> shapely.Geometry:
     """Return one region as a polygon, by even-odd overlay of its contours."""
     area: shapely.Geometry = shapely.Polygon()
-    used = primitives.forward & (primitives.region == number)
-    starts = np.flatnonzero(used & (primitives.previous > np.arange(len(rows))) | used & (primitives.previous == np.arange(len(rows))))
+    starts = np.flatnonzero((primitives.region == number) & (primitives.previous >= np.arange(len(rows))))
     for first in starts:
         last = int(primitives.previous[first])
         area = area.symmetric_difference(shapely.make_valid(shapely.Polygon(sample(rows[first:last + 1], _CHORD))))

@@ -33,19 +33,11 @@ class Primitives:
         rows: (n, 8) float64, see the module.
         previous: (n,) int64 row that ends where this one starts.
         region: (n,) int64 region number that the row bounds.
-        forward: (n,) False for rows that repeat another one the other way round. They are there when contours
-            cross, so that sides are decided by even-odd counting, not by direction.
     """
 
     rows: Rows
     previous: Indices
     region: Indices
-    forward: NDArray[np.bool_]
-
-    @property
-    def outline(self) -> Rows:
-        """The rows of the drawing, each once."""
-        return self.rows[self.forward]
 
 
 def curve_rows(curve: Primitive) -> list[tuple[float, ...]]:
@@ -84,28 +76,18 @@ def contour_rows(contour: Contour) -> Rows:
     return np.array([row for curve in contour.primitives for row in curve_rows(curve)], dtype=np.float64).reshape(-1, 8)
 
 
-def pack(regions: Sequence[Region], even_odd: bool = False) -> Primitives:
-    """Return the rows of all contours of some regions.
-
-    Args:
-        regions: boundaries counter-clockwise, islands clockwise.
-        even_odd: contours cross: both sides of each are kept, for the caller to decide by even-odd counting.
-    """
+def pack(regions: Sequence[Region]) -> Primitives:
+    """Return the rows of all contours of some regions: boundaries counter-clockwise, islands clockwise, none crossing."""
     rows = [np.zeros((0, 8))]
     previous: list[int] = []
     numbers: list[int] = []
-    forward: list[bool] = []
-    count = 0
     for region in regions:
         for contour in region.contours:
-            block = contour_rows(contour)
-            for ahead in (True, False) if even_odd else (True,):
-                rows.append(block if ahead else reversed_rows(block))
-                previous.extend(count + np.roll(np.arange(len(block)), 1))
-                numbers.extend([region.number] * len(block))
-                forward.extend([ahead] * len(block))
-                count += len(block)
-    return Primitives(np.concatenate(rows), np.array(previous, np.int64), np.array(numbers, np.int64), np.array(forward, np.bool_))
+            rows.append(contour_rows(contour))
+            count = len(rows[-1])
+            previous.extend(len(numbers) + np.roll(np.arange(count), 1))
+            numbers.extend([region.number] * count)
+    return Primitives(np.concatenate(rows), np.array(previous, np.int64), np.array(numbers, np.int64))
 
 
 def reversed_rows(rows: Rows) -> Rows:

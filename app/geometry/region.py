@@ -7,12 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
-from app.geometry.primitives import contour_rows, sample, signed_area
+from app import tolerances
+from app.geometry.primitives import Rows, contour_rows, lengths, sample, signed_area
 from app.model.curves import Line, Primitive, reversed_curve
 from app.model.part import Contour, Region
 
-_CHORD = 0.01  # mm; only who lies in whom depends on it
+_CHORD = 0.01
+"""mm; only who lies in whom depends on it. Thin contours are sampled as finely as they are thin."""
 
 
 def nest(contours: Sequence[Contour]) -> tuple[Region, ...]:
@@ -43,11 +46,12 @@ def nest(contours: Sequence[Contour]) -> tuple[Region, ...]:
     return tuple(Region(number, turned[i], tuple(islands.get(i, ()))) for number, i in enumerate(outer, 1))
 
 
-def _ring(rows: np.ndarray) -> np.ndarray:
-    return sample(rows, _CHORD)
+def _ring(rows: Rows) -> NDArray[np.float64]:
+    thin = abs(signed_area(rows)) / max(float(lengths(rows).sum()), tolerances.WELD)
+    return sample(rows, min(_CHORD, max(thin / 8, tolerances.WELD)))
 
 
-def _holders(polygons: list[shapely.Geometry], areas: np.ndarray) -> list[list[int]]:
+def _holders(polygons: list[shapely.Geometry], areas: NDArray[np.float64]) -> list[list[int]]:
     """Return for each polygon the larger ones that hold an inner point of it."""
     inner = shapely.point_on_surface(np.array(polygons, dtype=object))
     found: list[list[int]] = [[] for _ in polygons]

@@ -10,6 +10,7 @@ from app.errors import ParameterError
 from app.geometry.chain import chain
 from app.geometry.distance import DistanceField
 from app.geometry.offset import Level, offset_levels
+from app.geometry.overlay import without_crossings
 from app.geometry.primitives import Primitives, pack
 from app.geometry.region import nest
 from app.model.finding import Finding, FindingKind
@@ -66,12 +67,12 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
         Cancelled: by progress.
     """
     progress.step(0.0, "Chain contours")
-    regions, findings, crossing = regions_of(job)
+    regions, findings = regions_of(job)
     builder = MovesBuilder()
     if not regions:
         return Program(builder.moves(), findings=tuple(findings))
-    primitives = pack(regions, even_odd=crossing)
-    setting = Setting(job, regions, primitives, DistanceField.of(primitives.outline), builder, findings, observer=observer)
+    primitives = pack(regions)
+    setting = Setting(job, regions, primitives, DistanceField.of(primitives.rows), builder, findings, observer=observer)
     operations = in_order(job)
     for k, index in enumerate(operations):
         operation = job.operations[index]
@@ -84,13 +85,15 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
                    seen.bitmap_area, seen.exact_area, seen.pitch)
 
 
-def regions_of(job: Job) -> tuple[tuple[Region, ...], list[Finding], bool]:
-    """Return (regions, findings about the drawing, True when contours cross) for the layers that a job machines."""
+def regions_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
+    """Return (regions, findings about the drawing) of the layers that a job machines; contours that cross count even-odd."""
     visible = {layer.name for layer in job.part.layers if layer.visible}
     wanted = set(job.layer_names) or visible
     chaining = chain([e for e in job.part.entities if e.layer in wanted], job.join_tolerance)
-    crossing = any(f.kind is FindingKind.SELF_INTERSECTION for f in chaining.findings)
-    return nest(chaining.contours), list(chaining.findings), crossing
+    contours = [contour for contour in chaining.contours if contour.closed]
+    if any(f.kind is FindingKind.SELF_INTERSECTION and f.counts for f in chaining.findings):
+        contours = list(without_crossings(contours))
+    return nest(contours), list(chaining.findings)
 
 
 def in_order(job: Job) -> list[int]:

@@ -32,7 +32,7 @@ def polygon_of(regions: tuple[Region, ...]) -> shapely.Geometry:
 
 def own_rings(regions: tuple[Region, ...]) -> tuple[Level, ...]:
     primitives = pack(regions)
-    return without_empty(offset_levels(primitives, pocket_distances(FIRST, STEPOVER, DistanceField.of(primitives.outline))))
+    return without_empty(offset_levels(primitives, pocket_distances(FIRST, STEPOVER, DistanceField.of(primitives.rows))))
 
 
 def shapely_rings(polygon: shapely.Geometry, from_part: bool) -> list[np.ndarray]:

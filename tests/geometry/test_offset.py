@@ -13,6 +13,7 @@ from app import tolerances
 from app.errors import Cancelled
 from app.geometry import offset
 from app.geometry.offset import Level, offset_levels
+from app.geometry.overlay import without_crossings
 from app.geometry.primitives import lengths, pack, points_at
 from app.geometry.region import nest, polygon_contour
 from app.model.part import Contour
@@ -22,7 +23,7 @@ from tests.part_shapes import circle, fig2, random_part, square
 
 
 def levels_of(contours: list[Contour], distances: list[float], crossing: bool = False) -> tuple[Level, ...]:
-    return offset_levels(pack(nest(contours), even_odd=crossing), distances)
+    return offset_levels(pack(nest(without_crossings(contours) if crossing else contours)), distances)
 
 
 def points_of(level: Level, per_row: int = 5) -> np.ndarray:

@@ -8,6 +8,7 @@ import pytest
 
 from app.geometry.distance import DistanceField
 from app.geometry.offset import Level, offset_levels
+from app.geometry.overlay import without_crossings
 from app.geometry.primitives import pack
 from app.geometry.region import nest
 from app.model.part import Contour
@@ -16,8 +17,8 @@ from tests.part_shapes import circle, fig2, random_part, square
 
 
 def field_and_level(contours: list[Contour], distance: float, crossing: bool = False) -> tuple[DistanceField, Level]:
-    primitives = pack(nest(contours), even_odd=crossing)
-    return DistanceField.of(primitives.outline), offset_levels(primitives, [distance])[0]
+    primitives = pack(nest(without_crossings(contours) if crossing else contours))
+    return DistanceField.of(primitives.rows), offset_levels(primitives, [distance])[0]
 
 
 def checked(contours: list[Contour], distance: float, crossing: bool = False) -> BitmapCheck:

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from app import tolerances
 from app.geometry.distance import DistanceField
 from app.geometry.offset import Level, offset_levels
+from app.geometry.overlay import without_crossings
 from app.geometry.primitives import lengths, pack, points_at, signed_area
 from app.geometry.region import nest, polygon_contour
 from app.model.moves import Purpose
@@ -24,8 +25,8 @@ from tests.part_shapes import circle, fig2, random_part, square
 
 def pocket(contours: list[Contour], outermost: float, step: float, direction: Direction = Direction.CLIMB,
            crossing: bool = False) -> tuple[tuple[Level, ...], tuple[Stroke, ...]]:
-    primitives = pack(nest(contours), even_odd=crossing)
-    field = DistanceField.of(primitives.outline)
+    primitives = pack(nest(without_crossings(contours) if crossing else contours))
+    field = DistanceField.of(primitives.rows)
     distances = pocket_distances(outermost, step, field)
     levels = without_empty(offset_levels(primitives, distances))
     return levels, link(levels, field, direction)

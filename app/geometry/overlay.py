@@ -1,0 +1,150 @@
+"""Contours that cross become contours that only touch, with the same area by the even-odd rule."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app import tolerances
+from app.geometry.chain_crossings import contacts
+from app.geometry.chain_overlap import near_pairs
+from app.geometry.distance import DistanceField
+from app.geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Rows, contour_rows, lengths, points_at, row_curve, signed_area, sweeps
+from app.model.part import Contour
+
+_SIDE = tolerances.WELD
+"""mm; how far from a piece its two sides are looked at."""
+
+
+def without_crossings(contours: Sequence[Contour]) -> tuple[Contour, ...]:
+    """Return contours whose even-odd area is the same, of which none crosses itself or another.
+
+    Every contour is cut where it meets another; each piece is turned so that the area lies to its left; pieces are
+    joined again by always taking, of the pieces that go on from a meeting point, the one that bounds the same area.
+
+    Args:
+        contours: closed.
+
+    Returns:
+        Closed contours. They name all entities of those they were made of. Slivers thinner than WELD are left out.
+    """
+    groups: dict[int, list[Contour]] = {}
+    for contour, number in zip(contours, _meeting(contours), strict=True):
+        groups.setdefault(number, []).append(contour)
+    return tuple(part for group in groups.values() for part in _parted(group))
+
+
+def _meeting(contours: Sequence[Contour]) -> list[int]:
+    """Return for each contour the number of the group of contours that meet one another."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    rows = [contour_rows(contour) for contour in contours]
+    owner = np.repeat(np.arange(len(rows)), [len(r) for r in rows])
+    whole = np.concatenate([np.zeros((0, 8)), *rows])
+    _, i, j = contacts(whole, *near_pairs(whole, tolerances.WELD))
+    meet = coo_array((np.ones(len(i), np.bool_), (owner[i], owner[j])), shape=(len(rows), len(rows)))
+    numbers: list[int] = connected_components(meet, directed=False)[1].tolist()
+    return numbers
+
+
+def _parted(contours: Sequence[Contour]) -> tuple[Contour, ...]:
+    """Return the simple contours of one group."""
+    whole = np.concatenate([contour_rows(contour) for contour in contours])
+    pieces = _split(whole)
+    pieces = pieces[lengths(pieces) > tolerances.WELD]
+    pieces, start, end = _welded(_turned(pieces, DistanceField.of(whole)))
+    loops = _loops(pieces, start, end)
+    ids = tuple(dict.fromkeys(i for contour in contours for i in contour.entity_ids))
+    deviation = max((contour.deviation for contour in contours), default=0.0)
+    return tuple(Contour(tuple(row_curve(row) for row in pieces[loop]), True, contours[0].layer, ids, deviation)
+                 for loop in loops if abs(signed_area(pieces[loop])) > float(lengths(pieces[loop]).sum()) * tolerances.WELD)
+
+
+def _split(rows: Rows) -> Rows:
+    """Return the rows cut at every point where two of them meet."""
+    points, i, j = contacts(rows, *near_pairs(rows, tolerances.WELD))
+    owner, place = np.concatenate([i, j]), np.concatenate([points, points])
+    cuts: list[list[float]] = [[0.0, 1.0] for _ in rows]
+    for k, fraction in zip(owner, _fractions(rows[owner], place), strict=True):
+        cuts[k].append(float(fraction))
+    index = np.concatenate([np.full(len(c) - 1, k) for k, c in enumerate(cuts)])
+    low = np.concatenate([np.sort(c)[:-1] for c in cuts])
+    high = np.concatenate([np.sort(c)[1:] for c in cuts])
+    parts = rows[index].copy()
+    parts[:, :2] = points_at(rows[index], low)
+    parts[:, 2:4] = np.where((high == 1)[:, None], rows[index, 2:4], points_at(rows[index], high))
+    used: Rows = parts[high > low]
+    return used
+
+
+def _fractions(rows: Rows, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return where along its row each point lies, in [0, 1]."""
+    along = rows[:, 2:4] - rows[:, :2]
+    straight = ((points - rows[:, :2]) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300)
+    sweep = sweeps(rows)
+    start = np.arctan2(rows[:, Y0] - rows[:, CY], rows[:, X0] - rows[:, CX])
+    ahead = (np.arctan2(points[:, 1] - rows[:, CY], points[:, 0] - rows[:, CX]) - start) * rows[:, TURN] % math.tau
+    ahead = np.where(ahead > math.pi + np.abs(sweep) / 2, 0.0, ahead)  # a hair before the start
+    fraction = np.where(rows[:, TURN] == 0, straight, ahead / np.maximum(np.abs(sweep), 1e-300))
+    clipped: NDArray[np.float64] = np.clip(fraction, 0.0, 1.0)
+    return clipped
+
+
+def _turned(pieces: Rows, field: DistanceField) -> Rows:
+    """Return the pieces with the area to their left; those with the same on both sides bound nothing and go."""
+    middle = points_at(pieces, np.full(len(pieces), 0.5))
+    ahead = points_at(pieces, np.full(len(pieces), 0.5 + 1e-6)) - points_at(pieces, np.full(len(pieces), 0.5 - 1e-6))
+    normal = np.stack([-ahead[:, 1], ahead[:, 0]], 1) / np.maximum(np.hypot(*ahead.T), 1e-300)[:, None]
+    left, right = field.inside(middle + normal * _SIDE), field.inside(middle - normal * _SIDE)
+    back = pieces.copy()
+    back[:, [X0, Y0, X1, Y1]] = pieces[:, [X1, Y1, X0, Y0]]
+    back[:, TURN] *= -1
+    turned: Rows = np.where((right & ~left)[:, None], back, pieces)[left != right]
+    return turned
+
+
+def _welded(pieces: Rows) -> tuple[Rows, NDArray[np.int64], NDArray[np.int64]]:
+    """Return (pieces, number of the point where each starts, and ends); ends within 10 WELD become one point."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    count = len(pieces)
+    ends = np.concatenate([pieces[:, :2], pieces[:, 2:4]])
+    pairs = cKDTree(ends).query_pairs(10 * tolerances.WELD, output_type="ndarray") if count else np.zeros((0, 2), np.int64)
+    near = coo_array((np.ones(len(pairs), np.bool_), (pairs[:, 0], pairs[:, 1])), shape=(2 * count, 2 * count))
+    number = connected_components(near, directed=False)[1].astype(np.int64)
+    first = np.unique(number, return_index=True)[1]
+    pieces = pieces.copy()
+    pieces[:, :2], pieces[:, 2:4] = ends[first[number[:count]]], ends[first[number[count:]]]
+    return pieces, number[:count], number[count:]
+
+
+def _loops(pieces: Rows, start: NDArray[np.int64], end: NDArray[np.int64]) -> list[list[int]]:
+    """Return closed sequences of pieces; where several go on from a point, the next one clockwise from the way back."""
+    leaving: dict[int, list[int]] = {}
+    for k, node in enumerate(start):
+        leaving.setdefault(int(node), []).append(k)
+    small = np.minimum(1e-3 / np.maximum(lengths(pieces), 1e-300), 0.5)
+    out = points_at(pieces, small) - pieces[:, :2]
+    back = points_at(pieces, 1 - small) - pieces[:, 2:4]
+    loops: list[list[int]] = []
+    unused = set(range(len(pieces)))
+    while unused:
+        loop = [min(unused)]
+        while True:
+            unused.discard(loop[-1])
+            choices = [k for k in leaving.get(int(end[loop[-1]]), ()) if k in unused or k == loop[0]]
+            if not choices:
+                break  # a loose end: not a closed contour, and dropped
+            reverse = math.atan2(back[loop[-1], 1], back[loop[-1], 0])
+            following = min(choices, key=lambda k: (reverse - math.atan2(out[k, 1], out[k, 0])) % math.tau)
+            if following == loop[0]:
+                loops.append(loop)
+                break
+            loop.append(following)
+    return loops
