@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 import sys
+import threading
 import traceback
 from collections.abc import Sequence
 
 from app import __version__
+from app.cli_signals import stoppable
 from app.errors import Cancelled, HitofudeError
 
 DONE, WITH_FINDINGS, BAD_INPUT, CANCELLED = 0, 1, 2, 130
@@ -32,7 +34,8 @@ def main(argv: Sequence[str]) -> int:
         argv: the arguments behind the program's name.
     """
     try:
-        return _command(list(argv))
+        with stoppable() as stopped:
+            return _command(list(argv), stopped)
     except (KeyboardInterrupt, Cancelled):
         _say("cancelled; no file was written")
         return CANCELLED
@@ -47,7 +50,7 @@ def main(argv: Sequence[str]) -> int:
         return BAD_INPUT
 
 
-def _command(argv: list[str]) -> int:
+def _command(argv: list[str], stopped: threading.Event) -> int:
     name, rest = (argv[0], argv[1:]) if argv else ("", [])
     if name in ("", "-h", "--help", "help"):
         print(HELP, end="")
@@ -58,7 +61,7 @@ def _command(argv: list[str]) -> int:
     if name == "make":
         from app.cli_make import make_command
 
-        return make_command(rest)
+        return make_command(rest, stopped)
     if name in LATER:
         _say(f"the command '{name}' is not part of this version yet; 'make' is, see hitofude --help")
         return BAD_INPUT

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+import threading
 import time
 from collections import Counter
 from collections.abc import Sequence
@@ -12,6 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from app.cli_options import make_options, read_arguments
+from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.files.atomic import write_atomically
 from app.model.finding import FindingKind
@@ -26,8 +28,12 @@ REMARKS = 3
 """Remarks of one kind that are printed; the report has all."""
 
 
-def make_command(argv: Sequence[str]) -> int:
+def make_command(argv: Sequence[str], stopped: threading.Event) -> int:
     """Run `make` and return its exit status: 0 clean, 1 with findings.
+
+    Args:
+        argv: the arguments behind `make`.
+        stopped: set when the user wants it to stop.
 
     Raises:
         HitofudeError: bad usage or input; nothing was written.
@@ -41,7 +47,7 @@ def make_command(argv: Sequence[str]) -> int:
     arguments = read_arguments(argv)
     outputs = _check_outputs(arguments)
     options = _with_job(make_options(arguments), arguments.job)
-    made = make(arguments.drawing.name, _read(arguments.drawing), options, _progress(arguments.quiet))
+    made = make(arguments.drawing.name, _read(arguments.drawing), options, _progress(arguments.quiet, stopped))
     _write(made, outputs)
     if not arguments.quiet:
         _summary(made, arguments.output)
@@ -118,15 +124,16 @@ def _write(made: Made, outputs: dict[str, Path]) -> None:
 
         texts["image"] = plot(picture_of(made.job.part.name, made.program, made.coverage), outputs["image"].suffix.lower())
     texts["output"] = made.nc.text.encode("ascii", "replace")
-    for name in ("report", "image", "output"):
-        if name in outputs:
-            write_atomically(outputs[name], texts[name])
+    with undisturbed():
+        for name in ("report", "image", "output"):
+            if name in outputs:
+                write_atomically(outputs[name], texts[name])
 
 
-def _progress(quiet: bool) -> Progress:
+def _progress(quiet: bool, stopped: threading.Event) -> Progress:
     """Return a progress that shows itself on stderr where that is a terminal."""
     if quiet or not sys.stderr.isatty():
-        return Progress()
+        return Progress(None, stopped)
     shown = [0.0]
 
     def show(fraction: float, text: str) -> None:
@@ -135,7 +142,7 @@ def _progress(quiet: bool) -> Progress:
             end = "\r\x1b[K" if fraction >= 1 else ""
             print(f"\r\x1b[K{fraction:4.0%} {text}{end}", end="", file=sys.stderr, flush=True)
 
-    return Progress(show)
+    return Progress(show, stopped)
 
 
 def _summary(made: Made, output: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import re
+import textwrap
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NoReturn
@@ -41,6 +42,13 @@ class OptionParser(argparse.ArgumentParser):
         for said, better in PHRASES:
             message = re.sub(said, better, message)
         raise InputError(f"{message.rstrip('.')}; see hitofude make --help")
+
+
+class _HelpFormatter(argparse.RawDescriptionHelpFormatter):
+    """Keeps words such as lower-left whole."""
+
+    def _split_lines(self, text: str, width: int) -> list[str]:
+        return textwrap.wrap(" ".join(text.split()), width, break_on_hyphens=False)
 
 
 def _number(what: str, *, zero: bool = False, unit: str = "mm") -> Callable[[str], float]:
@@ -88,7 +96,7 @@ def _typed(read: Callable[[str], object]) -> Callable[[str], object]:
 def make_parser() -> OptionParser:
     """Return the parser of `hitofude make`."""
     parser = OptionParser(
-        prog="hitofude make", allow_abbrev=False, epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter,
+        prog="hitofude make", allow_abbrev=False, epilog=EPILOG, formatter_class=_HelpFormatter,
         description="Turn a drawing (.dxf) into contour and pocket tool paths and write them as an NC program.",
     )
     parser.add_argument("drawing", metavar="DRAWING", type=Path, help="the drawing, .dxf")
