@@ -17,6 +17,7 @@ from app.progress import Progress
 from app.settings import load_settings
 from app.ui.icons import pixmap
 from app.ui.main_window import MainWindow
+from app.ui.memory import restore_geometry
 from app.ui.wiring import Wiring
 from app.ui.worker import Worker
 
@@ -58,11 +59,11 @@ def start(path: Path | None = None) -> int:
     application.setApplicationName("Hitofude")
     application.setDesktopFileName("hitofude")
     window, wiring = build()
-    wiring.restore_geometry()
+    restore_geometry(window)
     sys.excepthook = partial(_tell_mistake, window)
     window.show()
     warmer = warm_up(window)
-    QTimer.singleShot(0, lambda: wiring.open_file(path) if path is not None else wiring.open_sample())
+    QTimer.singleShot(0, lambda: wiring.files.open_file(path) if path is not None else wiring.files.open_sample())
     status = application.exec()
     warmer.finish()
     return status

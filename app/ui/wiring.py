@@ -4,32 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import replace
 from functools import partial
-from pathlib import Path
 
-from PySide6.QtCore import QByteArray, QObject
-from PySide6.QtWidgets import QFileDialog, QMessageBox
+from PySide6.QtCore import QObject
 
-from app import __version__
-from app.edit.document import Change, LogLine
+from app.edit.document import Change
 from app.errors import HitofudeError
 from app.model.operation import ContourOperation, PocketOperation
-from app.model.part import Part, Units
-from app.settings import ThemeChoice, save_settings
-from app.ui import opening as opening_files
-from app.ui.actions import keys_text
+from app.settings import ThemeChoice
 from app.ui.canvas.modes import CanvasTool
-from app.ui.exporting import FILTER, Exporting
-from app.ui.figures import counted, grouped
+from app.ui.figures import counted
+from app.ui.files import Files
+from app.ui.help import show_about, show_keys
+from app.ui.log import Log
 from app.ui.main_window import MainWindow
-from app.ui.opening import Opened, Opening
+from app.ui.memory import choose_theme
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.showing import Showing
 from app.ui.verdict import verdict
 from app.ui.views import View
 
-FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
 TOOLS = {
     "tool_select": CanvasTool.SELECT, "tool_line": CanvasTool.LINE, "tool_polyline": CanvasTool.POLYLINE,
     "tool_arc_centre": CanvasTool.ARC_CENTRE, "tool_arc_three": CanvasTool.ARC_THREE, "tool_circle": CanvasTool.CIRCLE,
@@ -47,38 +41,30 @@ class Wiring(QObject):
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
         self.window_, self.document, self.computation = window, window.document, window.computation
-        self.opening = Opening(window.document, window.worker)
-        self.exporting = Exporting(window.computation, window.notice, self._choose_nc_file)
+        self.log = Log(window.document, window.command_line.log)
         self.showing = Showing(window)
-        self._log: list[LogLine] = []
-        self._logged = 0
+        self.files = Files(window, self.showing, self.log)
         self._connect_files()
         self._connect_edit()
         self._connect_view()
         self._connect_job()
         self._connect_canvas()
-        self._unsubscribe = self.document.subscribe(self._on_change)
+        self._unsubscribe = self.document.subscribe(self.showing.refresh)
         self.showing.show_view(View.DRAW)
-        self._on_change(Change.ALL)
+        self.showing.refresh(Change.ALL)
 
     def _on(self, name: str, act: Callable[[], object]) -> None:
         self.window_.actions_[name].triggered.connect(lambda *_: act())
 
     def _connect_files(self) -> None:
-        window = self.window_
-        self._on("new", lambda: self._leave_drawing("Begin a new drawing", self.new))
-        self._on("open", self._choose_drawing)
-        self._on("sample", lambda: self._leave_drawing("Open the sample part", self.open_sample))
-        self._on("export", self.exporting.start)
-        self._on("quit", window.close)
-        window.dropped.connect(lambda path: self.open_file(Path(path)))
-        window.closing.connect(self._on_closing)
-        self.opening.read.connect(lambda opened: self.showing.know_size(opened.job.part, opened.size))
-        self.opening.opened.connect(self._on_opened)
-        self.opening.failed.connect(self._say_error)
-        self.exporting.failed.connect(self._say_error)
-        self.exporting.written.connect(self._on_written)
-        self.exporting.show_findings.connect(self.showing.open_findings)
+        files = self.files
+        self._on("new", files.ask_new)
+        self._on("open", files.choose_drawing)
+        self._on("sample", files.ask_sample)
+        self._on("export", files.exporting.start)
+        self._on("quit", self.window_.close)
+        files.opening.failed.connect(self._say_error)
+        files.exporting.failed.connect(self._say_error)
 
     def _connect_edit(self) -> None:
         self._on("undo", self.document.undo)
@@ -109,9 +95,9 @@ class Wiring(QObject):
         actions["log"].setChecked(True)
         self._on("command", self.window_.command_line.edit.setFocus)
         for choice in ThemeChoice:
-            self._on(f"theme_{choice.value}", partial(self.choose_theme, choice))
-        self._on("keys", self._show_keys)
-        self._on("about", self._show_about)
+            self._on(f"theme_{choice.value}", partial(choose_theme, self.window_, choice))
+        self._on("keys", lambda: show_keys(self.window_))
+        self._on("about", lambda: show_about(self.window_))
 
     def _connect_job(self) -> None:
         panel, computation = self.window_.panel, self.computation
@@ -163,113 +149,6 @@ class Wiring(QObject):
             self.window_.worker.cancel()
             self._say("Cancelled; nothing has changed.")
 
-    def open_file(self, path: Path, units: Units | None = None) -> None:
-        """Open a drawing, after asking when changes would be lost."""
-        self._leave_drawing(f"Open {path.name}", lambda: self.opening.open(path, units))
-
-    def open_sample(self) -> None:
-        """Open the sample part; it is computed at once."""
-        self.opening.open(opening_files.sample_path())
-
-    def new(self) -> None:
-        """Begin an empty drawing with the same tools."""
-        self.document.load(replace(self.document.job, part=Part()))
-        self.computation.forget()
-        self._note("new", "Empty drawing, same tools.")
-        self.window_.notice.hide()
-        self.showing.show_view(View.DRAW)
-
-    def choose_theme(self, choice: ThemeChoice) -> None:
-        """Switch colours and remember it."""
-        self.window_.settings = replace(self.window_.settings, theme=choice)
-        self.window_.set_theme_choice(choice)
-        self.remember()
-
-    def remember(self) -> None:
-        """Save the settings; a folder that cannot be written is no reason to bother anybody."""
-        geometry = bytes(self.window_.saveGeometry().toBase64().data()).decode()
-        self.window_.settings = replace(self.window_.settings, window_geometry=geometry)
-        with suppress(HitofudeError):
-            save_settings(self.window_.settings)
-
-    def restore_geometry(self) -> None:
-        """Put the window where it was the last time."""
-        if self.window_.settings.window_geometry:
-            self.window_.restoreGeometry(QByteArray.fromBase64(self.window_.settings.window_geometry.encode()))
-
-    def _leave_drawing(self, what: str, act: Callable[[], None]) -> None:
-        if not self.document.modified or not self.document.part.entities:
-            act()
-            return
-        self.window_.notice.ask(f"{what}? The changes to this drawing are in no file and will be lost.",
-                                [("Give up the changes", act), ("Keep drawing", lambda: None)])
-
-    def _on_closing(self) -> None:
-        window = self.window_
-        window.may_close = window.may_close and (not self.document.modified or not self.document.part.entities)
-        if not window.may_close:
-            window.notice.ask("Close? The changes to this drawing are in no file and will be lost.",
-                              [("Close", self._close_anyway), ("Keep drawing", lambda: None)])
-            return
-        self.remember()
-
-    def _close_anyway(self) -> None:
-        self.document.mark_saved(self.document.path or Path())
-        self.window_.may_close = True
-        self.window_.close()
-
-    def _on_written(self, path: str, lines: int) -> None:
-        self._note(f"export {Path(path).name}", f"{counted(lines, 'line')} written to {path}")
-        self._say(f"{Path(path).name} is written.")
-
-    def _on_computed(self) -> None:
-        made = self.computation.made
-        if made is not None:
-            self._note("compute", f"{counted(len(made.program.moves), 'move')}. {verdict(made.findings, made.report.data).text}")
-
-    def _on_opened(self, opened: Opened) -> None:
-        self.window_.settings = self.window_.settings.with_recent_file(opened.path)
-        self.computation.forget(opened.drawing.findings)
-        self._note(f"open {opened.path.name}", self._size_sentence())
-        self.window_.notice.hide()
-        self.showing.show_view(View.DRAW)
-        if opened.path == opening_files.sample_path():
-            self.computation.start()
-            self.showing.show_view(View.PATHS)
-            self.window_.notice.ask(FIRST_START, [("Draw your own", lambda: self._leave_drawing("Begin a new drawing", self.new))])
-        elif not opened.drawing.units_named:
-            self._ask_units(opened)
-        self.window_.lay_out_now()
-        self.window_.canvas.fit()
-
-    def _size_sentence(self) -> str:
-        size = self.showing.part_size() or (0.0, 0.0)
-        curves = counted(len(self.document.part.entities), "curve")
-        findings = len(self.computation.drawing_findings)
-        more = f" {counted(findings, 'remark')} on the drawing: see Compute, Findings." if findings else ""
-        return f"{curves}, {grouped(size[0])} by {grouped(size[1])} mm.{more}"
-
-    def _ask_units(self, opened: Opened) -> None:
-        size = self.showing.part_size()
-        read = opened.units or Units.MM
-        as_read = "" if size is None else f", which makes it {size[0]:.3f} by {size[1]:.3f} mm"
-        name = {Units.MM: "mm", Units.INCH: "inch"}
-        other = Units.INCH if read is Units.MM else Units.MM
-        self.window_.notice.ask(
-            f"{opened.path.name} names no units. It was read in {name[read]}{as_read}. Choose its units.",
-            [(f"Keep {name[read]}", lambda: None), (f"Read in {name[other]}", lambda: self.open_file(opened.path, other))])
-
-    def _choose_drawing(self) -> None:
-        name, _ = QFileDialog.getOpenFileName(self.window_, "Open drawing", self.window_.settings.last_folder, opening_files.FILTER)
-        if name:
-            self.open_file(Path(name))
-
-    def _choose_nc_file(self) -> Path | None:
-        stem = self.document.path.stem if self.document.path else self.document.part.name
-        start = str(Path(self.window_.settings.last_folder) / f"{stem}.ngc")
-        name, _ = QFileDialog.getSaveFileName(self.window_, "Export NC", start, FILTER)
-        return Path(name) if name else None
-
     def _on_entered(self, text: str) -> None:
         name = TOOL_WORDS.get(text.lower())
         if name is not None:
@@ -282,18 +161,10 @@ class Wiring(QObject):
         self.window_.canvas.cancel()
         self.window_.canvas.setFocus()
 
-    def _on_change(self, change: Change) -> None:
-        if change & Change.LOG:
-            self._logged = min(self._logged, len(self.document.log))
-            self._log += self.document.log[self._logged:]
-            self._logged = len(self.document.log)
-            self.window_.command_line.log.show_lines(self._log)
-        self.showing.refresh(change)
-
-    def _note(self, what: str, reply: str) -> None:
-        """Put something that is no line of the drawing language in the log that is shown."""
-        self._log.append(LogLine(what, reply))
-        self.window_.command_line.log.show_lines(self._log)
+    def _on_computed(self) -> None:
+        made = self.computation.made
+        if made is not None:
+            self.log.note("compute", f"{counted(len(made.program.moves), 'move')}. {verdict(made.findings, made.report.data).text}")
 
     def _say(self, text: str) -> None:
         self.window_.status.show_message(text)
@@ -301,12 +172,3 @@ class Wiring(QObject):
     def _say_error(self, text: str) -> None:
         self.window_.status.show_message(text, error=True)
         self.window_.notice.ask(text, error=True)
-
-    def _show_keys(self) -> None:
-        QMessageBox(QMessageBox.Icon.NoIcon, "Keys", keys_text(), QMessageBox.StandardButton.Close, self.window_).open()
-
-    def _show_about(self) -> None:
-        text = (f"<h3>Hitofude {__version__}</h3><p>From a line drawing to tool paths that can be trusted on a real machine.</p>"
-                "<p>Contour and pocket paths after JP H07-107645 (1986), with exact lines and arcs.</p><p>MIT licence.</p>")
-        QMessageBox(QMessageBox.Icon.NoIcon, "About Hitofude", text, QMessageBox.StandardButton.Close, self.window_).open()
-

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.settings import ThemeChoice
 from app.ui.computation import State
+from app.ui.memory import choose_theme
 from app.ui.start import build
 from app.ui.views import View
 from app.ui.wiring import Wiring
@@ -39,7 +40,7 @@ def computed_sample() -> Wiring:
     window, wiring = build()
     window.resize(1440, 900)
     window.show()
-    wiring.open_sample()
+    wiring.files.open_sample()
     end = time.monotonic() + 120
     while wiring.computation.state is not State.CURRENT:
         if time.monotonic() > end:
@@ -61,13 +62,13 @@ def main() -> None:
     application = QApplication.instance() or QApplication([])
     wiring = computed_sample()
     if len(sys.argv) < 2:
-        wiring.choose_theme(ThemeChoice.LIGHT)
+        choose_theme(wiring.window_, ThemeChoice.LIGHT)
         take(wiring, DOCUMENT)
         return
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
     for theme in (ThemeChoice.LIGHT, ThemeChoice.DARK):
-        wiring.choose_theme(theme)
+        choose_theme(wiring.window_, theme)
         for width, height in SIZES:
             wiring.window_.resize(width, height)
             for view in View:

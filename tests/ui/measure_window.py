@@ -80,7 +80,7 @@ def measure_gaps(drawing: Path) -> dict[str, float]:
     live_until(lambda: not warmer.busy)
     wiring.computation.finished.connect(lambda: gaps.now("after"))
     gaps.now("open")
-    wiring.open_file(drawing)
+    wiring.files.open_file(drawing)
     live_until(lambda: bool(wiring.document.part.entities))
     live_until(lambda: False, 0.3)
     gaps.now("compute")

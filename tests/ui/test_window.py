@@ -11,11 +11,11 @@ from PySide6.QtWidgets import QApplication
 from app.settings import ThemeChoice, load_settings
 from app.ui.canvas.modes import CanvasTool, ColourBy
 from app.ui.computation import State
+from app.ui.files import FIRST_START
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.start import build
 from app.ui.theme import DARK, LIGHT
 from app.ui.views import View
-from app.ui.wiring import FIRST_START
 
 WAIT_MS = 20_000
 NO_UNITS = (
@@ -32,7 +32,6 @@ def wiring(qtbot):
         window.show()
         window.activateWindow()
     yield made
-    window.may_close = True
     window.worker.finish(20.0)
     made.document.load(made.document.job)
     window.close()
@@ -42,7 +41,7 @@ def wiring(qtbot):
 @pytest.fixture
 def computed(qtbot, wiring):
     """The sample part, opened and computed."""
-    wiring.open_sample()
+    wiring.files.open_sample()
     qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=WAIT_MS)
     return wiring
 
@@ -110,25 +109,25 @@ def test_picked_nc_line_tells_its_place(qtbot, computed):
 
 def test_export_writes_what_was_computed(qtbot, computed, tmp_path):
     target = tmp_path / "part"
-    computed.exporting.choose_file = lambda: target
-    with qtbot.waitSignal(computed.exporting.written, timeout=WAIT_MS):
+    computed.files.exporting.choose_file = lambda: target
+    with qtbot.waitSignal(computed.files.exporting.written, timeout=WAIT_MS):
         press(qtbot, computed, Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier)
     assert (tmp_path / "part.ngc").read_text("ascii") == computed.computation.made.nc.text
 
 
 def test_export_that_cannot_be_written_says_so(qtbot, computed, tmp_path):
-    computed.exporting.choose_file = lambda: tmp_path / "no" / "folder.ngc"
-    with qtbot.waitSignal(computed.exporting.failed) as caught:
-        computed.exporting.start()
+    computed.files.exporting.choose_file = lambda: tmp_path / "no" / "folder.ngc"
+    with qtbot.waitSignal(computed.files.exporting.failed) as caught:
+        computed.files.exporting.start()
     assert "folder.ngc" in caught.args[0]
     assert computed.window_.notice.text.text() == caught.args[0]
 
 
 def test_export_of_a_changed_job_computes_first_and_shows_findings_before_the_file(qtbot, computed, tmp_path):
     target = tmp_path / "open.ngc"
-    computed.exporting.choose_file = lambda: target
+    computed.files.exporting.choose_file = lambda: target
     computed.document.run("line 150,0 150,50 170,50")
-    computed.exporting.start()
+    computed.files.exporting.start()
     notice = computed.window_.notice
     qtbot.waitUntil(lambda: [b.text() for b in notice.buttons] == ["Show findings", "Write anyway"], timeout=WAIT_MS)
     assert "open contour" in notice.text.text()
@@ -138,7 +137,7 @@ def test_export_of_a_changed_job_computes_first_and_shows_findings_before_the_fi
 
 
 def test_cancel_is_answered_within_0_2_s(qtbot, wiring, data):
-    wiring.open_file(data / "dxf" / "complex.dxf")
+    wiring.files.open_file(data / "dxf" / "complex.dxf")
     qtbot.waitUntil(lambda: bool(wiring.document.part.entities), timeout=WAIT_MS)
     press(qtbot, wiring, Qt.Key.Key_F5)
     assert wiring.computation.state is State.RUNNING
@@ -198,13 +197,13 @@ def test_characters_typed_over_the_canvas_begin_a_command(qtbot, wiring):
 def test_drawing_without_units_asks_above_the_canvas(qtbot, wiring, tmp_path):
     path = tmp_path / "plate.dxf"
     path.write_text(NO_UNITS, "ascii")
-    with qtbot.waitSignal(wiring.opening.opened, timeout=WAIT_MS):
-        wiring.open_file(path)
+    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+        wiring.files.open_file(path)
     notice = wiring.window_.notice
     assert "plate.dxf names no units" in notice.text.text()
     assert "40.000 by 40.000 mm" in notice.text.text()
     inch = next(b for b in notice.buttons if b.text() == "Read in inch")
-    with qtbot.waitSignal(wiring.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
         qtbot.mouseClick(inch, Qt.MouseButton.LeftButton)
     assert wiring.showing.part_size() == pytest.approx((1016.0, 1016.0))
 
@@ -213,8 +212,8 @@ def test_file_that_is_no_drawing_leaves_the_document(qtbot, computed, tmp_path):
     path = tmp_path / "empty.dxf"
     path.write_bytes(b"")
     job = computed.document.job
-    with qtbot.waitSignal(computed.opening.failed, timeout=WAIT_MS) as caught:
-        computed.open_file(path)
+    with qtbot.waitSignal(computed.files.opening.failed, timeout=WAIT_MS) as caught:
+        computed.files.open_file(path)
     assert "empty.dxf" in caught.args[0]
     assert computed.document.job is job
     assert computed.window_.notice.text.text() == caught.args[0]
@@ -227,7 +226,7 @@ def test_dropped_drawing_is_opened(qtbot, wiring, samples):
     enter, drop = QDragEnterEvent(QPoint(400, 10), *how), QDropEvent(QPointF(400, 10), *how)
     QApplication.sendEvent(wiring.window_, enter)
     assert enter.isAccepted()
-    with qtbot.waitSignal(wiring.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
         QApplication.sendEvent(wiring.window_, drop)
     assert wiring.document.path == Path(samples / "fig2.dxf")
 
@@ -244,6 +243,10 @@ def test_changes_are_not_lost_without_asking(qtbot, wiring):
     press(qtbot, wiring, Qt.Key.Key_N, Qt.KeyboardModifier.ControlModifier)
     qtbot.mouseClick(notice.buttons[0], Qt.MouseButton.LeftButton)
     assert wiring.document.part.entities == ()
+    wiring.document.run("circle 10,10 5")
+    assert not wiring.window_.close()
+    qtbot.mouseClick(notice.buttons[0], Qt.MouseButton.LeftButton)
+    assert not wiring.window_.isVisible()
 
 
 def test_theme_switches_and_is_remembered(wiring):
@@ -311,17 +314,18 @@ def test_hidden_field_does_not_choose_another_row(qtbot, wiring):
     assert panel.subject == Subject(SubjectKind.JOB)
 
 
-def test_opening_while_computing_leaves_the_computation(qtbot, computed, samples):
+def test_opening_while_computing_leaves_the_computation(qtbot, computed, data):
     computed.computation.start()
-    with qtbot.waitSignal(computed.opening.opened, timeout=WAIT_MS):
-        computed.opening.open(samples / "fig2.dxf")
-    qtbot.waitUntil(lambda: computed.computation.state is not State.RUNNING, timeout=WAIT_MS)
-    assert not computed.window_.status.bar.isVisible() or computed.window_.worker.busy
+    with qtbot.waitSignal(computed.files.opening.opened, timeout=WAIT_MS):
+        computed.files.opening.open(data / "dxf" / "gear.dxf")
+    assert computed.computation.state is State.NONE
+    assert not computed.window_.worker.busy
+    assert not computed.window_.status.bar.isVisible()
 
 
 def test_drawing_that_changed_while_a_file_was_read_is_kept(qtbot, wiring, samples):
-    with qtbot.waitSignal(wiring.opening.failed, timeout=WAIT_MS) as caught:
-        wiring.opening.open(samples / "fig2.dxf")
+    with qtbot.waitSignal(wiring.files.opening.failed, timeout=WAIT_MS) as caught:
+        wiring.files.opening.open(samples / "fig2.dxf")
         wiring.document.run("circle 10,10 5")
     assert "was changed while fig2.dxf was being read" in caught.args[0]
     assert len(wiring.document.part.entities) == 1

@@ -1,0 +1,136 @@
+"""New, Open, Export, Close: what they ask above the canvas, and what they leave in the log."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QFileDialog
+
+from app.model.part import Part, Units
+from app.ui import opening as opening_files
+from app.ui.exporting import FILTER, Exporting
+from app.ui.figures import counted, grouped
+from app.ui.log import Log
+from app.ui.main_window import MainWindow
+from app.ui.memory import remember
+from app.ui.opening import Opened, Opening
+from app.ui.showing import Showing
+from app.ui.views import View
+
+FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
+_UNIT_NAMES = {Units.MM: "mm", Units.INCH: "inch"}
+
+
+class Files(QObject):
+    """Everything between the window and files."""
+
+    def __init__(self, window: MainWindow, showing: Showing, log: Log) -> None:
+        super().__init__(window)
+        self._window, self._showing, self._log = window, showing, log
+        self._document, self._computation = window.document, window.computation
+        self._gives_up = False
+        self.opening = Opening(window.document, window.worker)
+        self.exporting = Exporting(window.computation, window.notice, self._choose_nc_file)
+        window.dropped.connect(lambda path: self.open_file(Path(path)))
+        window.closing.connect(self._on_closing)
+        self.opening.read.connect(lambda opened: showing.know_size(opened.job.part, opened.size))
+        self.opening.opened.connect(self._on_opened)
+        self.exporting.written.connect(self._on_written)
+        self.exporting.show_findings.connect(showing.open_findings)
+
+    @property
+    def _would_lose(self) -> bool:
+        return self._document.modified and bool(self._document.part.entities)
+
+    def ask_new(self) -> None:
+        """Begin an empty drawing, after asking when changes would be lost."""
+        self._leave_drawing("Begin a new drawing", self.new)
+
+    def ask_sample(self) -> None:
+        """Open the sample part, after asking when changes would be lost."""
+        self._leave_drawing("Open the sample part", self.open_sample)
+
+    def open_file(self, path: Path, units: Units | None = None) -> None:
+        """Open a drawing, after asking when changes would be lost."""
+        self._leave_drawing(f"Open {path.name}", lambda: self.opening.open(path, units))
+
+    def open_sample(self) -> None:
+        """Open the sample part; it is computed at once."""
+        self.opening.open(opening_files.sample_path())
+
+    def new(self) -> None:
+        """Begin an empty drawing with the same tools."""
+        self._document.load(replace(self._document.job, part=Part()))
+        self._computation.forget()
+        self._log.note("new", "Empty drawing, same tools.")
+        self._window.notice.hide()
+        self._showing.show_view(View.DRAW)
+
+    def choose_drawing(self) -> None:
+        """Ask for a drawing and open it."""
+        name, _ = QFileDialog.getOpenFileName(self._window, "Open drawing", self._window.settings.last_folder, opening_files.FILTER)
+        if name:
+            self.open_file(Path(name))
+
+    def _choose_nc_file(self) -> Path | None:
+        stem = self._document.path.stem if self._document.path else self._document.part.name
+        start = str(Path(self._window.settings.last_folder) / f"{stem}.ngc")
+        name, _ = QFileDialog.getSaveFileName(self._window, "Export NC", start, FILTER)
+        return Path(name) if name else None
+
+    def _leave_drawing(self, what: str, act: Callable[[], None]) -> None:
+        if not self._would_lose:
+            act()
+            return
+        self._window.notice.ask(f"{what}? The changes to this drawing are in no file and will be lost.",
+                                [("Give up the changes", act), ("Keep drawing", lambda: None)])
+
+    def _on_closing(self) -> None:
+        self._window.may_close = self._gives_up or not self._would_lose
+        if self._window.may_close:
+            remember(self._window)
+        else:
+            self._window.notice.ask("Close? The changes to this drawing are in no file and will be lost.",
+                                    [("Close", self._close_anyway), ("Keep drawing", lambda: None)])
+
+    def _close_anyway(self) -> None:
+        self._gives_up = True
+        self._window.close()
+
+    def _on_written(self, path: str, lines: int) -> None:
+        self._log.note(f"export {Path(path).name}", f"{counted(lines, 'line')} written to {path}")
+        self._window.status.show_message(f"{Path(path).name} is written.")
+
+    def _on_opened(self, opened: Opened) -> None:
+        window = self._window
+        window.settings = window.settings.with_recent_file(opened.path)
+        self._computation.forget(opened.drawing.findings)
+        self._log.note(f"open {opened.path.name}", self._opened_sentence(opened))
+        window.notice.hide()
+        self._showing.show_view(View.DRAW)
+        if opened.path == opening_files.sample_path():
+            self._computation.start()
+            self._showing.show_view(View.PATHS)
+            window.notice.ask(FIRST_START, [("Draw your own", self.ask_new)])
+        elif not opened.drawing.units_named:
+            self._ask_units(opened)
+        window.lay_out_now()
+        window.canvas.fit()
+
+    def _opened_sentence(self, opened: Opened) -> str:
+        size = opened.size or (0.0, 0.0)
+        findings = len(opened.drawing.findings)
+        more = f" {counted(findings, 'remark')} on the drawing: see Compute, Findings." if findings else ""
+        return f"{counted(len(opened.job.part.entities), 'curve')}, {grouped(size[0])} by {grouped(size[1])} mm.{more}"
+
+    def _ask_units(self, opened: Opened) -> None:
+        read = opened.units or Units.MM
+        other = Units.INCH if read is Units.MM else Units.MM
+        size = opened.size or (0.0, 0.0)
+        self._window.notice.ask(
+            f"{opened.path.name} names no units. It was read in {_UNIT_NAMES[read]}, which makes it {size[0]:.3f} by {size[1]:.3f} mm.",
+            [(f"Keep {_UNIT_NAMES[read]}", lambda: None),
+             (f"Read in {_UNIT_NAMES[other]}", lambda: self.open_file(opened.path, other))])

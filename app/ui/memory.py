@@ -1,0 +1,33 @@
+"""What the window remembers from one run to the next."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import replace
+
+from PySide6.QtCore import QByteArray
+
+from app.errors import HitofudeError
+from app.settings import ThemeChoice, save_settings
+from app.ui.main_window import MainWindow
+
+
+def remember(window: MainWindow) -> None:
+    """Save settings and the window's place; a folder that cannot be written is no reason to bother anybody."""
+    geometry = bytes(window.saveGeometry().toBase64().data()).decode()
+    window.settings = replace(window.settings, window_geometry=geometry)
+    with suppress(HitofudeError):
+        save_settings(window.settings)
+
+
+def restore_geometry(window: MainWindow) -> None:
+    """Put the window where it was the last time."""
+    if window.settings.window_geometry:
+        window.restoreGeometry(QByteArray.fromBase64(window.settings.window_geometry.encode()))
+
+
+def choose_theme(window: MainWindow, choice: ThemeChoice) -> None:
+    """Switch colours and remember it."""
+    window.settings = replace(window.settings, theme=choice)
+    window.set_theme_choice(choice)
+    remember(window)
