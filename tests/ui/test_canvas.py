@@ -102,6 +102,18 @@ def test_a_chain_closes_on_its_first_point(hand: Hand) -> None:
     assert len(hand.curves()) == 3, "the closed chain has ended"
 
 
+def test_undo_within_a_chain_goes_on_from_the_line_before(hand: Hand) -> None:
+    hand.canvas.set_tool(CanvasTool.LINE)
+    hand.click((10, 10), (30, 10), (30, 30))
+    hand.document.undo()
+    hand.click((50, 20))
+    assert hand.curves() == [Line((10, 10), (30, 10)), Line((30, 10), (50, 20))]
+    hand.key(Qt.Key.Key_Backspace)
+    hand.key(Qt.Key.Key_Backspace)
+    hand.click((10, 40))
+    assert hand.curves() == [Line((10, 10), (10, 40))]
+
+
 def test_a_polyline_is_one_line_and_one_undo(hand: Hand) -> None:
     hand.canvas.set_tool(CanvasTool.POLYLINE)
     hand.click((10, 10), (30, 10))

@@ -8,10 +8,12 @@ from app.edit.document import Document
 from app.edit.language import parse
 from app.model.curves import Arc, Circle, Line
 from app.ui.canvas.aim import AimRules, aim, rounded
+from app.ui.canvas.chain_tools import LineTool, PolylineTool
 from app.ui.canvas.modes import CanvasTool
+from app.ui.canvas.round_tools import ArcCentreTool, CircleTool
 from app.ui.canvas.running import ToolRunner
 from app.ui.canvas.snap import SnapKind, no_snap_points, snap_points
-from app.ui.canvas.tools import TOOLS, ArcCentreTool, CircleTool, LineTool, PolylineTool, RectangleTool
+from app.ui.canvas.tools import TOOLS, RectangleTool
 
 PLACES = {
     CanvasTool.LINE: [(0.0, 0.0), (10.0, 0.0)],
@@ -100,6 +102,23 @@ def test_a_polyline_may_close_by_an_arc() -> None:
     line = tool.add((0.0, 0.0))
     assert line == "polyline 0,0 5,0 5,5 arc 0,5 0,0"
     assert len(parse(line).curves) == 3  # type: ignore[union-attr]
+
+
+def test_points_of_a_polyline_can_be_taken_back() -> None:
+    tool = PolylineTool()
+    for place in ((0.0, 0.0), (5.0, 0.0)):
+        tool.add(place)
+    tool.word("a")
+    tool.add((6.0, 1.0))
+    tool.add((5.0, 2.0))
+    tool.word("a")
+    tool.add((9.0, 9.0))
+    for _ in range(2):
+        tool.back()
+    assert (tool.arc, tool.points[-1]) == (False, (5.0, 2.0))
+    tool.back()
+    tool.add((8.0, 8.0))
+    assert tool.finish() == "polyline 0,0 5,0 8,8"
 
 
 def test_shift_makes_a_rectangle_a_square() -> None:

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.model.curves import Point
+from app.ui.canvas.drawing_tool import DrawingTool
 from app.ui.canvas.snap import Snap, SnapKind, SnapPoints, nearest, to_grid
-from app.ui.canvas.tools import DrawingTool
 
 REACH_PX = 10.0
 

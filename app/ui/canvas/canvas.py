@@ -189,15 +189,18 @@ class Canvas(Hands):
             return
         preview = tool.preview(self.aim.point)
         overlay.paint_preview(painter, self.view, preview, theme)
-        overlay.paint_points(painter, self.view, tool.points, theme)
+        overlay.paint_points(painter, self.view, [*tool.points[:1], *tool.points[-1:]], theme)
         if self.aim.snap is not None:
             overlay.paint_snap(painter, self.view, self.aim.snap, theme)
-        overlay.paint_label(painter, self.mouse, [preview.label, overlay.snap_name(self.aim.snap)], self.area, theme)
+        base = self.view.to_screen(tool.base) if tool.base is not None else None
+        place = overlay.LabelPlace(self.mouse, base, self.area)
+        overlay.paint_label(painter, [preview.label, overlay.snap_name(self.aim.snap)], place, theme)
 
     def _follow(self, change: Change) -> None:
         if Change.PART in change:
             self.picture.update(self.document.part)
             self.look_at(None)
+            self.runner.after_undo()
         if change & (Change.PART | Change.SELECTION):
             self.picture.select(self.document.selection)
             self.repaint_scene()

@@ -133,6 +133,11 @@ class Hands(Viewport):
         self.runner.accept()
         self._tell()
 
+    def back(self) -> None:
+        """Take the last point of the shape back."""
+        self.runner.back()
+        self._tell()
+
     def type_text(self, text: str) -> bool:
         """Give typed text to the running tool; return False when it is nothing for it."""
         used = self.runner.type_text(text)
@@ -187,7 +192,7 @@ class Hands(Viewport):
         self.update()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """Esc cancels, Enter ends, Del deletes, F and Home fit, Space pans; other characters go to the command line."""
+        """Esc cancels, Enter ends, Backspace takes a point back, Del deletes, F and Home fit, Space pans; the rest is text."""
         action = self._keys().get(Qt.Key(event.key()))
         commanding = bool(event.modifiers() & (Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier))
         if commanding:
@@ -215,7 +220,7 @@ class Hands(Viewport):
     def _keys(self) -> dict[Qt.Key, Callable[[], None]]:
         return {
             Qt.Key.Key_Escape: self.cancel, Qt.Key.Key_Return: self.accept, Qt.Key.Key_Enter: self.accept,
-            Qt.Key.Key_Delete: self.delete_selection, Qt.Key.Key_Home: self.fit, Qt.Key.Key_F: self.fit,
+            Qt.Key.Key_Delete: self.delete_selection, Qt.Key.Key_Backspace: self.back, Qt.Key.Key_Home: self.fit, Qt.Key.Key_F: self.fit,
             Qt.Key.Key_Space: lambda: self._hold_space(True), Qt.Key.Key_Shift: lambda: self._hold_shift(True),
         }
 

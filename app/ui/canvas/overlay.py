@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPen, QPolygonF
 
 from app.model.finding import Finding
 from app.ui.canvas.curve_path import curve_path
+from app.ui.canvas.drawing_tool import Preview
 from app.ui.canvas.snap import Snap, SnapKind
-from app.ui.canvas.tools import Preview
 from app.ui.canvas.view import View
 from app.ui.theme import Theme, text_font
 
 _SNAP_NAMES = {SnapKind.END: "End", SnapKind.MIDDLE: "Middle", SnapKind.CENTRE: "Centre", SnapKind.QUADRANT: "Quadrant", SnapKind.GRID: ""}
+_LABEL_GAP = 16.0
 
 
 def paint_preview(painter: QPainter, view: View, preview: Preview, theme: Theme) -> None:
@@ -30,7 +33,7 @@ def paint_preview(painter: QPainter, view: View, preview: Preview, theme: Theme)
 
 
 def paint_points(painter: QPainter, view: View, points: list[tuple[float, float]], theme: Theme) -> None:
-    """Paint the points given so far."""
+    """Paint points that were given."""
     painter.setPen(QPen(theme.accent, 1.5))
     painter.setBrush(theme.canvas)
     for point in points:
@@ -57,24 +60,48 @@ def paint_snap(painter: QPainter, view: View, snap: Snap, theme: Theme) -> None:
         painter.drawLine(QPointF(x, y - 4), QPointF(x, y + 4))
 
 
-def paint_label(painter: QPainter, at: QPointF, texts: list[str], area: QRectF, theme: Theme) -> None:
-    """Paint live measures on a small sheet beside the mouse, inside a screen rectangle."""
+@dataclass(frozen=True, slots=True)
+class LabelPlace:
+    """Where live measures go.
+
+    Attributes:
+        mouse: screen position. away_from: the shape's last point on the screen, which they must not cover, or None.
+        area: where they must stay.
+    """
+
+    mouse: QPointF
+    away_from: QPointF | None
+    area: QRectF
+
+    def sheet(self, width: float, height: float) -> QRectF:
+        """Return the rectangle of a sheet of this size beside the mouse."""
+        right = self.away_from is None or self.mouse.x() >= self.away_from.x() - 1
+        below = self.away_from is None or self.mouse.y() >= self.away_from.y() - 1
+        x = self.mouse.x() + (_LABEL_GAP if right else -_LABEL_GAP - width)
+        y = self.mouse.y() + (_LABEL_GAP if below else -_LABEL_GAP - height)
+        x = min(max(x, self.area.left()), self.area.right() - width)
+        y = min(max(y, self.area.top()), self.area.bottom() - height)
+        sheet = QRectF(x, y, width, height)
+        step = height + 2 * _LABEL_GAP
+        return sheet.translated(0, -step if below else step) if sheet.contains(self.mouse) else sheet
+
+
+def paint_label(painter: QPainter, texts: list[str], place: LabelPlace, theme: Theme) -> None:
+    """Paint live measures on a small sheet beside the mouse."""
     lines = [text for text in texts if text]
     if not lines:
         return
     painter.setFont(text_font(12))
     metrics = QFontMetricsF(painter.font())
     width = max(metrics.horizontalAdvance(line) for line in lines) + 16
-    height = metrics.height() * len(lines) + 8
-    x = at.x() + 16 if at.x() + 16 + width < area.right() else at.x() - 16 - width
-    y = at.y() + 16 if at.y() + 16 + height < area.bottom() else at.y() - 16 - height
+    sheet = place.sheet(width, metrics.height() * len(lines) + 8)
     ground = QColor(theme.paper)
     ground.setAlphaF(0.94)
     painter.setPen(QPen(theme.hairline, 1))
     painter.setBrush(ground)
-    painter.drawRoundedRect(QRectF(x, y, width, height), 4, 4)
+    painter.drawRoundedRect(sheet, 4, 4)
     painter.setPen(theme.ink)
-    painter.drawText(QRectF(x + 8, y + 4, width, height), Qt.AlignmentFlag.AlignLeft, "\n".join(lines))
+    painter.drawText(sheet.adjusted(8, 4, 8, 0), Qt.AlignmentFlag.AlignLeft, "\n".join(lines))
 
 
 def paint_band(painter: QPainter, start: QPointF, end: QPointF, theme: Theme) -> None:

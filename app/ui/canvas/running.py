@@ -13,8 +13,9 @@ from app.edit.words import read_point
 from app.errors import InputError
 from app.model.curves import Point
 from app.tolerances import WELD
+from app.ui.canvas.drawing_tool import DrawingTool
 from app.ui.canvas.modes import CanvasTool
-from app.ui.canvas.tools import TOOL_WORDS, TOOLS, DrawingTool
+from app.ui.canvas.tools import TOOL_WORDS, TOOLS
 
 _SELECT_PROMPT = "Select: click, or drag a window; from right to left it takes what it crosses"
 
@@ -77,6 +78,16 @@ class ToolRunner:
             self._run(self.tool.finish())
         else:
             self.start(CanvasTool.SELECT)
+
+    def back(self) -> None:
+        """Take the last point back."""
+        if self.tool is not None:
+            self._run(self.tool.back())
+
+    def after_undo(self) -> None:
+        """Let the running tool go on from where an undone drawing ends."""
+        if self.tool is not None and self._document.log and self._document.log[-1].command in ("undo", "u"):
+            self.tool.after_undo(self._document.last_point)
 
     def cancel(self) -> bool:
         """Give up the shape, or else the tool; return whether there was either."""

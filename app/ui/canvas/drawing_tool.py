@@ -1,0 +1,131 @@
+"""What every drawing tool is: points in, one line of the drawing language out. Knows no widget."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+from app.errors import InputError
+from app.model.curves import Arc, Curve, Line, Point
+from app.tolerances import WELD
+
+
+@dataclass(frozen=True, slots=True)
+class Preview:
+    """What a running tool shows.
+
+    Attributes:
+        curves: the shape as it would become. helpers: lines of construction.
+        label: its live measures, shown beside the mouse.
+    """
+
+    curves: tuple[Curve, ...] = ()
+    helpers: tuple[Line, ...] = ()
+    label: str = ""
+
+
+@dataclass
+class DrawingTool:
+    """A tool that collects points.
+
+    Attributes:
+        points: given so far, mm.
+        base: where relative coordinates and ortho start from, or None.
+    """
+
+    points: list[Point] = field(default_factory=list)
+
+    name: ClassVar[str] = ""
+    prompts: ClassVar[tuple[str, ...]] = ()
+
+    @property
+    def base(self) -> Point | None:
+        """The point given last."""
+        return self.points[-1] if self.points else None
+
+    @property
+    def prompt(self) -> str:
+        """What is expected next."""
+        return f"{self.name}: {self.prompts[min(len(self.points), len(self.prompts) - 1)]}"
+
+    def follow(self, cursor: Point) -> None:
+        """See the mouse pass a point, mm."""
+
+    def add(self, point: Point) -> str | None:
+        """Take a point; return a line of the drawing language when one is complete."""
+        self.points.append(point)
+        if len(self.points) < len(self.prompts):
+            return None
+        line = self.line(self.points)
+        self.points = []
+        return line
+
+    def word(self, word: str) -> str | None:
+        """Take a word such as close; return a finished line, "" when it was used, None when it means nothing here."""
+        return None
+
+    def number(self, value: float, cursor: Point) -> Point | None:
+        """Return the point at a typed distance from the base towards the mouse, or None without a direction."""
+        if self.base is None or math.dist(self.base, cursor) < WELD:
+            return None
+        (x, y), away = self.base, math.dist(self.base, cursor)
+        return (x + (cursor[0] - x) / away * value, y + (cursor[1] - y) / away * value)
+
+    @property
+    def anchors(self) -> list[Point]:
+        """Points given so far, which the mouse may snap to, mm."""
+        return list(self.points)
+
+    def held_straight(self, cursor: Point) -> Point:
+        """Return the point straight across or up from the base that is nearest to the mouse."""
+        if self.base is None:
+            return cursor
+        (x, y), (cx, cy) = self.base, cursor
+        return (cx, y) if abs(cx - x) >= abs(cy - y) else (x, cy)
+
+    def finish(self) -> str | None:
+        """End the shape; return its line when there is one."""
+        self.points = []
+        return None
+
+    def back(self) -> str | None:
+        """Take the last point back; return a line to carry out, if that takes one."""
+        del self.points[-1:]
+        return None
+
+    def after_undo(self, last: Point) -> None:
+        """See that the document has gone back; `last` is the point that it drew last, mm."""
+
+    def line(self, points: list[Point]) -> str:
+        """Return the line of the drawing language for a whole set of points."""
+        raise NotImplementedError
+
+    def preview(self, cursor: Point) -> Preview:
+        """Return what the shape would be with a point at the mouse."""
+        if not self.points:
+            return Preview()
+        try:
+            return self.show(cursor)
+        except InputError:
+            return Preview(helpers=tuple(Line(p, cursor) for p in self.points[-1:]))
+
+    def show(self, cursor: Point) -> Preview:
+        """Return the preview once there is a point.
+
+        Raises:
+            InputError: the shape would be none.
+        """
+        raise NotImplementedError
+
+
+def span_label(a: Point, b: Point, sign: str = "L") -> str:
+    """Return length and angle of the way from a to b."""
+    if math.dist(a, b) < WELD:
+        return ""
+    return f"{sign} {math.dist(a, b):.3f}   {math.degrees(math.atan2(b[1] - a[1], b[0] - a[0])) % 360:.2f}°"
+
+
+def arc_label(arc: Arc) -> str:
+    """Return radius and sweep of an arc."""
+    return f"R {arc.radius:.3f}   {abs(math.degrees(arc.sweep)):.2f}°"
