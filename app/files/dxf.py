@@ -45,7 +45,7 @@ def read_dxf(data: bytes, name: str = "drawing.dxf", units: Units | None = None,
         InputError: the file is no usable DXF, has no curves, or has not one of the layers.
     """
     document, repaired = load(data, name)
-    factor, shown, named = _units(document, units)
+    factor, shown, named = _units(document, data, units)
     sheet = Walker(document, name).sheet(document.modelspace())
     left_out = sheet.left_out + _paper(document)
     entities, without_length = _entities(sheet, factor, _spelling(document))
@@ -58,9 +58,12 @@ def read_dxf(data: bytes, name: str = "drawing.dxf", units: Units | None = None,
     return Drawing(part, tuple(findings), tuple(sorted(left_out.items())), named)
 
 
-def _units(document: Any, given: Units | None) -> tuple[float, Units, bool]:
-    """Return the size of the drawing's unit in mm, the unit to show, and whether the file names it."""
-    code = document.header.get("$INSUNITS", 0)
+def _units(document: Any, data: bytes, given: Units | None) -> tuple[float, Units, bool]:
+    """Return the size of the drawing's unit in mm, the unit to show, and whether the file names it.
+
+    The library gives a file without a header one of its own, in metres; so the word must stand in the file itself.
+    """
+    code = document.header.get("$INSUNITS", 0) if b"$INSUNITS" in data else 0
     if code in _NAMED_UNITS:
         return *_NAMED_UNITS[code], True
     unit = given or Units.MM

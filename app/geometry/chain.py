@@ -50,8 +50,9 @@ def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -
     pieces, nodes, gaps = brought_together(pieces, nodes)
     found, branches = paths(pieces, nodes)
     contours, doubles = _once([_contour(pieces, steps, closed) for steps, closed in found])
+    odd = [place for place, ends in branches if ends % 2]
     findings += [*overlap_findings(overlaps, contours, join_tolerance), *repeat_findings(doubles), *gap_findings(gaps),
-                 *branch_findings(branches), *open_findings(contours), *crossings(contours, [place for place, ends in branches if ends % 2])]
+                 *branch_findings(branches), *open_findings(contours), *crossings(contours, odd)]
     return Chaining(tuple(contours), tuple(findings))
 
 

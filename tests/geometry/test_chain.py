@@ -138,7 +138,8 @@ def test_repeated_edge_is_left_out(copy: object) -> None:
 
 
 def test_everything_drawn_twice() -> None:
-    edges = [*polygon(SQUARE), Circle((5, 5), 2), Arc((20, 0), (24, 0), (22, 0)), Arc((24, 0), (20, 0), (22, 0)), Ellipse((40, 0), (5, 0), 0.5)]
+    halves = [Arc((20, 0), (24, 0), (22, 0)), Arc((24, 0), (20, 0), (22, 0))]
+    edges = [*polygon(SQUARE), Circle((5, 5), 2), *halves, Ellipse((40, 0), (5, 0), 0.5)]
     made = chained([*edges, *[reversed_curve(e) for e in reversed(edges)]])
     assert [c.closed for c in made.contours] == [True] * 4
     assert len(of_kind(made, FindingKind.OVERLAP)) == 8 and not any(f.counts for f in made.findings)

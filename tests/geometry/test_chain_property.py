@@ -2,6 +2,7 @@
 
 import math
 import random
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -51,7 +52,7 @@ def cut_up(rng: random.Random, ring: list[Line | Arc], shake: float) -> list[Lin
     for curve in ring:
         shares = [0.0, *([rng.uniform(0.3, 0.7)] if rng.random() < 0.4 else []), 1.0]
         ends = [curve.start, *(point_on(curve, s) for s in shares[1:-1]), curve.end]
-        for a, b in zip(ends, ends[1:], strict=False):
+        for a, b in pairwise(ends):
             shaken = [(p[0] + rng.uniform(-shake, shake), p[1] + rng.uniform(-shake, shake)) for p in (a, b)]
             piece = between(curve, shaken[0], shaken[1])
             pieces.append(piece)
