@@ -9,6 +9,9 @@ CURVE = 1e-3
 RIDGE = 1e-3
 """A ring is dropped when the field rises above its level by less than this (parallel walls at a level)."""
 
+FIT = 4e-7
+"""A tool passes where it is wider than the gap by less than this; such a path still measures right to 1 um."""
+
 WELD = 1e-6
 """Ends closer than this are one point; curves shorter than this are no curves (0.01 of an NC digit)."""
 

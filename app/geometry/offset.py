@@ -54,13 +54,16 @@ class Level:
     rings: tuple[Ring, ...]
 
 
-def offset_levels(primitives: Primitives, levels: Sequence[float], progress: Progress = NO_PROGRESS) -> tuple[Level, ...]:
+def offset_levels(primitives: Primitives, levels: Sequence[float], progress: Progress = NO_PROGRESS, *,
+                  frame: bool = False) -> tuple[Level, ...]:
     """Return the rings at each of some distances from a drawing.
 
     Args:
         primitives: closed contours, the area to the left.
         levels: distances, mm, > 0, rising.
         progress: looked at between levels.
+        frame: the first level is an outermost frame: a tool that fits a slot or a hole exactly goes there too,
+            along a ring that is as good as a line or a point.
 
     Returns:
         One Level a distance, in order; without rings where nothing is that far from the drawing.
@@ -77,7 +80,7 @@ def offset_levels(primitives: Primitives, levels: Sequence[float], progress: Pro
     result = []
     for k, distance in enumerate(levels):
         progress.step(k / len(levels), f"Offset {distance:.3f} mm")
-        result.append(Level(distance, engine.rings(distance)))
+        result.append(Level(distance, engine.frame(distance) if frame and k == 0 else engine.rings(distance)))
     return tuple(result)
 
 
@@ -99,7 +102,16 @@ class _Engine:
         self._active = np.stack([elements, np.zeros(len(elements)), np.ones(len(elements))], 1)
         self._history: list[tuple[float, Rows]] = [(0.0, self._active)]
 
-    def rings(self, distance: float) -> tuple[Ring, ...]:
+    def frame(self, distance: float) -> tuple[Ring, ...]:
+        """Return the rings at the first distance; for regions that the tool passes only just, those at FIT less."""
+        loose, tight = self.rings(distance - tolerances.FIT, keep_ridges=True), self.rings(distance)
+        chosen: list[Ring] = []
+        for region in dict.fromkeys(ring.region for ring in loose):
+            wide, exact = ([ring for ring in rings if ring.region == region] for rings in (loose, tight))
+            chosen += exact if _alike(wide, exact) else wide
+        return tuple(chosen)
+
+    def rings(self, distance: float, keep_ridges: bool = False) -> tuple[Ring, ...]:
         """Return the rings at the next distance, which is greater than the last one."""
         if len(self._active) == 0:
             return ()
@@ -112,7 +124,7 @@ class _Engine:
             pieces, rings = self._trim(distance), self._polylines(distance)
         self._active = pieces
         self._history.append((distance, pieces))
-        return tuple(self._back(ring) for ring in rings if not _on_a_ridge(ring))
+        return tuple(self._back(ring) for ring in rings if keep_ridges or not _on_a_ridge(ring))
 
     def _trim(self, distance: float) -> Rows:
         """Return the pieces (m, 3) of elements to which nothing is nearer than the distance."""
@@ -199,6 +211,13 @@ def _loops(following: Indices) -> list[NDArray[np.int64]]:
         if loop:
             loops.append(np.array(loop))
     return loops
+
+
+def _alike(wide: Sequence[Ring], exact: Sequence[Ring]) -> bool:
+    """Tell whether two sets of rings, FIT apart, are the same but for that shift."""
+    perimeter = sum(float(lengths(ring.rows).sum()) for ring in wide)
+    lost = sum(ring.area for ring in wide) - sum(ring.area for ring in exact)
+    return len(wide) == len(exact) and lost <= 1.5 * perimeter * tolerances.FIT
 
 
 def _on_a_ridge(ring: Ring) -> bool:

@@ -116,7 +116,7 @@ def _contour(setting: Setting, index: int, progress: Progress) -> None:
     """Steps 120 and 130: offset every contour by the contour tool's radius, and fill the area it bounds."""
     operation = setting.job.operations[index]
     tool = setting.job.tool(operation.cut.tool)
-    levels = offset_levels(setting.primitives, [tool.radius + operation.cut.stock_to_leave], progress)
+    levels = offset_levels(setting.primitives, [tool.radius + operation.cut.stock_to_leave], progress, frame=True)
     setting.note(levels)
     progress.step(0.5, "Fill")
     setting.on_bitmap = check_on_bitmap(setting.distances, levels[0], setting.observer)
@@ -134,7 +134,7 @@ def _pocket(setting: Setting, index: int, progress: Progress) -> None:
     wall = wall_distance(setting.job)
     outermost = max(wall, operation.cut.stock_to_leave) + tool.radius
     distances = pocket_distances(outermost, stepover_of(operation, tool), setting.distances)
-    levels = without_empty(offset_levels(setting.primitives, distances, progress.part(0, 0.7))) if distances else ()
+    levels = without_empty(offset_levels(setting.primitives, distances, progress.part(0, 0.7), frame=True)) if distances else ()
     setting.note(levels)
     first = levels[0] if levels else Level(outermost, ())
     setting.findings.extend(too_small(setting.regions, first, tool, counts=wall == 0))

@@ -145,6 +145,27 @@ def test_a_neck_too_narrow_is_named_and_located() -> None:
     assert 19 <= (neck.x or 0) <= 31 and neck.y == pytest.approx(10, abs=1.5) and neck.amount == pytest.approx(2, abs=0.1)
 
 
+def test_a_slot_exactly_as_wide_as_the_tool_is_cut_along_its_middle() -> None:
+    slot = polygon_contour([(0, 0), (30, 0), (30, 3), (0, 3)])
+    program = compute(job_of([slot]))
+    contour = program.moves.purpose == Purpose.CONTOUR
+    points = along(program.moves, contour)
+    assert np.allclose(points[:, 1], 1.5, atol=1e-6)
+    assert (points[:, 0].min(), points[:, 0].max()) == pytest.approx((1.5, 28.5), abs=1e-6)
+
+
+def test_a_hole_exactly_as_wide_as_the_tool_is_plunged_at_its_centre() -> None:
+    program = compute(job_of([circle(1.5, 7, 9)]))
+    plunge = program.moves.purpose == Purpose.PLUNGE
+    assert int(plunge.sum()) == 1 and program.moves.end[plunge, :2][0] == pytest.approx((7, 9), abs=1e-6)
+
+
+def test_a_pocket_leads_through_a_neck_exactly_as_wide_as_the_tools() -> None:
+    right, left = [(20, 0), (20, 5.5), (30, 5.5), (30, 0), (50, 0)], [(50, 20), (30, 20), (30, 14.5), (20, 14.5), (20, 20), (0, 20)]
+    program = compute(job_of([polygon_contour([(0, 0), *right, *left])]))  # the neck is 9 mm = 3 + 6
+    assert program.strokes == 1
+
+
 def test_switched_off_operations_make_no_moves() -> None:
     assert len(compute(with_cut(job_of(fig2()), enabled=False)).moves) == 0
 
