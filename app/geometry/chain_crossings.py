@@ -170,13 +170,10 @@ def _on(rows: Rows, points: Floats) -> NDArray[np.bool_]:
 
 
 def _is_joint(table: _Table, points: Floats, i: Indices, j: Indices) -> NDArray[np.bool_]:
-    """Return which contacts are just the joint of neighbours, or a lens beside it thinner than 1 um."""
-    bend = _curvature(table.rows[i]) + _curvature(table.rows[j])
+    """Return which contacts are just the joint of neighbours."""
     result = np.zeros(len(i), dtype=bool)
     for a, b in ((i, j), (j, i)):
-        away = np.hypot(*(points - table.rows[a, X1 : X1 + 2]).T)
-        thin = (away <= 2 * tolerances.WELD) | (away**2 * bend / 8 <= tolerances.CURVE)
-        result |= (table.after[a] == b) & thin
+        result |= (table.after[a] == b) & (np.hypot(*(points - table.rows[a, X1 : X1 + 2]).T) <= 2 * tolerances.WELD)
     return result
 
 

@@ -37,7 +37,8 @@ def test_file_cut_short(data: Path) -> None:
 
 
 def test_least_dxf_of_old() -> None:
-    lines = "0 SECTION 2 ENTITIES 0 LINE 8 0 10 0.0 20 0.0 11 5.0 21 7.0 0 ENDSEC 0 EOF".split()
+    line = ["0", "LINE", "8", "0", "10", "0.0", "20", "0.0", "11", "5.0", "21", "7.0"]
+    lines = ["0", "SECTION", "2", "ENTITIES", *line, "0", "ENDSEC", "0", "EOF"]
     for newline in ("\n", "\r\n"):
         drawing = read_dxf((newline.join(lines) + newline).encode(), "old.dxf")
         assert drawing.part.entities[0].curve.end == (5, 7) and not drawing.units_named

@@ -128,6 +128,19 @@ def test_ends_that_are_nearest_are_joined() -> None:
     assert shape(chained(comb)) == [(True, 4)]
 
 
+def test_two_gaps_side_by_side_close_each_for_itself() -> None:
+    left = [(10.0, 0.0), (0.0, 0.0), (0.0, 9.0), (10.0, 9.0), (10.0, 0.002)]
+    right = [(10.007, 0.0), (20.0, 0.0), (20.0, 9.0), (10.007, 9.0), (10.007, 0.002)]
+    made = chained([Line(a, b) for points in (left, right) for a, b in pairwise(points)])
+    assert [c.entity_ids for c in made.contours] == [(1, 2, 3, 4), (5, 6, 7, 8)]
+
+
+def test_copies_do_not_keep_ends_from_meeting() -> None:
+    edges = polygon(SQUARE)
+    off = Line((10.004, 0.003), (10.003, 9.998))
+    assert shape(chained([edges[0], off, off, edges[2], edges[3]])) == [(True, 4)]
+
+
 @pytest.mark.parametrize("copy", [lambda c: c, reversed_curve], ids=["same", "reversed"])
 def test_repeated_edge_is_left_out(copy: object) -> None:
     edges = polygon(SQUARE)

@@ -41,6 +41,15 @@ def test_smooth_outline_does_not_meet_itself() -> None:
     assert crossings([slot]) == []
 
 
+@pytest.mark.parametrize("lift", [3e-5, -3e-5])
+def test_joints_that_are_smooth_but_for_rounding(lift: float) -> None:
+    arc = Arc((10, lift), (10, 4 - lift), (10, 2))
+    slot = contour(Line((0, 0), (10, lift)), arc, Line((10, 4 - lift), (0, 4)), Arc((0, 4), (0, 0), (0, 2)))
+    assert crossings([slot]) == []
+    tilted = contour(Line((0, 10 * lift), (10, 0)), Arc((10, 0), (10, 4), (10, 2)), Line((10, 4), (0, 10 * lift)))
+    assert crossings([tilted]) == []
+
+
 def test_lines_cross() -> None:
     found = only([SQUARE, polygon([(5, 5), (15, 5), (15, 15), (5, 15)])])
     assert found.counts and found.amount == 2
