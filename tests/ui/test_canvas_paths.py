@@ -20,7 +20,8 @@ from app.model.moves import MoveKind, Moves, Program, Purpose
 from app.model.part import Contour, Entity, Part, Region
 from app.toolpath.compute import compute
 from app.ui.canvas.canvas import Canvas, CanvasMode, CanvasTool, ColourBy, PathLayers
-from app.ui.canvas.program_geometry import chunks, plunges, shape_moves
+from app.ui.canvas.program_chunks import chunks, plunges, rapids, rapids_path
+from app.ui.canvas.program_geometry import shape_moves
 from app.ui.canvas.program_hover import nearest_move
 from app.ui.canvas.view import View
 from app.ui.theme import DARK, LIGHT, Theme
@@ -203,7 +204,16 @@ def test_a_deeper_pass_on_the_same_place_is_painted_once() -> None:
     twice = moves_of([*once, *ring((20, 20), 10, Purpose.POCKET, 1, z=-4.0)])
     length = sum(c.path.length() for c in chunks(shape_moves(twice)) if c.style.purpose is Purpose.POCKET)
     assert length == pytest.approx(20 * math.pi, rel=3e-3)
-    assert plunges(shape_moves(twice)) == [(30.0, 20.0)]
+    assert plunges(shape_moves(twice)).tolist() == [[30.0, 20.0]]
+
+
+def test_only_rapids_near_the_view_are_painted() -> None:
+    far = rapids(shape_moves(moves_of([*ring((20, 20), 10, Purpose.POCKET, 1), *ring((60, 20), 10, Purpose.POCKET, 1),
+                                       *ring((60, 90), 10, Purpose.POCKET, 1)])))
+    assert far.tolist() == [[30, 20, 70, 20], [70, 20, 70, 90]]
+    assert rapids_path(far, (40, 10, 50, 30)).elementCount() == 2
+    assert rapids_path(far, (0, 0, 100, 100)).elementCount() == 4
+    assert rapids_path(far, (0, 95, 5, 99)).isEmpty()
 
 
 def test_an_empty_program_paints_nothing(canvas: Canvas) -> None:

@@ -67,13 +67,13 @@ def chain_path(curves: tuple[Curve, ...], path: QPainterPath) -> None:
     path.addPath(whole)
 
 
-def path_of(*elements: Elements) -> QPainterPath:
-    """Return the painter path made of runs of elements (dtype ELEMENT), each begun by MOVE_TO; without a loop in Python."""
+def path_of(*runs: bytes) -> QPainterPath:
+    """Return the painter path made of the bytes of runs of elements (dtype ELEMENT), each begun by MOVE_TO."""
     path = QPainterPath()
-    count = sum(map(len, elements))
+    count = sum(map(len, runs)) // ELEMENT.itemsize
     if count == 0:
         return path
-    data = QByteArray(b"".join([struct.pack(">i", count), *(run.tobytes() for run in elements), struct.pack(">ii", 0, 0)]))
+    data = QByteArray(b"".join([struct.pack(">i", count), *runs, struct.pack(">ii", 0, 0)]))
     stream = QDataStream(data, QIODevice.OpenModeFlag.ReadOnly)  # the stream only points to the data: keep it
     stream >> path
     return path

@@ -1,4 +1,4 @@
-"""A program cut into pieces and chunks that can be painted: built once, in mm, by numpy."""
+"""The moves of a program prepared for painting and picking: built once, in mm, by numpy."""
 
 from __future__ import annotations
 
@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtGui import QPainterPath
 
-from app.edit.sample import Box
-from app.model.moves import MoveKind, Moves, Purpose
+from app.model.moves import MoveKind, Moves
 from app.ui.canvas.curve_path import CURVE_DATA, CURVE_TO, ELEMENT, LINE_TO, MOVE_TO, PIECE, Elements, path_of
 
 RUN = 96
@@ -20,32 +19,6 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _LIT = 300
-
-
-@dataclass(frozen=True, slots=True)
-class PathStyle:
-    """What decides how a path looks."""
-
-    purpose: Purpose
-    operation: int
-    tool: int
-    region: int
-
-
-@dataclass(frozen=True)
-class PathChunk:
-    """Moves of one style, near one another in the program.
-
-    Attributes:
-        path: in mm.
-        box: x0, y0, x1, y1, mm.
-        begins_at: length of its piece before it, so that dashes run on, mm.
-    """
-
-    style: PathStyle
-    path: QPainterPath
-    box: Box
-    begins_at: float
 
 
 @dataclass(frozen=True)
@@ -74,21 +47,12 @@ class MoveShapes:
     elements: Elements
     offset: Ints
 
-    def style(self, move: int) -> PathStyle:
-        """Return the style of a move."""
-        m = self.moves
-        return PathStyle(Purpose(int(m.purpose[move])), int(m.operation[move]), int(m.tool[move]), int(m.region[move]))
-
     def piece_path(self, move: int) -> QPainterPath:
         """Return the painter path in mm of the piece that a move belongs to; of a very long one, 300 moves each way."""
         piece = self.piece[move]
         first, last = max(int(self.first[piece]), move - _LIT), min(int(self.last[piece]), move + _LIT)
         head = np.array([(MOVE_TO, self.start[first, 0], self.start[first, 1])], dtype=ELEMENT)
-        return path_of(head, self.elements[self.offset[first]:self.offset[last]])
-
-    def run_elements(self, run: int) -> Elements:
-        """Return the painter path elements of a run."""
-        return self.elements[self.offset[self.run[run]]:self.offset[self.run[run + 1]]]
+        return path_of(head.tobytes(), self.elements[self.offset[first]:self.offset[last]].tobytes())
 
 
 def shape_moves(moves: Moves) -> MoveShapes:
@@ -104,41 +68,6 @@ def shape_moves(moves: Moves) -> MoveShapes:
     elements, offset = _elements(moves, start, sweep, heads)
     boxes = _boxes(moves, start, sweep)
     return MoveShapes(moves, start, sweep, moves.lengths(), boxes, piece, first, last, run, elements, offset)
-
-
-def chunks(shapes: MoveShapes) -> list[PathChunk]:
-    """Return everything to be painted; what lies again on the same place (a deeper pass) is left out."""
-    seen: set[tuple[PathStyle, bytes]] = set()
-    waiting: dict[PathStyle, list[int]] = {}
-    found: list[PathChunk] = []
-    for run, first in enumerate(shapes.run[:-1]):
-        style = shapes.style(int(first))
-        mark = (style, shapes.run_elements(run).tobytes())
-        if style.purpose is Purpose.PLUNGE or mark in seen:
-            continue
-        seen.add(mark)
-        if style.purpose is Purpose.CONTOUR:
-            begins = float(shapes.length[shapes.first[shapes.piece[first]]:first].sum())
-            found.append(_chunk(shapes, style, [run], begins))
-            continue
-        batch = waiting.setdefault(style, [])
-        batch.append(run)
-        if sum(len(shapes.run_elements(r)) for r in batch) > RUN:
-            found.append(_chunk(shapes, style, waiting.pop(style), 0.0))
-    return found + [_chunk(shapes, style, batch, 0.0) for style, batch in waiting.items()]
-
-
-def plunges(shapes: MoveShapes) -> list[tuple[float, float]]:
-    """Return the places where a tool plunges, mm, each once."""
-    where = shapes.moves.purpose == Purpose.PLUNGE
-    return [(float(x), float(y)) for x, y in np.unique(shapes.moves.end[where, :2], axis=0)]
-
-
-def _chunk(shapes: MoveShapes, style: PathStyle, runs: list[int], begins_at: float) -> PathChunk:
-    boxes = np.concatenate([shapes.boxes[shapes.run[r]:shapes.run[r + 1]] for r in runs])
-    (x0, y0), (x1, y1) = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
-    path = path_of(*(shapes.run_elements(r) for r in runs))
-    return PathChunk(style, path, (float(x0), float(y0), float(x1), float(y1)), begins_at)
 
 
 def _elements(moves: Moves, start: Floats, sweep: Floats, heads: NDArray[np.bool_]) -> tuple[Elements, Ints]:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import QPointF, Qt
+import numpy as np
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 
 from app.edit.sample import Box
 from app.model.moves import Program, Purpose
 from app.ui.canvas.curve_path import MANY, chain_path
 from app.ui.canvas.modes import ColourBy, PathLayers
-from app.ui.canvas.program_geometry import PathStyle, chunks, plunges, shape_moves
+from app.ui.canvas.program_chunks import PathStyle, chunks, plunges, rapids, rapids_path
+from app.ui.canvas.program_geometry import shape_moves
 from app.ui.canvas.view import View
 from app.ui.theme import Theme
 
@@ -21,7 +23,8 @@ _LAYER_OF = {
     Purpose.RAPID: PathLayers.RAPID, Purpose.PLUNGE: PathLayers.PLUNGE, Purpose.CONTOUR: PathLayers.CONTOUR,
     Purpose.POCKET: PathLayers.POCKET, Purpose.LINK: PathLayers.LINK, Purpose.LEAD: PathLayers.LEAD,
 }
-_ORDER = (Purpose.RAPID, Purpose.LINK, Purpose.POCKET, Purpose.LEAD, Purpose.CONTOUR)
+_MANY_PLUNGES = 300
+_ORDER = (Purpose.LINK, Purpose.POCKET, Purpose.LEAD, Purpose.CONTOUR)
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +52,10 @@ class ProgramPicture:
         """Build every path once, in mm."""
         self.shapes = shape_moves(program.moves)
         self._chunks = sorted(chunks(self.shapes), key=lambda c: _ORDER.index(c.style.purpose))
-        self._plunges = plunges(self.shapes)
+        self._boxes = np.array([c.box for c in self._chunks]).reshape(-1, 4)
+        self._layers = np.array([_LAYER_OF[c.style.purpose].value for c in self._chunks], dtype=np.int64)
+        self._sizes = np.array([c.path.elementCount() for c in self._chunks], dtype=np.int64)
+        self._rapids, self._plunges = rapids(self.shapes), plunges(self.shapes)
         self._roles = _roles([c.style for c in self._chunks])
         self._regions: dict[int, QPainterPath] = {}
         for region in program.regions:
@@ -66,9 +72,14 @@ class ProgramPicture:
         if PathLayers.REGION in look.layers:
             self._paint_regions(painter, look)
         painter.setBrush(Qt.BrushStyle.NoBrush)
-        seen = [c for c in self._chunks if _LAYER_OF[c.style.purpose] in look.layers and _meet(c.box, box)]
-        fine = sum(c.path.elementCount() for c in seen) > MANY
-        for chunk in seen:
+        if PathLayers.RAPID in look.layers:
+            painter.setPen(_pen(look.theme.rapid, RAPID_WIDTH, RAPID_DOTS))
+            painter.drawPath(rapids_path(self._rapids, box))
+        boxes = self._boxes
+        near = (boxes[:, 0] <= box[2]) & (boxes[:, 2] >= box[0]) & (boxes[:, 1] <= box[3]) & (boxes[:, 3] >= box[1])
+        seen = np.flatnonzero(near & (self._layers & look.layers.value != 0))
+        fine = int(self._sizes[seen].sum()) > MANY
+        for chunk in (self._chunks[k] for k in seen):
             pen = self.pen(chunk.style, look, fine)
             if chunk.begins_at:
                 pen.setDashOffset(chunk.begins_at * view.scale / pen.widthF())
@@ -80,22 +91,12 @@ class ProgramPicture:
 
     def pen(self, style: PathStyle, look: PathLook, fine: bool = False) -> QPen:
         """Return the pen for paths of a style; `fine` ones are one px."""
-        widths = {Purpose.RAPID: RAPID_WIDTH, Purpose.LINK: LINK_WIDTH, Purpose.LEAD: LINK_WIDTH}
-        width = 1.0 if fine else widths.get(style.purpose, CUT_WIDTH)
-        pen = QPen(self._colour(style, look), width)
-        pen.setCosmetic(True)
-        pen.setCapStyle(Qt.PenCapStyle.FlatCap)
-        pen.setJoinStyle(Qt.PenJoinStyle.BevelJoin)
-        if style.purpose is Purpose.CONTOUR:
-            pen.setDashPattern([d * CUT_WIDTH / width for d in CONTOUR_DASHES])
-        elif style.purpose is Purpose.RAPID:
-            pen.setDashPattern(list(RAPID_DOTS))
-        return pen
+        width = 1.0 if fine else LINK_WIDTH if style.purpose in (Purpose.LINK, Purpose.LEAD) else CUT_WIDTH
+        dashes = CONTOUR_DASHES if style.purpose is Purpose.CONTOUR else ()
+        return _pen(self._colour(style, look), width, tuple(d * CUT_WIDTH / width for d in dashes))
 
     def _colour(self, style: PathStyle, look: PathLook) -> QColor:
         theme = look.theme
-        if style.purpose is Purpose.RAPID:
-            return theme.rapid
         if look.colour_by is ColourBy.REGION and style.region > 0:
             colour = QColor(theme.regions[(style.region - 1) % len(theme.regions)])
         else:
@@ -114,17 +115,27 @@ class ProgramPicture:
             painter.fillPath(path, colour)
 
     def _paint_plunges(self, painter: QPainter, view: View, box: Box, theme: Theme) -> None:
-        reach = 6 / view.scale
-        for x, y in self._plunges:
-            if not _meet((x - reach, y - reach, x + reach, y + reach), box):
-                continue
-            at = view.to_screen((x, y))
+        near = self._plunges[np.all((self._plunges >= box[:2]) & (self._plunges <= box[2:]), axis=1)]
+        places = [view.to_screen((x, y)) for x, y in near.tolist()]
+        if len(places) < _MANY_PLUNGES:
+            rings = QPainterPath()
+            for at in places:
+                rings.addEllipse(at, 4.4, 4.4)
             painter.setPen(QPen(theme.plunge, 1.4))
             painter.setBrush(theme.canvas)
-            painter.drawEllipse(at, 4.4, 4.4)
-            painter.setPen(Qt.PenStyle.NoPen)
-            painter.setBrush(theme.plunge)
-            painter.drawEllipse(QPointF(at), 1.5, 1.5)
+            painter.drawPath(rings)
+        painter.setPen(QPen(theme.plunge, 3.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+        painter.drawPoints(places)
+
+
+def _pen(colour: QColor, width: float, dashes: tuple[float, ...] = ()) -> QPen:
+    pen = QPen(colour, width)
+    pen.setCosmetic(True)
+    pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+    pen.setJoinStyle(Qt.PenJoinStyle.BevelJoin)
+    if dashes:
+        pen.setDashPattern(list(dashes))
+    return pen
 
 
 def _roles(styles: list[PathStyle]) -> dict[tuple[int, int], str]:
@@ -137,7 +148,3 @@ def _roles(styles: list[PathStyle]) -> dict[tuple[int, int], str]:
             name = "pocket" if style.purpose is Purpose.POCKET else "contour"
             roles[style.operation, style.tool] = name if own else "rest"
     return roles
-
-
-def _meet(a: Box, b: Box) -> bool:
-    return a[0] <= b[2] and a[2] >= b[0] and a[1] <= b[3] and a[3] >= b[1]
