@@ -133,4 +133,4 @@ class Files(QObject):
         self._window.notice.ask(
             f"{opened.path.name} names no units. It was read in {_UNIT_NAMES[read]}, which makes it {size[0]:.3f} by {size[1]:.3f} mm.",
             [(f"Keep {_UNIT_NAMES[read]}", lambda: None),
-             (f"Read in {_UNIT_NAMES[other]}", lambda: self.open_file(opened.path, other))])
+             (f"Read in {_UNIT_NAMES[other]}", lambda: self.open_file(opened.path, other))], stays=True)

@@ -15,9 +15,9 @@ class Log:
         self._taken = 0
         self._unsubscribe = document.subscribe(self._on_change)
 
-    def note(self, what: str, reply: str) -> None:
+    def note(self, what: str, reply: str, error: bool = False) -> None:
         """Add something that is no line of the drawing language."""
-        self.lines.append(LogLine(what, reply))
+        self.lines.append(LogLine(what, reply, error))
         self._view.show_lines(self.lines)
 
     def _on_change(self, change: Change) -> None:

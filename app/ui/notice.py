@@ -28,6 +28,7 @@ class Notice(QWidget):
         self.text = QLabel()
         self.text.setWordWrap(True)
         self.buttons: list[QPushButton] = []
+        self._stays = False
         self._row = QHBoxLayout(self)
         self._row.setContentsMargins(16, 4, 8, 4)
         self._row.setSpacing(8)
@@ -38,8 +39,21 @@ class Notice(QWidget):
         self.setMinimumHeight(36)
         self.hide()
 
-    def ask(self, sentence: str, answers: Answers = (), error: bool = False) -> None:
-        """Show a sentence and a button for each answer; a pressed button closes the bar and acts."""
+    def dismiss(self) -> None:
+        """Close the bar, unless its question still needs an answer."""
+        if not self._stays:
+            self.hide()
+
+    def ask(self, sentence: str, answers: Answers = (), error: bool = False, stays: bool = False) -> None:
+        """Show a sentence and a button for each answer; a pressed button closes the bar and acts.
+
+        Args:
+            sentence: what to say.
+            answers: text of each button, and what it does.
+            error: True for what went wrong.
+            stays: True when only an answer, or another sentence, closes the bar.
+        """
+        self._stays = stays
         for button in self.buttons:
             self._row.removeWidget(button)
             button.deleteLater()

@@ -21,7 +21,7 @@ from app.ui.main_window import MainWindow
 from app.ui.memory import choose_theme
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.showing import Showing
-from app.ui.verdict import verdict
+from app.ui.verdict import Level, verdict
 from app.ui.views import View
 
 TOOLS = {
@@ -138,7 +138,7 @@ class Wiring(QObject):
         if not self.document.part.entities:
             self._say("Nothing is drawn yet; draw a closed contour or open a drawing first.")
             return
-        self.window_.notice.hide()
+        self.window_.notice.dismiss()
         self.computation.start()
         if self.showing.view is View.DRAW:
             self.showing.show_view(View.PATHS)
@@ -164,7 +164,8 @@ class Wiring(QObject):
     def _on_computed(self) -> None:
         made = self.computation.made
         if made is not None:
-            self.log.note("compute", f"{counted(len(made.program.moves), 'move')}. {verdict(made.findings, made.report.data).text}")
+            answer = verdict(made.findings, made.report.data)
+            self.log.note("compute", f"{counted(len(made.program.moves), 'move')}. {answer.text}", error=answer.level is Level.BAD)
 
     def _say(self, text: str) -> None:
         self.window_.status.show_message(text)

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from dataclasses import replace
 from pathlib import Path
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
@@ -67,6 +68,13 @@ def live_until(done, limit_s: float = 180.0) -> float:
     return time.perf_counter() - begun
 
 
+def use_fine_tools(document) -> None:
+    """Take tools of 2 and 1 mm, so that the largest sample gives its 25,000 moves."""
+    pocket, contour = document.job.tools
+    tools = (replace(pocket, diameter=2.0), replace(contour, diameter=1.0))
+    document.change_job("Change diameter", replace(document.job, tools=tools))
+
+
 def measure_gaps(drawing: Path) -> dict[str, float]:
     """Open a drawing in a window and compute it; return the longest gap in ms by what was going on."""
     from app.ui.computation import State
@@ -83,6 +91,7 @@ def measure_gaps(drawing: Path) -> dict[str, float]:
     wiring.files.open_file(drawing)
     live_until(lambda: bool(wiring.document.part.entities))
     live_until(lambda: False, 0.3)
+    use_fine_tools(wiring.document)
     gaps.now("compute")
     wiring.compute()
     took = live_until(lambda: wiring.computation.state in (State.CURRENT, State.FAILED))

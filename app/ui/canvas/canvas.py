@@ -23,7 +23,6 @@ from app.ui.canvas.hands import PICK_PX, Hands
 from app.ui.canvas.modes import CanvasMode, CanvasTool, ColourBy, PathLayers
 from app.ui.canvas.program_hover import describe, nearest_move
 from app.ui.canvas.program_picture import PathLook, ProgramPicture, shown_purposes
-from app.ui.canvas.view import fitted
 from app.ui.theme import Theme
 
 __all__ = ["Canvas", "CanvasMode", "CanvasTool", "ColourBy", "Frame", "PathLayers"]
@@ -213,7 +212,7 @@ class Canvas(Hands):
         if not self.isVisible():
             return
         whole = _with_frame(self.picture.lookup.box, self.frame.extent)
-        self.set_view(fitted(whole, self.area)) if self._fresh else self.glide_to_box(whole)
+        self.fit_to(whole)
         self._fresh = False
 
     def _set_look(self, look: PathLook) -> None:

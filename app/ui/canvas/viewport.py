@@ -37,6 +37,7 @@ class Viewport(QWidget):
         self._scene: QPixmap | None = None
         self._scene_view = self.view
         self._pan_from: QPointF | None = None
+        self._fitted: Box | None = None
         self._settle = QTimer(self, singleShot=True, interval=_SETTLE_MS)
         self._settle.timeout.connect(self.repaint_scene)
         self._glide = QVariantAnimation(self)
@@ -66,6 +67,15 @@ class Viewport(QWidget):
 
     def set_view(self, view: View) -> None:
         """Look at the drawing this way; a shift by whole px keeps what was painted."""
+        self._fitted = None
+        self._show(view)
+
+    def fit_to(self, box: Box) -> None:
+        """Show a box in mm at once, and again when the size of the widget changes, until the view is moved."""
+        self.set_view(fitted(box, self.area))
+        self._fitted = box
+
+    def _show(self, view: View) -> None:
         self.view = view
         if self._scroll() is None:
             self._scene = None
@@ -87,15 +97,17 @@ class Viewport(QWidget):
     def glide_to(self, view: View) -> None:
         """Go to another view in 150 ms; at once while the widget is hidden."""
         self._glide.stop()
+        self._fitted = None
         if not self.isVisible():
-            self.set_view(view)
+            self._show(view)
             return
         self._way = (self.view, view)
         self._glide.start()
 
     def glide_to_box(self, box: Box) -> None:
-        """Go to the view that shows a box in mm."""
+        """Go to the view that shows a box in mm, as `fit_to` does."""
         self.glide_to(fitted(box, self.area))
+        self._fitted = box
 
     def glide_to_point(self, point: Point) -> None:
         """Go to the view with a point in mm in the middle."""
@@ -113,9 +125,12 @@ class Viewport(QWidget):
         painter.end()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
-        """Keep the middle of the view in the middle."""
+        """Keep what was fitted fitted, or else the middle of the view in the middle."""
         old = event.oldSize()
-        if old.isValid():
+        if self._fitted is not None:
+            self._glide.stop()
+            self.view = fitted(self._fitted, self.area)
+        elif old.isValid():
             self.view = self.view.panned((self.width() - old.width()) / 2, (self.height() - old.height()) / 2)
         self.repaint_scene()
         self.view_changed.emit()
@@ -174,7 +189,7 @@ class Viewport(QWidget):
         return pixmap
 
     def _glide_on(self, share: float) -> None:
-        self.set_view(self._way[0].towards(self._way[1], float(share), self.area))
+        self._show(self._way[0].towards(self._way[1], float(share), self.area))
 
 
 def _uncovered(area: QRectF, scroll: QPointF) -> list[QRectF]:
