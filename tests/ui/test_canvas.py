@@ -305,6 +305,21 @@ def test_a_resized_widget_keeps_its_middle(plate: Hand) -> None:
     assert plate.canvas.view.to_world(QPointF(500, 350)) == pytest.approx(before)
 
 
+def test_what_was_fitted_stays_fitted_when_the_widget_changes(qtbot: QtBot) -> None:
+    document = Document()
+    canvas = Canvas(document, LIGHT)
+    qtbot.addWidget(canvas)
+    canvas.resize(800, 600)
+    canvas.show()
+    canvas.resize(500, 300)
+    box = canvas.view.world_box(canvas.area)
+    assert box[0] < 0 and box[1] < 0 and box[2] > 100 and box[3] > 100
+    canvas.zoom_by(3.0)
+    scale = canvas.view.scale
+    canvas.resize(800, 600)
+    assert canvas.view.scale == scale
+
+
 def test_cells_show_when_a_pixel_is_six_screen_pixels(hand: Hand) -> None:
     hand.canvas.set_view(View(23.9, 100, 500))
     assert not hand.canvas.cells_shown
