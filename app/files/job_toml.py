@@ -94,14 +94,16 @@ def read_job(name: str, data: bytes) -> JobFile:
     except UnicodeDecodeError as error:
         raise InputError(f"{name}: byte {error.start} is no UTF-8; save the job file as UTF-8 text") from error
     except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InputError(f"{name}: {_place_first(str(error))}; correct the line as resources/samples/job.toml shows") from error
+        raise InputError(f"{name}:{_with_line(str(error), text)}; correct it as resources/samples/job.toml shows") from error
     return _Reader(name, text, tree).job_file()
 
 
-def _place_first(message: str) -> str:
-    """Turn tomllib's `… (at line 3, column 4)` into `line 3, column 4: …`."""
-    match = re.fullmatch(r"(.*) \(at (.*)\)", message)
-    return f"{match[2]}: {match[1]}" if match else message
+def _with_line(message: str, text: str) -> str:
+    """Turn tomllib's `… (at line 3, column 4)` into `3: …, column 4`."""
+    match = re.fullmatch(r"(.*) \(at line (\d+), (column \d+)\)", message)
+    if match:
+        return f"{match[2]}: {match[1]}, {match[3]}"
+    return f"{text.count(chr(10)) + 1}: {message.removesuffix(' (at end of document)')}"
 
 
 class _Table:

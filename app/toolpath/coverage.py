@@ -22,7 +22,7 @@ from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program
 from app.model.operation import Operation, PocketOperation
 from app.progress import NO_PROGRESS, Progress
-from app.toolpath.flat import area_shape, flattened, grown, lines, move_rows
+from app.toolpath.flat import flattened, grown, lines, move_rows, region_shapes
 from app.toolpath.proven import uncertain
 
 CHORD = 1e-3
@@ -95,10 +95,10 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Cov
         return Coverage()
     pockets = [operation for operation in operations if isinstance(operation, PocketOperation)]
     floor = max(operation.cut.depth for operation in pockets or operations)
-    regions = area_shape(program, CHORD)
+    regions = region_shapes(program, CHORD)
     progress.step(0.0, "Measuring what is left")
     leave = min(operation.cut.stock_to_leave for operation in operations)
-    area = grown(regions, -leave, CHORD) if leave else regions
+    area = shapely.union_all(grown(regions, -leave, CHORD) if leave else regions)
     reach = shapely.union_all([_reach(regions, operation, job) for operation in _farthest(operations, job)])
     wanted = reach if pockets else shapely.difference(reach, _beyond_band(regions, operations, job))
     left = _left(wanted, program.moves, (job, floor), progress)
@@ -123,16 +123,16 @@ def _farthest(operations: list[Operation], job: Job) -> list[Operation]:
     return [operations[size.index(each)] for each in smallest]
 
 
-def _reach(regions: Shape, operation: Operation, job: Job) -> Shape:
+def _reach(regions: NDArray[np.object_], operation: Operation, job: Job) -> Shape:
     """Return what the operation's tool can cut without touching a wall: the opening by its disc."""
     radius = job.tool(operation.cut.tool).radius
-    return grown(grown(regions, -radius - operation.cut.stock_to_leave, CHORD), radius, CHORD)
+    return shapely.union_all(grown(grown(regions, -radius - operation.cut.stock_to_leave, CHORD), radius, CHORD))
 
 
-def _beyond_band(regions: Shape, operations: list[Operation], job: Job) -> Shape:
+def _beyond_band(regions: NDArray[np.object_], operations: list[Operation], job: Job) -> Shape:
     """Return what lies farther from the walls than a contour pass is wide."""
     widths = [2 * job.tool(each.cut.tool).radius + each.cut.stock_to_leave for each in operations]
-    return grown(regions, -min(widths), CHORD)
+    return shapely.union_all(grown(regions, -min(widths), CHORD))
 
 
 def _left(wanted: Shape, moves: Moves, where: tuple[Job, float], progress: Progress) -> Shape:

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
 from app.geometry.primitives import TURN, R, Rows, contour_rows, points_at, sample, sweeps
-from app.model.finding import FindingKind
 from app.model.moves import MoveKind, Moves, Program
 from app.model.part import Contour
 
@@ -45,16 +44,14 @@ def lines(rows: Rows, chord: float) -> NDArray[np.object_]:
     return np.asarray(shapely.linestrings(points, indices=owner), dtype=object)
 
 
-def area_shape(program: Program, chord: float) -> Shape:
-    """Return all regions of a program as one shape whose chords stay within `chord` mm of their contours.
+def region_shapes(program: Program, chord: float) -> NDArray[np.object_]:
+    """Return the regions of a program as polygons (n,) whose chords stay within `chord` mm of their contours.
 
-    Where contours cross, what an odd number of them encloses is the area.
+    They stay apart, since regions that touch have a wall of no thickness between them.
     """
-    if any(finding.kind is FindingKind.SELF_INTERSECTION for finding in program.findings):
-        contours = [contour for region in program.regions for contour in region.contours]
-        return shapely.symmetric_difference_all([_polygon([contour], chord) for contour in contours])
-    parts = shapely.get_parts(shapely.get_parts([_polygon(region.contours, chord) for region in program.regions]))
-    return shapely.MultiPolygon([part for part in parts if part.geom_type == "Polygon" and not part.is_empty])
+    parts = shapely.get_parts([_polygon(region.contours, chord) for region in program.regions])
+    parts = shapely.get_parts(parts)
+    return np.asarray(parts[(shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)], dtype=object)
 
 
 def _polygon(contours: Sequence[Contour], chord: float) -> Shape:
@@ -72,8 +69,6 @@ def quarter_chords(radius: float, chord: float) -> int:
     return max(1, int(np.ceil(np.pi / 4 / np.arccos(1 - chord / radius))))
 
 
-def grown(shape: Shape, distance: float, chord: float) -> Shape:
-    """Return all points within `distance` mm of a shape; a negative distance gives the points that deep inside."""
-    return shapely.buffer(shape, distance, quad_segs=quarter_chords(abs(distance), chord))
-
-
+def grown(shapes: Shape | NDArray[np.object_], distance: float, chord: float) -> Shape:
+    """Return for each shape all points within `distance` mm of it; a negative distance gives the points that deep inside."""
+    return shapely.buffer(shapes, distance, quad_segs=quarter_chords(abs(distance), chord))

@@ -12,7 +12,7 @@ from app.geometry.primitives import contour_rows
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program
 from app.tolerances import LEVEL
-from app.toolpath.flat import area_shape, lines, move_rows
+from app.toolpath.flat import lines, move_rows, region_shapes
 from app.workflow.clearance import curve_distance
 
 Floats = NDArray[np.float64]
@@ -103,7 +103,7 @@ def _depths(rows: Floats, need: Floats, walls: Floats) -> tuple[Floats, Floats]:
 
 def _outside(rows: Floats, program: Program) -> tuple[NDArray[np.int64], Floats]:
     """Return the moves whose end lies in no region, and how far outside, mm."""
-    polygons = area_shape(program, _CHORD)
+    polygons = shapely.union_all(region_shapes(program, _CHORD))
     ends = shapely.points(rows[:, 2:4])
     shapely.prepare(polygons)
     distance = np.zeros(len(rows))

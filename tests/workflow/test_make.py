@@ -18,10 +18,10 @@ from app.model.operation import ContourOperation, PocketOperation
 from app.model.part import Units
 from app.model.stock_box import stock_box, work_origin
 from app.progress import Progress
-from app.toolpath.flat import area_shape, lines, move_rows
+from app.toolpath.flat import lines, move_rows, region_shapes
 from app.workflow.make import Made, make
 from app.workflow.options import MakeOptions
-from tests.nc.rs274_oracle import assert_same_motion
+from tests.nc.rs274_oracle import assert_same_motion, canonical_calls
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = (ROOT / "tests/data/dxf", ROOT / "resources/samples", ROOT.parent / "shared/data/dxf", ROOT.parent / "shared/bench")
@@ -37,6 +37,9 @@ DRAWINGS = {
     "broken_loop.dxf": MakeOptions(pocket_diameter=0.5, contour_diameter=0.3, join_tolerance=0.2),
     "complex.dxf": MakeOptions(pocket_diameter=1, contour_diameter=0.5),
 }
+
+SLOW_TO_READ = {"complex.dxf"}
+"""Programs whose every motion takes minutes to compare."""
 
 
 def drawing(name: str) -> Path:
@@ -63,10 +66,18 @@ def test_no_gouge_and_no_rapid_in_material(name: str) -> None:
     assert report["rapids_in_material"] == []
 
 
-@each
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] if name in SLOW_TO_READ else []) for name in DRAWINGS])
 def test_the_control_accepts_the_program_and_moves_as_it_means(name: str) -> None:
     this = made(name)
     assert_same_motion(this.program.moves, this.nc, this.job)
+
+
+def test_the_control_accepts_a_program_of_fifty_thousand_moves() -> None:
+    this = made("complex.dxf")
+    calls = [name for name, _ in canonical_calls(this.nc.text)]
+    assert len(this.program.moves) > 50_000
+    assert calls.count("CHANGE_TOOL") == 2
+    assert sum(name in ("STRAIGHT_FEED", "ARC_FEED") for name in calls) > 45_000
 
 
 @each
@@ -74,7 +85,7 @@ def test_what_the_report_calls_left_is_left_and_nothing_else_is(name: str) -> No
     """Exact distances at random points against the polygons' answer."""
     this = made(name)
     moves, rng = this.program.moves, np.random.default_rng(1)
-    area = area_shape(this.program, 1e-3)
+    area = shapely.union_all(region_shapes(this.program, 1e-3))
     shapely.prepare(area)
     x0, y0, x1, y1 = area.bounds
     points = rng.uniform((x0, y0), (x1, y1), (400, 2))
@@ -136,12 +147,14 @@ def test_gear_tells_the_rest_that_its_pocket_tool_leaves() -> None:
     assert any(finding.kind is FindingKind.LEFT_REACHABLE and finding.counts for finding in this.findings)
 
 
-def test_every_region_of_a_drawing_is_in_the_report_even_when_no_tool_fits() -> None:
-    this = make("LM2.dxf", drawing("LM2.dxf").read_bytes(), MakeOptions(pocket_diameter=60, contour_diameter=12))
-    skipped = [each for each in this.report.data["skipped"] if each["kind"] == "region_too_small"]
+def test_every_region_that_no_tool_fits_is_named_and_counts() -> None:
+    this = make("forms.dxf", drawing("forms.dxf").read_bytes(), MakeOptions(pocket_diameter=60, contour_diameter=40))
+    uncut = [region["number"] for region in this.report.data["regions"] if region["cut_mm"] == 0]
+    skipped = [each for each in this.report.data["skipped"] if each["kind"] == "region_too_small" and each["counts"]]
+    assert uncut == [2, 3, 4, 5]
+    assert [f"Region {number} " in each["text"] for number, each in zip(uncut, skipped, strict=True)] == [True] * 4
+    assert all(each["x"] is not None and 0 < each["amount"] < 40 for each in skipped)
     assert not this.clean
-    assert all(each["x"] is not None and each["amount"] for each in skipped)
-    assert any(each["counts"] for each in skipped)
 
 
 def test_broken_loop_names_both_ends_and_the_overlap() -> None:
@@ -155,8 +168,10 @@ def test_broken_loop_names_both_ends_and_the_overlap() -> None:
 
 
 def test_open_contours_are_listed_and_count() -> None:
-    this = make("forms.dxf", drawing("forms.dxf").read_bytes(), DRAWINGS["forms.dxf"])
-    assert len(this.report.data["open_contours"]) == 2
+    torn = drawing("fig2.dxf").read_text().replace("68.0", "68.4", 1).encode()
+    this = make("fig2.dxf", torn, MakeOptions())
+    (finding,) = this.report.data["open_contours"]
+    assert finding["amount"] == pytest.approx(0.4, abs=0.01)
     assert not this.clean
 
 
