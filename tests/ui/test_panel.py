@@ -9,7 +9,9 @@ from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.model.part import Part
 from app.model.tool import Tool
 from app.ui.panels.changes import Subject, SubjectKind
-from app.ui.panels.side_panel import SidePanel
+from app.ui.panels.side_panel import WIDTH, SidePanel
+
+SCROLL_BAR_PX = 8
 
 
 @pytest.fixture
@@ -150,3 +152,13 @@ def test_what_only_the_job_knows_is_said_at_the_field(qtbot, document, panel):
     panel.choose(Subject(SubjectKind.TOOL, 1))
     enter(qtbot, panel.tool_form.speed, "12in")
     assert "type the number alone" in panel.tool_form.speed.reason.text()
+
+
+@pytest.mark.parametrize("kind", list(SubjectKind))
+def test_nothing_is_wider_than_the_panel(qtbot, document, panel, kind):
+    panel.resize(panel.width(), 300)
+    enter(qtbot, panel.operation_form.cut_depth, "12")
+    panel.show_results({0: 36_000.0, 1: 0.0}, 123)
+    panel.choose(Subject(kind, 1 if kind is SubjectKind.TOOL else 0))
+    qtbot.wait(20)
+    assert panel.widget().minimumSizeHint().width() <= WIDTH - SCROLL_BAR_PX

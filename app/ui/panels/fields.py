@@ -14,8 +14,8 @@ from app.edit.errors import CommandError
 from app.edit.numbers import length
 from app.errors import HitofudeError
 
-LABEL_WIDTH = 96
-VALUE_WIDTH = 92
+LABEL_WIDTH = 92
+VALUE_WIDTH = 84
 ROW_HEIGHT = 24
 
 

@@ -201,7 +201,7 @@ class OperationForm(Form):
         self.tool.show_value(cut.tool)
         passes = max(1, -int(-(cut.depth - 1e-9) // cut.stepdown))
         below = cut.depth - job.stock.thickness
-        self.cut_depth.show_value(cut.depth, "below stock" if below > 0 else "through" if below == 0 else "")
+        self.cut_depth.show_value(cut.depth, "too deep" if below > 0 else "through" if below == 0 else "")
         self.stepdown.show_value(cut.stepdown, counted(passes, "pass", "passes"))
         self.leave.show_value(cut.stock_to_leave)
         self.direction.show_value(cut.direction)
