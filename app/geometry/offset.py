@@ -14,16 +14,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app import tolerances
-from app.geometry import kernels, offset_kernels
+from app.geometry import kernels, offset_kernels, ring_kernels
 from app.geometry.distance import DistanceField
 from app.geometry.offset_polyline import polyline_loops
-from app.geometry.primitives import Indices, Primitives, Rows, boxes, lengths, points_at, signed_area
+from app.geometry.primitives import CX, TURN, Indices, Primitives, Rows, boxes, lengths, signed_area
 from app.progress import NO_PROGRESS, Progress
 
 _NUDGES = (0.0, 1e-7, 3.3e-7, 7.1e-7, -1.3e-7)
@@ -37,12 +36,14 @@ class Ring:
         rows: (n, 8) lines and arcs, each beginning exactly where the one before ends.
         region: number of the region.
         area: signed area, mm2; negative round an island.
+        length: mm.
         polyline: True when the exact way failed and this is a fine polyline within tolerance.
     """
 
     rows: Rows
     region: int
     area: float
+    length: float
     polyline: bool = False
 
 
@@ -118,7 +119,7 @@ class _Engine:
         for nudge in _NUDGES:
             pieces = self._trim(distance + nudge)
             rings = self._stitch(pieces, distance + nudge)
-            if rings is not None and self._measures_right(rings, distance):
+            if rings is not None:
                 break
         else:
             pieces, rings = self._trim(distance), self._polylines(distance)
@@ -157,70 +158,45 @@ class _Engine:
         return out
 
     def _stitch(self, pieces: Rows, distance: float) -> list[Ring] | None:
-        """Return closed rings made of all pieces, or None when some piece has no continuation."""
+        """Return closed rings made of all pieces, or None when one has no continuation or measures wrong."""
         rows = self._piece_rows(pieces, distance)
-        tolerance = max(2e-5, 8 * math.sqrt(self._slack * distance))
-        following = np.empty(len(rows), np.int64)
-        offset_kernels.follow(rows, np.argsort(rows[:, 0]), tolerance, following)
-        if np.any(following < 0):
+        count = len(rows)
+        following = np.empty(count, np.int64)
+        ring_kernels.follow(rows, np.argsort(rows[:, 0]), max(2e-5, 8 * math.sqrt(self._slack * distance)), following)
+        if count and following.min() < 0:
             return None
-        middle = (rows[:, 2:4] + rows[following, :2]) / 2
-        rows[:, 2:4] = middle
-        rows[following, :2] = middle
-        elements = pieces[:, 0].astype(np.int64) % len(self._rows)
-        rings = []
-        for loop in _loops(following):
-            ring = rows[loop]
-            rings.append(Ring(ring, int(self._primitives.region[elements[loop[0]]]), signed_area(ring)))
-        return rings
-
-    def _measures_right(self, rings: Sequence[Ring], distance: float) -> bool:
-        """Measure every joint and every middle against the whole drawing (exact distances)."""
-        if not rings:
-            return True
-        rows = np.concatenate([ring.rows for ring in rings])
-        points = np.concatenate([rows[:, :2], points_at(rows, np.full(len(rows), 0.5))])
-        found, _ = self._field.nearest(points, distance + 2 * tolerances.LEVEL)
-        return bool(np.all(np.abs(found - distance) <= tolerances.LEVEL / 2))
+        joined, order, starts = np.empty((count, 8)), np.empty(count, np.int64), np.empty(count + 1, np.int64)
+        rings = ring_kernels.assemble(rows, following, joined, order, starts)
+        limit = tolerances.LEVEL / 2
+        if ring_kernels.worst_error(joined, self._rows, self._field.order, self._field.nodes, distance, limit) > limit:
+            return None
+        sums = np.empty((rings, 2))
+        ring_kernels.sums(joined, starts, rings, sums)
+        regions = self._primitives.region[pieces[order[starts[:rings]], 0].astype(np.int64) % len(self._rows)]
+        return [Ring(joined[starts[k]:starts[k + 1]], int(regions[k]), float(sums[k, 0]), float(sums[k, 1])) for k in range(rings)]
 
     def _polylines(self, distance: float) -> list[Ring]:
         """Return the rings as fine polylines that measure right."""
         rings = []
         for points, region in polyline_loops(self._field, self._rows, self._primitives, distance):
             rows = np.hstack([points, np.roll(points, -1, axis=0), np.zeros((len(points), 4))])
-            rings.append(Ring(rows, region, signed_area(rows), polyline=True))
+            rings.append(Ring(rows, region, signed_area(rows), float(lengths(rows).sum()), polyline=True))
         return rings
 
     def _back(self, ring: Ring) -> Ring:
         """Return the ring in the drawing's coordinates."""
-        shift = self._shift * np.where(ring.rows[:, 7:8] != 0, 1, [1, 1, 1, 1, 0, 0, 0, 0])
-        return Ring(ring.rows + shift, ring.region, ring.area, ring.polyline)
-
-
-def _loops(following: Indices) -> list[NDArray[np.int64]]:
-    """Return the cycles of a permutation."""
-    seen = np.zeros(len(following), np.bool_)
-    loops = []
-    for first in range(len(following)):
-        loop = []
-        at = first
-        while not seen[at]:
-            seen[at] = True
-            loop.append(at)
-            at = int(following[at])
-        if loop:
-            loops.append(np.array(loop))
-    return loops
+        rows = ring.rows + self._shift
+        rows[rows[:, TURN] == 0, CX:] = 0.0
+        return replace(ring, rows=rows)
 
 
 def _alike(wide: Sequence[Ring], exact: Sequence[Ring]) -> bool:
     """Tell whether two sets of rings, FIT apart, are the same but for that shift."""
-    perimeter = sum(float(lengths(ring.rows).sum()) for ring in wide)
+    perimeter = sum(ring.length for ring in wide)
     lost = sum(ring.area for ring in wide) - sum(ring.area for ring in exact)
     return len(wide) == len(exact) and lost <= 1.5 * perimeter * tolerances.FIT
 
 
 def _on_a_ridge(ring: Ring) -> bool:
     """Tell whether the field rises above the ring's level by less than the ridge tolerance inside it."""
-    perimeter = float(lengths(ring.rows).sum())
-    return perimeter < 4 * tolerances.RIDGE or (ring.area >= 0 and ring.area < perimeter * tolerances.RIDGE)
+    return ring.length < 4 * tolerances.RIDGE or 0 <= ring.area < ring.length * tolerances.RIDGE

@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from app.geometry.kernels import point_distance, query_box
+from app.geometry.kernels import any_nearer, point_distance, query_box
 from app.jit import kernel
 
 SHORTEST = 1e-7  # mm; pieces below this are bridged by the stitching tolerance
@@ -175,19 +175,30 @@ def _push(blocked, count, u0, u1):  # type: ignore[no-untyped-def]
     return blocked, count + 1
 
 
+@kernel("int64(float64[::1], float64[:, ::1], int64[::1], int64, float64[::1])")
+def _undecided(shape, rows, near, count, limits):  # type: ignore[no-untyped-def]
+    """Keep in `near` the rows whose distance from the piece's middle lets them come within the level; return how many."""
+    x, y = place(shape, (limits[2] + limits[3]) / 2)
+    reach = limits[5] * (limits[3] - limits[2]) / 2
+    kept = 0
+    for c in range(count):
+        if point_distance(rows, near[c], x, y) - reach < limits[0]:
+            near[kept] = near[c]
+            kept += 1
+    return kept
+
+
 @kernel("Tuple((float64[:, ::1], int64))(float64[::1], float64[:, ::1], int64[::1], int64, float64[::1])")
 def blocked_parts(shape, rows, near, count, limits):  # type: ignore[no-untyped-def]
     """Return the parts (m, 2) of an element's piece to which a near row comes nearer than the level.
 
-    limits: level, slack, u0, u1.
+    limits: level, slack, u0, u1, shortest piece as a fraction, length of the whole element.
     """
     level, slack, u0, u1 = limits[0], limits[1], limits[2], limits[3]
     blocked, blocks = np.empty((16, 2)), 0
     cuts = np.empty(16)
     for c in range(count):
         j = near[c]
-        if j < 0:
-            continue
         m = cut(shape, rows, j, level, u0, u1, cuts)
         for k in range(m - 1):
             x, y = place(shape, (cuts[k] + cuts[k + 1]) / 2)
@@ -228,7 +239,7 @@ def trim(rows, vertices, order, nodes, boxes, active, level_slack, pieces):  # t
         pieces: where to write; a return value of len(pieces) means that there was not enough room.
     """
     count = 0
-    shape, box, limits = np.empty(6), np.empty(4), np.empty(5)
+    shape, box, limits = np.empty(6), np.empty(4), np.empty(6)
     near = np.empty(len(rows), np.int64)
     limits[0], limits[1] = level_slack[0], level_slack[1]
     for a in range(len(active)):
@@ -236,13 +247,19 @@ def trim(rows, vertices, order, nodes, boxes, active, level_slack, pieces):  # t
         if not element(rows, vertices, e, limits[0], shape):
             continue
         length = math.hypot(shape[3] - shape[1], shape[4] - shape[2]) if shape[0] == 0.0 else abs(shape[5]) * shape[3]
-        limits[4] = SHORTEST / max(length, SHORTEST)
+        limits[4], limits[5] = SHORTEST / max(length, SHORTEST), length
+        x, y = place(shape, (limits[2] + limits[3]) / 2)
+        if any_nearer(rows, order, nodes, x, y, limits[0] - limits[1] - length * (limits[3] - limits[2]) / 2):
+            continue
         _reach(shape, limits[2], limits[3], limits[0], box)
         found = query_box(order, nodes, boxes, box, near)
+        others = 0
         for c in range(found):
-            if near[c] == e:
-                near[c] = -1
-        blocked, blocks = blocked_parts(shape, rows, near, found, limits)
+            if near[c] != e:
+                near[others] = near[c]
+                others += 1
+        others = _undecided(shape, rows, near, others, limits)
+        blocked, blocks = blocked_parts(shape, rows, near, others, limits)
         count = _keep_rest(blocked, blocks, e, limits, pieces, count)
     return count
 
@@ -259,34 +276,3 @@ def piece_rows(rows, vertices, pieces, level, out):  # type: ignore[no-untyped-d
         if shape[0] == 1.0:
             out[k, 4], out[k, 5], out[k, 6] = shape[1], shape[2], shape[3]
             out[k, 7] = 1.0 if shape[5] > 0.0 else -1.0
-
-
-@kernel("void(float64[:, ::1], int64[::1], float64, int64[::1])")
-def follow(rows, by_x, tolerance, following):  # type: ignore[no-untyped-def]
-    """Write for each row the row that starts nearest to its end, each used once; -1 where none is within tolerance.
-
-    by_x: rows in order of their start's x. Nearest pairs are matched first.
-    """
-    m = len(rows)
-    xs = rows[by_x, 0]
-    taken = np.zeros(m, np.bool_)
-    following[:] = -1
-    reach = 1e-9
-    while reach < 1e3 * tolerance:  # nearest pairs first: ever wider circles
-        radius = min(reach, tolerance)
-        for i in range(m):
-            if following[i] >= 0:
-                continue
-            best, chosen = radius, -1
-            k = np.searchsorted(xs, rows[i, 2] - radius)
-            while k < m and xs[k] <= rows[i, 2] + radius:
-                j = by_x[k]
-                d = math.hypot(rows[j, 0] - rows[i, 2], rows[j, 1] - rows[i, 3])
-                if not taken[j] and d <= best:
-                    best, chosen = d, j
-                k += 1
-            if chosen >= 0:
-                following[i], taken[chosen] = chosen, True
-        if radius == tolerance:
-            return
-        reach *= 10.0
