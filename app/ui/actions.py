@@ -100,9 +100,14 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
 
 
 class Actions:
-    """The window's actions by name."""
+    """The window's actions by name.
+
+    Attributes:
+        recent: the menu of files that were opened lately; whoever opens files fills it.
+    """
 
     def __init__(self, window: QWidget) -> None:
+        self.recent = QMenu("Open &recent", window)
         self.by_name: dict[str, QAction] = {}
         self._icons: dict[str, str] = {}
         self._groups: dict[str, QActionGroup] = {}
@@ -123,6 +128,8 @@ class Actions:
                     menu.addSeparator()
                 else:
                     menu.addAction(self.by_name[spec.name])
+                if spec.name == "open":
+                    menu.addMenu(self.recent)
 
     def set_theme(self, theme: Theme) -> None:
         """Draw every icon anew."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QObject
@@ -36,6 +37,7 @@ class Files(QObject):
         self.exporting = Exporting(window.computation, window.notice, self._choose_nc_file)
         window.dropped.connect(lambda path: self.open_file(Path(path)))
         window.closing.connect(self._on_closing)
+        window.actions_.recent.aboutToShow.connect(self._list_recent)
         self.opening.read.connect(lambda opened: showing.know_size(opened.job.part, opened.size))
         self.opening.opened.connect(self._on_opened)
         self.exporting.written.connect(self._on_written)
@@ -74,6 +76,14 @@ class Files(QObject):
         name, _ = QFileDialog.getOpenFileName(self._window, "Open drawing", self._window.settings.last_folder, opening_files.FILTER)
         if name:
             self.open_file(Path(name))
+
+    def _list_recent(self) -> None:
+        menu = self._window.actions_.recent
+        menu.clear()
+        for name in self._window.settings.recent_files:
+            menu.addAction(name, partial(self.open_file, Path(name)))
+        if menu.isEmpty():
+            menu.addAction("No drawing was opened yet").setEnabled(False)
 
     def _choose_nc_file(self) -> Path | None:
         stem = self._document.path.stem if self._document.path else self._document.part.name

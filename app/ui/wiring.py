@@ -29,7 +29,8 @@ TOOLS = {
     "tool_arc_centre": CanvasTool.ARC_CENTRE, "tool_arc_three": CanvasTool.ARC_THREE, "tool_circle": CanvasTool.CIRCLE,
     "tool_rectangle": CanvasTool.RECTANGLE,
 }
-TOOL_WORDS = {
+WORDS = {
+    "compute": "compute", "cancel": "cancel", "fit": "fit", "export": "export", "new": "new", "open": "open", "findings": "findings",
     "line": "tool_line", "li": "tool_line", "polyline": "tool_polyline", "pl": "tool_polyline", "arc": "tool_arc_centre",
     "ar": "tool_arc_centre", "circle": "tool_circle", "ci": "tool_circle", "rect": "tool_rectangle", "re": "tool_rectangle",
 }
@@ -135,9 +136,6 @@ class Wiring(QObject):
 
     def compute(self) -> None:
         """Compute the paths and show them."""
-        if not self.document.part.entities:
-            self._say("Nothing is drawn yet; draw a closed contour or open a drawing first.")
-            return
         self.window_.notice.dismiss()
         self.computation.start()
         if self.showing.view is View.DRAW:
@@ -150,10 +148,10 @@ class Wiring(QObject):
             self._say("Cancelled; nothing has changed.")
 
     def _on_entered(self, text: str) -> None:
-        name = TOOL_WORDS.get(text.lower())
+        name = WORDS.get(text.lower())
         if name is not None:
-            self.window_.actions_[name].trigger()
             self.window_.canvas.setFocus()
+            self.window_.actions_[name].trigger()
         elif not self.window_.canvas.type_text(text):
             self.run(text)
 

@@ -1,5 +1,7 @@
 """The side panel: fields that accept arithmetic and units, mark what is wrong at once, and change the job undoably."""
 
+from dataclasses import replace
+
 import pytest
 from PySide6.QtCore import Qt
 
@@ -8,7 +10,7 @@ from app.model.job import Job, OriginXY
 from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.model.part import Part
 from app.model.tool import Tool
-from app.ui.panels.changes import Subject, SubjectKind
+from app.ui.panels.changes import Subject, SubjectKind, with_tool
 from app.ui.panels.side_panel import WIDTH, SidePanel
 
 SCROLL_BAR_PX = 8
@@ -162,3 +164,15 @@ def test_nothing_is_wider_than_the_panel(qtbot, document, panel, kind):
     panel.choose(Subject(kind, 1 if kind is SubjectKind.TOOL else 0))
     qtbot.wait(20)
     assert panel.widget().minimumSizeHint().width() <= WIDTH - SCROLL_BAR_PX
+
+
+def test_values_that_do_not_fit_one_another_are_marked(qtbot, document, panel):
+    form = panel.operation_form
+    enter(qtbot, form.cut_depth, "12")
+    assert "the stock is 10 mm thick" in form.cut_depth.reason.text()
+    enter(qtbot, form.stepover, "4")
+    tool = document.job.tool(1)
+    document.change_job("Smaller tool", with_tool(document.job, 1, replace(tool, diameter=3.0)))
+    assert "less than the tool's diameter, 3 mm" in form.stepover.reason.text()
+    document.undo()
+    assert not form.stepover.reason.isVisible()

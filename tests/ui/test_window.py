@@ -329,3 +329,22 @@ def test_drawing_that_changed_while_a_file_was_read_is_kept(qtbot, wiring, sampl
         wiring.document.run("circle 10,10 5")
     assert "was changed while fig2.dxf was being read" in caught.args[0]
     assert len(wiring.document.part.entities) == 1
+
+
+def test_drawings_opened_lately_are_in_the_menu(qtbot, wiring, data):
+    path = data / "dxf" / "genshi.dxf"
+    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+        wiring.files.open_file(path)
+    recent = wiring.window_.actions_.recent
+    recent.aboutToShow.emit()
+    assert recent.actions()[0].text() == str(path)
+    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+        recent.actions()[0].trigger()
+
+
+def test_words_of_the_window_can_be_typed(qtbot, wiring):
+    line = wiring.window_.command_line.edit
+    for words in ("rect 0,0 40,30", "compute"):
+        qtbot.keyClicks(line, words)
+        qtbot.keyClick(line, Qt.Key.Key_Return)
+    assert wiring.computation.state is State.RUNNING

@@ -131,6 +131,10 @@ class ToolForm(Form):
         self.plunge.show_value(tool.plunge_rate)
 
 
+def _too_wide(stepover: float, diameter: float) -> str:
+    return f"Stepover is {stepover:g} mm; use more than 0 and less than the tool's diameter, {diameter:g} mm."
+
+
 class OperationForm(Form):
     """Tool, depth, stepdown, stepover, stock to leave, direction of one operation."""
 
@@ -186,7 +190,7 @@ class OperationForm(Form):
         spec = self.stepover.spec
         value = spec.read(text) if share == text.strip() else spec.read(share) * self._diameter / 100
         if not 0 < value < self._diameter:
-            raise HitofudeError(f"Stepover is {value:g} mm; use more than 0 and less than the tool's diameter, {self._diameter:g} mm.")
+            raise HitofudeError(_too_wide(value, self._diameter))
         return value
 
     def show_operation(self, job: Job, index: int, strokes: int | None) -> None:
@@ -200,8 +204,10 @@ class OperationForm(Form):
         self.tool.set_choices(choices)
         self.tool.show_value(cut.tool)
         passes = max(1, -int(-(cut.depth - 1e-9) // cut.stepdown))
-        below = cut.depth - job.stock.thickness
-        self.cut_depth.show_value(cut.depth, "too deep" if below > 0 else "through" if below == 0 else "")
+        thickness = job.stock.thickness
+        self.cut_depth.show_value(cut.depth, "through" if cut.depth == thickness else "")
+        if cut.depth > thickness:
+            self.cut_depth.refuse(f"Depth is {cut.depth:g} mm, but the stock is {thickness:g} mm thick; reduce it or take thicker stock.")
         self.stepdown.show_value(cut.stepdown, counted(passes, "pass", "passes"))
         self.leave.show_value(cut.stock_to_leave)
         self.direction.show_value(cut.direction)
@@ -215,5 +221,7 @@ class OperationForm(Form):
             value = stepover_of(operation, tool)
             self._diameter = tool.diameter
             self.stepover.show_value(value, f"{100 * value / tool.diameter:.1f} %")
+            if value >= tool.diameter:
+                self.stepover.refuse(_too_wide(value, tool.diameter))
             self.drawing.show_ratio(value / tool.diameter)
             self.overlap.setText(f"{tool.diameter - value:.3f} mm")
