@@ -164,6 +164,13 @@ def test_repeated_edits_of_one_field_are_one_step(document: Document) -> None:
     assert document.undo_name is None
 
 
+def test_an_edit_of_its_own_is_not_merged_with_the_one_before(document: Document) -> None:
+    document.change_job("Stock", replace(document.job, stock=Stock(1.0)))
+    document.change_job("Stock", replace(document.job, stock=Stock(2.0)), merge=True)
+    document.undo()
+    assert document.job.stock == Stock(1.0)
+
+
 def test_the_same_job_again_is_no_change(document: Document) -> None:
     document.change_job("Nothing", replace(document.job))
     assert (document.revision, document.undo_name) == (0, None)

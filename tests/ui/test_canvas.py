@@ -289,6 +289,15 @@ def test_the_middle_button_and_space_pan(plate: Hand) -> None:
     assert plate.document.selection == frozenset()
 
 
+@pytest.mark.parametrize("step", [(3, 0), (0, -5), (-40, 25), (300, -200), (2000, 0)])
+def test_a_panned_picture_equals_one_painted_anew(plate: Hand, step: tuple[int, int]) -> None:
+    plate.canvas.grab()
+    plate.canvas.set_view(plate.canvas.view.panned(*step))
+    shifted = plate.canvas.grab().toImage()
+    plate.canvas.repaint_scene()
+    assert shifted == plate.canvas.grab().toImage()
+
+
 def test_f_glides_to_the_whole_part(plate: Hand) -> None:
     plate.key(Qt.Key.Key_F)
     plate.qtbot.waitUntil(lambda: plate.canvas.view.scale > 7, timeout=2000)

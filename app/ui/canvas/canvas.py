@@ -52,6 +52,7 @@ class Canvas(Hands):
         self._lit_path = QPainterPath()
         self._fresh = True
         self.setMinimumSize(200, 150)
+        self.setAccessibleName("Drawing")
         document.subscribe(self._follow)
         self._follow(Change.ALL)
 
