@@ -10,6 +10,7 @@ from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPen, Q
 from app.model.finding import Finding
 from app.ui.canvas.curve_path import curve_path
 from app.ui.canvas.drawing_tool import Preview
+from app.ui.canvas.pens import screen_pen
 from app.ui.canvas.snap import Snap, SnapKind
 from app.ui.canvas.view import View
 from app.ui.theme import Theme, text_font
@@ -24,10 +25,10 @@ def paint_preview(painter: QPainter, view: View, preview: Preview, theme: Theme)
     painter.setTransform(view.transform(), True)
     painter.setBrush(Qt.BrushStyle.NoBrush)
     if preview.helpers:
-        painter.setPen(_pen(theme.muted, 1.0, (4.0, 4.0)))
+        painter.setPen(screen_pen(painter, theme.muted, 1.0, (4.0, 4.0)))
         painter.drawPath(curve_path(*preview.helpers))
     if preview.curves:
-        painter.setPen(_pen(theme.accent, 1.8))
+        painter.setPen(screen_pen(painter, theme.accent, 1.8))
         painter.drawPath(curve_path(*preview.curves))
     painter.restore()
 
@@ -109,7 +110,7 @@ def paint_band(painter: QPainter, start: QPointF, end: QPointF, theme: Theme) ->
     fill = QColor(theme.selection)
     fill.setAlphaF(0.10)
     painter.setBrush(fill)
-    painter.setPen(_pen(theme.accent_text, 1.0, () if end.x() >= start.x() else (4.0, 3.0)))
+    painter.setPen(screen_pen(painter, theme.accent_text, 1.0, () if end.x() >= start.x() else (4.0, 3.0)))
     painter.drawRect(QRectF(start, end).normalized())
 
 
@@ -121,7 +122,7 @@ def paint_highlight(painter: QPainter, view: View, path: QPainterPath, theme: Th
     painter.setTransform(view.transform(), True)
     painter.setBrush(Qt.BrushStyle.NoBrush)
     for colour, broad in ((glow, width + 4), (theme.accent_text, width - 0.7)):
-        pen = _pen(colour, broad)
+        pen = screen_pen(painter, colour, broad)
         pen.setCapStyle(Qt.PenCapStyle.RoundCap)
         pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
         painter.setPen(pen)
@@ -145,11 +146,3 @@ def paint_findings(painter: QPainter, view: View, findings: tuple[Finding, ...],
 def snap_name(snap: Snap | None) -> str:
     """Return the word for a snap, or ""."""
     return _SNAP_NAMES[snap.kind] if snap else ""
-
-
-def _pen(colour: QColor, width: float, dashes: tuple[float, ...] = ()) -> QPen:
-    pen = QPen(colour, width)
-    pen.setCosmetic(True)
-    if dashes:
-        pen.setDashPattern(list(dashes))
-    return pen

@@ -11,10 +11,11 @@ from app.model.curves import Curve, Point
 from app.model.part import Entity, Part
 from app.ui.canvas.chunks import PartChunks
 from app.ui.canvas.curve_path import MANY, add_curve
+from app.ui.canvas.pens import FINE, screen_pen
 from app.ui.canvas.view import View
 from app.ui.theme import Theme
 
-PART_WIDTH = 1.25
+PART_WIDTH, SELECTED_WIDTH = 1.25, 2.6
 _BATCH = 64
 
 
@@ -53,10 +54,10 @@ class PartPicture:
         fine = sum(path.elementCount() for c in seen for path in c.paths.values()) > MANY
         for chunk in seen:
             for layer, path in chunk.paths.items():
-                painter.setPen(_pen(QColor(self._colours.get(layer) or theme.ink), 1.0 if fine else PART_WIDTH))
+                painter.setPen(_round_pen(painter, QColor(self._colours.get(layer) or theme.ink), FINE if fine else PART_WIDTH))
                 painter.drawPath(path)
         fine = sum(path.elementCount() for path in self._selected) > MANY
-        painter.setPen(_pen(theme.selection, 1.0 if fine else 2.6))
+        painter.setPen(_round_pen(painter, theme.selection, FINE if fine else SELECTED_WIDTH))
         for path in self._selected:
             painter.drawPath(path)
         painter.restore()
@@ -89,9 +90,8 @@ def _distance(curve: Curve, at: Point) -> float:
     return float(np.hypot(*(a + share[:, None] * d - at).T).min())
 
 
-def _pen(colour: QColor, width: float) -> QPen:
-    pen = QPen(colour, width)
-    pen.setCosmetic(True)
+def _round_pen(painter: QPainter, colour: QColor, width: float) -> QPen:
+    pen = screen_pen(painter, colour, width)
     pen.setCapStyle(Qt.PenCapStyle.RoundCap)
     pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
     return pen

@@ -12,13 +12,14 @@ from app.edit.sample import Box
 from app.model.moves import Program, Purpose
 from app.ui.canvas.curve_path import MANY, chain_path
 from app.ui.canvas.modes import ColourBy, PathLayers
+from app.ui.canvas.pens import FINE, screen_pen
 from app.ui.canvas.program_chunks import PathStyle, chunks, plunges, rapids, rapids_path
 from app.ui.canvas.program_geometry import shape_moves
 from app.ui.canvas.view import View
 from app.ui.theme import Theme
 
 CUT_WIDTH, LINK_WIDTH, RAPID_WIDTH = 1.6, 1.0, 1.0
-CONTOUR_DASHES, RAPID_DOTS = (3.75, 2.25), (1.2, 2.6)
+CONTOUR_DASHES, RAPID_DOTS = (6.0, 3.6), (1.2, 2.6)
 _LAYER_OF = {
     Purpose.RAPID: PathLayers.RAPID, Purpose.PLUNGE: PathLayers.PLUNGE, Purpose.CONTOUR: PathLayers.CONTOUR,
     Purpose.POCKET: PathLayers.POCKET, Purpose.LINK: PathLayers.LINK, Purpose.LEAD: PathLayers.LEAD,
@@ -73,27 +74,26 @@ class ProgramPicture:
             self._paint_regions(painter, look)
         painter.setBrush(Qt.BrushStyle.NoBrush)
         if PathLayers.RAPID in look.layers:
-            painter.setPen(_pen(look.theme.rapid, RAPID_WIDTH, RAPID_DOTS))
+            painter.setPen(screen_pen(painter, look.theme.rapid, RAPID_WIDTH, RAPID_DOTS))
             painter.drawPath(rapids_path(self._rapids, box))
         boxes = self._boxes
         near = (boxes[:, 0] <= box[2]) & (boxes[:, 2] >= box[0]) & (boxes[:, 1] <= box[3]) & (boxes[:, 3] >= box[1])
         seen = np.flatnonzero(near & (self._layers & look.layers.value != 0))
         fine = int(self._sizes[seen].sum()) > MANY
         for chunk in (self._chunks[k] for k in seen):
-            pen = self.pen(chunk.style, look, fine)
+            pen = self._pen(painter, chunk.style, look, fine)
             if chunk.begins_at:
-                pen.setDashOffset(chunk.begins_at * view.scale / pen.widthF())
+                pen.setDashOffset(chunk.begins_at * view.scale * painter.device().devicePixelRatioF() / pen.widthF())
             painter.setPen(pen)
             painter.drawPath(chunk.path)
         painter.restore()
         if PathLayers.PLUNGE in look.layers:
             self._paint_plunges(painter, view, box, look.theme)
 
-    def pen(self, style: PathStyle, look: PathLook, fine: bool = False) -> QPen:
-        """Return the pen for paths of a style; `fine` ones are one px."""
-        width = 1.0 if fine else LINK_WIDTH if style.purpose in (Purpose.LINK, Purpose.LEAD) else CUT_WIDTH
+    def _pen(self, painter: QPainter, style: PathStyle, look: PathLook, fine: bool) -> QPen:
+        width = LINK_WIDTH if style.purpose in (Purpose.LINK, Purpose.LEAD) else CUT_WIDTH
         dashes = CONTOUR_DASHES if style.purpose is Purpose.CONTOUR else ()
-        return _pen(self._colour(style, look), width, tuple(d * CUT_WIDTH / width for d in dashes))
+        return screen_pen(painter, self._colour(style, look), FINE if fine else width, dashes)
 
     def _colour(self, style: PathStyle, look: PathLook) -> QColor:
         theme = look.theme
@@ -126,16 +126,6 @@ class ProgramPicture:
             painter.drawPath(rings)
         painter.setPen(QPen(theme.plunge, 3.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
         painter.drawPoints(places)
-
-
-def _pen(colour: QColor, width: float, dashes: tuple[float, ...] = ()) -> QPen:
-    pen = QPen(colour, width)
-    pen.setCosmetic(True)
-    pen.setCapStyle(Qt.PenCapStyle.FlatCap)
-    pen.setJoinStyle(Qt.PenJoinStyle.BevelJoin)
-    if dashes:
-        pen.setDashPattern(list(dashes))
-    return pen
 
 
 def _roles(styles: list[PathStyle]) -> dict[tuple[int, int], str]:
