@@ -122,6 +122,7 @@ class Wiring(QObject):
         window.actions_["tool_select"].setChecked(True)
         canvas.cursor_moved.connect(window.status.show_place)
         canvas.cursor_moved.connect(lambda *_: window.status.show_grid(canvas.grid_step))
+        window.status.show_grid(canvas.grid_step)
         canvas.prompt_changed.connect(window.command_line.set_prompt)
         canvas.hovered.connect(self.showing.show_hovered)
         canvas.message.connect(lambda text: window.status.show_message(text, error=True))

@@ -94,7 +94,8 @@ class _Runner(threading.Thread):
         except Exception as fault:
             traceback.print_exc()
             error = f"The program made a mistake here ({type(fault).__name__}: {fault}). Your drawing is safe; please report this."
-        self._worker.answered.emit(Answer(work.job_id, work.revision, value, error))
+        if not work.cancelled.is_set():
+            self._worker.answered.emit(Answer(work.job_id, work.revision, value, error))
 
 
 class Worker(QObject):

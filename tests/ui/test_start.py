@@ -38,3 +38,23 @@ def test_commands_go_to_the_command_line_without_the_window():
     done = hitofude("--version", before="sys.modules['PySide6'] = None")
     assert done.returncode == 0
     assert done.stdout.startswith("hitofude ")
+
+
+CLOSE_WHILE_COMPUTING = """
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication
+import app.ui.wiring as wiring
+plain = wiring.Wiring.__init__
+def watched(self, window):
+    plain(self, window)
+    self.files.opening.opened.connect(lambda _: (self.compute(), QTimer.singleShot(300, window.close)))
+wiring.Wiring.__init__ = watched
+"""
+
+
+def test_window_closed_while_computing_ends_cleanly(data, tmp_path):
+    drawing = str(data / "dxf" / "complex.dxf")
+    done = hitofude("open", drawing, before=f"exec({CLOSE_WHILE_COMPUTING!r})", QT_QPA_PLATFORM="offscreen", HITOFUDE_CONFIG=str(tmp_path))
+    assert done.returncode == 0, done.stderr
+    assert "Traceback" not in done.stderr
+    assert (tmp_path / "settings.json").exists()
