@@ -144,4 +144,4 @@ def _cleared_before(moves: Moves, k: int, radius: dict[int, float]) -> bool:
     point = np.repeat([np.concatenate([moves.end[k, :2], moves.end[k, :2], [0, 0, 0, 0]])], len(chosen), axis=0)
     distance, _ = curve_distance(rows, point)
     larger = np.array([radius[int(tool)] for tool in moves.tool[chosen]]) - radius[int(moves.tool[k])]
-    return bool(np.any((larger >= 0) & (distance <= larger + 1e-6)))
+    return bool(np.any(distance <= larger + 1e-6))

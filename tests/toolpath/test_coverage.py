@@ -145,3 +145,19 @@ def test_an_uncertain_tile_lies_wherever_the_floor_is_not_cut() -> None:
     tiles = shapely.union_all(uncertain(area, [path], 3.0))
     assert tiles.covers(uncut)
     assert 0 < area.difference(tiles).area < area.area - uncut.area
+
+
+def test_ramps_and_rapids_do_not_clear_the_floor() -> None:
+    ramp = Path().into_work(-7, 0, 0).line(7, 0, -2).out_of_work().rapid(0, 7, 5).rapid(0, 7, -2).rapid(0, -7, -2).rapid(0, -7, 5)
+    assert measure(ramp.program(DISC), one_tool()).reachable_left_mm2 == pytest.approx(math.pi * 100, rel=1e-3)
+
+
+def test_regions_that_touch_have_a_wall_between_them() -> None:
+    """Two slots side by side, each cut along its walls: the tool must not be asked to cross the wall between them."""
+    path = Path()
+    for low in (0, 7):
+        path.into_work(3, low + 3, -2).line(27, low + 3, -2).line(27, low + 4, -2).line(3, low + 4, -2).line(3, low + 3, -2).out_of_work()
+    slots = (square(0, 0, 30, 7), replace(square(0, 7, 30, 14), number=2))
+    found = measure(path.program(*slots), one_tool())
+    assert found.reachable_left_mm2 == 0
+    assert found.unreachable_mm2 == pytest.approx(8 * (1 - math.pi / 4) * 9, abs=0.02)

@@ -88,3 +88,12 @@ def test_a_rapid_down_to_a_floor_that_is_cleared_is_safe() -> None:
     assert rapids_in_material(path.out_of_work().program(), job()) == ()
     beside = Path().into_work(10, 10, -1.0).line(20, 10, -1.0).out_of_work().rapid(15, 10.01, 5).rapid(15, 10.01, -0.5)
     assert len(rapids_in_material(beside.out_of_work().program(), job())) == 1
+
+
+def test_a_rapid_down_where_only_a_smaller_tool_or_a_ramp_has_been_is_found() -> None:
+    path = Path(tool=2, operation=1).into_work(10, 10, -1.0).line(20, 10, -1.0).out_of_work()
+    path.tool, path.operation = 1, 0
+    path.rapid(15, 10, 5).rapid(15, 10, -0.5).out_of_work()
+    assert len(rapids_in_material(path.program(), job())) == 1
+    ramp = Path().into_work(10, 10, 0.0).line(20, 10, -1.0).rapid(20, 10, 5).rapid(12, 10, 5).rapid(12, 10, -0.5).out_of_work()
+    assert len(rapids_in_material(ramp.program(), job())) == 1

@@ -133,7 +133,7 @@ def test_fig2_is_clean_and_its_corners_are_told() -> None:
     assert report["left"]["reachable_mm2"] == 0
     assert report["left"]["unreachable_mm2"] == pytest.approx(2.66, abs=0.01)
     assert [each["number"] for each in report["regions"]] == [1, 2]
-    assert (report["strokes"], report["open_contours"], report["skipped"]) == (2, [], [])
+    assert (report["strokes"], report["retracts"], report["open_contours"], report["skipped"]) == (2, 5, [], [])
     assert [(each["kind"], each["tool"]) for each in report["operations"]] == [("pocket", 1), ("contour", 2)]
     assert report["operations"][0]["stepover_mm"] == 3.0
     assert sum(each["time_s"] for each in report["operations"]) < report["time_s"]
@@ -145,6 +145,7 @@ def test_gear_tells_the_rest_that_its_pocket_tool_leaves() -> None:
     assert this.report.data["left"]["reachable_mm2"] == pytest.approx(30.5, abs=0.3)
     assert not this.clean
     assert any(finding.kind is FindingKind.LEFT_REACHABLE and finding.counts for finding in this.findings)
+    assert any("names no units" in finding["text"] for finding in this.report.data["findings"])
 
 
 def test_every_region_that_no_tool_fits_is_named_and_counts() -> None:
