@@ -86,10 +86,10 @@ class Canvas(Hands):
         self.look_at(None)
         self.repaint_scene()
 
-    def set_program(self, program: Program | None) -> None:
-        """Show these tool paths in PATHS; None shows none."""
+    def set_program(self, program: Program | ProgramPicture | None) -> None:
+        """Show these tool paths in PATHS; None shows none. A picture that another thread has prepared costs nothing here."""
         self.look_at(None)
-        self._program = ProgramPicture(program) if program is not None else None
+        self._program = ProgramPicture(program) if isinstance(program, Program) else program
         self.repaint_scene()
 
     def set_findings(self, findings: tuple[Finding, ...]) -> None:

@@ -30,20 +30,9 @@ MANY = 5000
 def add_curve(path: QPainterPath, curve: Curve) -> None:
     """Add a curve to a path in mm, from its start."""
     path.moveTo(*curve.start)
-    if isinstance(curve, Line):
-        path.lineTo(*curve.end)
-    elif isinstance(curve, Arc):
-        _add_turn(path, curve.centre, (curve.radius, 0.0), 1.0, (curve.start_angle, curve.sweep))
-        path.lineTo(*curve.end)
-    elif isinstance(curve, Circle):
-        _add_turn(path, curve.centre, (curve.radius, 0.0), 1.0, (0.0, math.tau if curve.ccw else -math.tau))
+    _continue(path, curve)
+    if isinstance(curve, Circle):
         path.closeSubpath()
-    elif isinstance(curve, Ellipse):
-        first, last = curve.start_parameter, curve.end_parameter
-        span = (first, last - first) if curve.ccw else (last, first - last)
-        _add_turn(path, curve.centre, curve.major, curve.ratio, span)
-    else:
-        _add_spline(path, curve)
 
 
 def curve_path(*curves: Curve) -> QPainterPath:
@@ -56,15 +45,10 @@ def curve_path(*curves: Curve) -> QPainterPath:
 
 def chain_path(curves: tuple[Curve, ...], path: QPainterPath) -> None:
     """Add curves that join end to end as one closed outline that can be filled."""
-    whole = QPainterPath()
+    path.moveTo(*curves[0].start)
     for curve in curves:
-        piece = curve_path(curve)
-        if whole.elementCount():
-            whole.connectPath(piece)
-        else:
-            whole = piece
-    whole.closeSubpath()
-    path.addPath(whole)
+        _continue(path, curve)
+    path.closeSubpath()
 
 
 def path_of(*runs: bytes) -> QPainterPath:
@@ -77,6 +61,23 @@ def path_of(*runs: bytes) -> QPainterPath:
     stream = QDataStream(data, QIODevice.OpenModeFlag.ReadOnly)  # the stream only points to the data: keep it
     stream >> path
     return path
+
+
+def _continue(path: QPainterPath, curve: Curve) -> None:
+    """Add a curve to a path that has come to its start."""
+    if isinstance(curve, Line):
+        path.lineTo(*curve.end)
+    elif isinstance(curve, Arc):
+        _add_turn(path, curve.centre, (curve.radius, 0.0), 1.0, (curve.start_angle, curve.sweep))
+        path.lineTo(*curve.end)
+    elif isinstance(curve, Circle):
+        _add_turn(path, curve.centre, (curve.radius, 0.0), 1.0, (0.0, math.tau if curve.ccw else -math.tau))
+    elif isinstance(curve, Ellipse):
+        first, last = curve.start_parameter, curve.end_parameter
+        span = (first, last - first) if curve.ccw else (last, first - last)
+        _add_turn(path, curve.centre, curve.major, curve.ratio, span)
+    else:
+        _add_spline(path, curve)
 
 
 def _add_turn(path: QPainterPath, centre: Point, major: Point, ratio: float, span: tuple[float, float]) -> None:

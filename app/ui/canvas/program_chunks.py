@@ -12,7 +12,7 @@ from PySide6.QtGui import QPainterPath
 from app.edit.sample import Box
 from app.model.moves import Purpose
 from app.ui.canvas.curve_path import ELEMENT, LINE_TO, path_of
-from app.ui.canvas.program_geometry import RUN, Ints, MoveShapes
+from app.ui.canvas.program_geometry import RUN, MoveShapes
 
 Floats = NDArray[np.float64]
 
@@ -47,10 +47,10 @@ class _Runs:
     """The runs of a program as columns: style number, bytes of painter path elements, box in mm, length of the piece before, mm."""
 
     styles: list[PathStyle]
-    style: Ints
+    style: list[int]
     data: list[bytes]
-    boxes: Floats
-    begins_at: Floats
+    boxes: list[list[float]]
+    begins_at: list[float]
 
 
 def chunks(shapes: MoveShapes) -> list[PathChunk]:
@@ -61,7 +61,7 @@ def chunks(shapes: MoveShapes) -> list[PathChunk]:
     waiting: dict[int, list[int]] = {}
     found: list[PathChunk] = []
     seen: set[tuple[int, bytes]] = set()
-    for run, number in enumerate(runs.style.tolist()):
+    for run, number in enumerate(runs.style):
         mark = (number, runs.data[run])
         if runs.styles[number].purpose in (Purpose.PLUNGE, Purpose.RAPID) or mark in seen:
             continue
@@ -110,11 +110,10 @@ def _runs(shapes: MoveShapes) -> _Runs:
     piece_first = shapes.first[shapes.piece[first]]
     begins_at = np.where(first > piece_first, before[first] - before[piece_first], 0.0)
     begins_at[keys[:, 0] != Purpose.CONTOUR] = 0.0
-    return _Runs(styles, style.ravel(), data, boxes, begins_at)
+    return _Runs(styles, style.ravel().tolist(), data, boxes.tolist(), begins_at.tolist())
 
 
 def _chunk(runs: _Runs, batch: list[int]) -> PathChunk:
-    (x0, y0), (x1, y1) = runs.boxes[batch, :2].min(axis=0), runs.boxes[batch, 2:].max(axis=0)
+    x0, y0, x1, y1 = zip(*(runs.boxes[run] for run in batch), strict=True)
     path = path_of(*(runs.data[run] for run in batch))
-    box = (float(x0), float(y0), float(x1), float(y1))
-    return PathChunk(runs.styles[runs.style[batch[0]]], path, box, float(runs.begins_at[batch[0]]))
+    return PathChunk(runs.styles[runs.style[batch[0]]], path, (min(x0), min(y0), max(x1), max(y1)), runs.begins_at[batch[0]])

@@ -57,7 +57,7 @@ class MoveShapes:
 
 def shape_moves(moves: Moves) -> MoveShapes:
     """Return the moves prepared for painting and picking."""
-    start, sweep = moves.start, moves.sweeps()
+    start, sweep, length = moves.start, moves.sweeps(), moves.lengths()
     key = np.stack([moves.operation, moves.purpose, moves.tool, moves.region]).astype(np.int64)
     change = np.flatnonzero(np.any(np.diff(key, axis=1) != 0, axis=0)) + 1
     first = np.concatenate([[0], change]).astype(np.int64) if len(moves) else np.zeros(0, np.int64)
@@ -67,7 +67,7 @@ def shape_moves(moves: Moves) -> MoveShapes:
     run = np.append(np.flatnonzero(heads), len(moves)).astype(np.int64)
     elements, offset = _elements(moves, start, sweep, heads)
     boxes = _boxes(moves, start, sweep)
-    return MoveShapes(moves, start, sweep, moves.lengths(), boxes, piece, first, last, run, elements, offset)
+    return MoveShapes(moves, start, sweep, length, boxes, piece, first, last, run, elements, offset)
 
 
 def _elements(moves: Moves, start: Floats, sweep: Floats, heads: NDArray[np.bool_]) -> tuple[Elements, Ints]:
