@@ -36,8 +36,8 @@ class NcView(QAbstractScrollArea):
         self._theme: Theme = LIGHT
         self.lines: list[str] = []
         self.current = -1
-        self._purpose: dict[int, int] = {}
-        self._move_of: dict[int, int] = {}
+        self._line_of_move: NDArray[np.int32] = np.zeros(0, np.int32)
+        self._purpose_of_move: NDArray[np.uint8] = np.zeros(0, np.uint8)
         self.setFrameShape(QAbstractScrollArea.Shape.NoFrame)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName("NC program")
@@ -52,12 +52,11 @@ class NcView(QAbstractScrollArea):
 
         Args:
             text: the program, lines ended by newline.
-            lines: (n,) which line of the text holds each move, 1-based.
+            lines: (n,) which line of the text holds each move, 1-based, not decreasing.
             moves: n moves.
         """
         self.lines = text.splitlines()
-        self._move_of = dict(zip(lines[::-1].tolist(), range(len(lines) - 1, -1, -1), strict=True))
-        self._purpose = dict(zip(lines.tolist(), moves.purpose.tolist(), strict=True))
+        self._line_of_move, self._purpose_of_move = lines, moves.purpose
         self.current = -1
         self._set_range()
         self.verticalScrollBar().setValue(0)
@@ -74,8 +73,13 @@ class NcView(QAbstractScrollArea):
         elif row >= bar.value() + self._rows() - 1:
             bar.setValue(row - self._rows() + 2)
         self.viewport().update()
-        if row + 1 in self._move_of:
-            self.line_picked.emit(self._move_of[row + 1])
+        move = self._move_in(row)
+        if move is not None:
+            self.line_picked.emit(move)
+
+    def _move_in(self, row: int) -> int | None:
+        move = int(np.searchsorted(self._line_of_move, row + 1))
+        return move if move < len(self._line_of_move) and self._line_of_move[move] == row + 1 else None
 
     def _rows(self) -> int:
         return max(1, (self.viewport().height() - 16) // _LINE_PX)
@@ -124,9 +128,9 @@ class NcView(QAbstractScrollArea):
         top, gutter = place
         if row == self.current:
             painter.fillRect(0, top, self.viewport().width(), _LINE_PX, self._theme.chosen)
-        purpose = self._purpose.get(row + 1)
-        if purpose is not None:
-            painter.fillRect(QRectF(14, top + 3, 3, _LINE_PX - 6), _COLOURS[purpose](self._theme))
+        move = self._move_in(row)
+        if move is not None:
+            painter.fillRect(QRectF(14, top + 3, 3, _LINE_PX - 6), _COLOURS[int(self._purpose_of_move[move])](self._theme))
         painter.setPen(self._theme.muted)
         painter.drawText(QRectF(20, top, gutter - 32, _LINE_PX), Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, str(row + 1))
         x = float(gutter)
