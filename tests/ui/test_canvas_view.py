@@ -122,6 +122,11 @@ def test_every_curve_is_painted_true_to_its_shape(curve: Curve) -> None:
     assert painted[-1] == pytest.approx(curve.end)
 
 
+def test_curves_that_meet_are_painted_as_one_stroke() -> None:
+    path = curve_path(Line((0, 0), (5, 0)), Line((5, 0), (5, 5)), Circle((20, 0), 3), Line((23, 0), (30, 0)), Line((40, 0), (50, 0)))
+    assert [k for k in range(path.elementCount()) if path.elementAt(k).isMoveTo()] == [0, 3, 28, 30]
+
+
 def test_a_chain_is_one_outline_that_can_be_filled() -> None:
     path = QPainterPath()
     chain_path((Line((0, 0), (10, 0)), Arc((10, 0), (0, 10), (0, 0)), Line((0, 10), (0, 0))), path)

@@ -12,7 +12,7 @@ from PySide6.QtGui import QPainterPath
 
 from app.edit.sample import Box, bounds
 from app.model.part import Entity, Part
-from app.ui.canvas.curve_path import add_curve
+from app.ui.canvas.curve_path import curve_path
 from app.ui.canvas.snap import SnapPoints, no_snap_points, snap_points
 
 _BITS = 6
@@ -83,9 +83,8 @@ def _by_number(entities: Iterable[Entity]) -> Iterable[tuple[int, Iterable[Entit
 
 
 def _built(entities: tuple[Entity, ...]) -> Chunk:
-    paths: dict[str, QPainterPath] = {}
-    for entity in entities:
-        add_curve(paths.setdefault(entity.layer, QPainterPath()), entity.curve)
+    layers = dict.fromkeys(e.layer for e in entities)
+    paths = {layer: curve_path(*(e.curve for e in entities if e.layer == layer)) for layer in layers}
     boxes = np.array([bounds(e.curve) for e in entities])
     (x0, y0), (x1, y1) = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
     snaps = snap_points([e.curve for e in entities])

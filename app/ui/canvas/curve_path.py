@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import struct
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,19 +28,23 @@ MANY = 5000
 """A scene with more elements in view is painted with pens of one px, which Qt strokes about eight times as fast."""
 
 
-def add_curve(path: QPainterPath, curve: Curve) -> None:
-    """Add a curve to a path in mm, from its start."""
-    path.moveTo(*curve.start)
-    _continue(path, curve)
-    if isinstance(curve, Circle):
-        path.closeSubpath()
+def add_curves(path: QPainterPath, curves: Iterable[Curve]) -> None:
+    """Add curves to a path in mm; one that begins where the one before ends is joined to it, which looks finer and paints faster."""
+    at: Point | None = None
+    for curve in curves:
+        if curve.start != at:
+            path.moveTo(*curve.start)
+        _continue(path, curve)
+        at = curve.end
+        if isinstance(curve, Circle):
+            path.closeSubpath()
+            at = None
 
 
 def curve_path(*curves: Curve) -> QPainterPath:
     """Return the painter path in mm of some curves."""
     path = QPainterPath()
-    for curve in curves:
-        add_curve(path, curve)
+    add_curves(path, curves)
     return path
 
 

@@ -10,7 +10,7 @@ from app.edit.sample import Box, sample
 from app.model.curves import Curve, Point
 from app.model.part import Entity, Part
 from app.ui.canvas.chunks import PartChunks
-from app.ui.canvas.curve_path import MANY, add_curve
+from app.ui.canvas.curve_path import MANY, curve_path
 from app.ui.canvas.pens import FINE, screen_pen
 from app.ui.canvas.view import View
 from app.ui.theme import Theme
@@ -42,7 +42,7 @@ class PartPicture:
     def select(self, ids: frozenset[int]) -> None:
         """Take over another selection."""
         chosen = [e for e in self.lookup.entities if e.id in ids] if ids else []
-        self._selected = [_path(chosen[at:at + _BATCH]) for at in range(0, len(chosen), _BATCH)]
+        self._selected = [curve_path(*(e.curve for e in chosen[at:at + _BATCH])) for at in range(0, len(chosen), _BATCH)]
 
     def paint(self, painter: QPainter, view: View, box: Box, theme: Theme) -> None:
         """Paint what lies in a box in mm; the painter works in screen px."""
@@ -73,13 +73,6 @@ class PartPicture:
             if entity.layer not in self._locked and (distance := _distance(entity.curve, at)) <= found[0]:
                 found = (distance, entity)
         return found[1]
-
-
-def _path(entities: list[Entity]) -> QPainterPath:
-    path = QPainterPath()
-    for entity in entities:
-        add_curve(path, entity.curve)
-    return path
 
 
 def _distance(curve: Curve, at: Point) -> float:
