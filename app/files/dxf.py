@@ -14,6 +14,7 @@ from app.files.drawing import Drawing
 from app.files.dxf_affine import scaled, transformed
 from app.files.dxf_blocks import Sheet, Walker
 from app.files.dxf_load import load
+from app.geometry.chain_pieces import within_reach
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity, Layer, Part, Units
@@ -48,7 +49,7 @@ def read_dxf(data: bytes, name: str = "drawing.dxf", units: Units | None = None,
     factor, shown, named = _units(document, data, units)
     sheet = Walker(document, name).sheet(document.modelspace())
     left_out = sheet.left_out + _paper(document)
-    entities, without_length = _entities(sheet, factor, _spelling(document))
+    entities, without_length = _entities(sheet, factor, _spelling(document), left_out)
     if not entities:
         raise InputError(f"{name}: the drawing has no lines, arcs or curves to machine{_listed(left_out, '; left out: ')}.")
     part = Part(name=PurePath(name).stem, units=shown, layers=_layers(document)).with_entities(entities)
@@ -84,33 +85,38 @@ def _spelling(document: Any) -> dict[str, str]:
     return {layer.dxf.name.casefold(): layer.dxf.name for layer in document.layers}
 
 
-def _entities(sheet: Sheet, factor: float, spelling: dict[str, str]) -> tuple[tuple[Entity, ...], list[Point | None]]:
-    """Return all curves that have a length, in mm and numbered from 1, and the places of those that have none."""
+def _entities(
+    sheet: Sheet, factor: float, spelling: dict[str, str], left_out: Counter[str],
+) -> tuple[tuple[Entity, ...], list[Point | None]]:
+    """Return all curves that have a length, in mm and numbered from 1, and the places of those that have none.
+
+    Curves that are not within 1 km are counted in `left_out`.
+    """
     to_mm = scaled(factor)
     entities: list[Entity] = []
     nothing = [None if p is None else to_mm.point(p) for p in sheet.without_length]
     for curve, layer in sheet.curves:
         drawn = transformed(curve, to_mm) if factor != 1.0 else curve
-        if drawn is None or not _has_length(drawn):
-            nothing.append(None if drawn is None or not all(map(math.isfinite, drawn.start)) else drawn.start)
+        if drawn is None or (within_reach(drawn) and not _has_length(drawn)):
+            nothing.append(None if drawn is None else drawn.start)
+            continue
+        if not within_reach(drawn):
+            left_out["curve beyond 1 km or without a place"] += 1
             continue
         entities.append(Entity(len(entities) + 1, _straightened(drawn), spelling.get(layer.casefold(), layer)))
     return tuple(entities), nothing
 
 
 def _has_length(curve: Curve) -> bool:
-    """True for a curve of finite numbers that is longer than WELD; NaN fails every comparison."""
-    if isinstance(curve, Line):
-        return tolerances.WELD <= math.dist(curve.start, curve.end) < math.inf
-    if isinstance(curve, Arc):
-        return math.dist(curve.start, curve.end) >= tolerances.WELD and curve.radius < math.inf
+    """True for a curve that is longer than WELD."""
+    if isinstance(curve, Line | Arc):
+        return math.dist(curve.start, curve.end) >= tolerances.WELD
     if isinstance(curve, Circle):
-        return tolerances.WELD <= curve.radius < math.inf and math.isfinite(sum(curve.centre))
+        return curve.radius >= tolerances.WELD
     if isinstance(curve, Ellipse):
-        size = math.hypot(*curve.major) * (curve.end_parameter - curve.start_parameter)
-        return tolerances.WELD <= size < math.inf and math.isfinite(sum(curve.centre))
+        return math.hypot(*curve.major) * (curve.end_parameter - curve.start_parameter) >= tolerances.WELD
     first = curve.control_points[0]
-    return tolerances.WELD <= max(math.dist(first, p) for p in curve.control_points) < math.inf
+    return max(math.dist(first, p) for p in curve.control_points) >= tolerances.WELD
 
 
 def _straightened(curve: Curve) -> Curve:

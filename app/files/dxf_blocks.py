@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from math import cos, isfinite, radians, sin
 from typing import Any
 
-from app.errors import InputError
+from app.errors import HitofudeError, InputError
 from app.files.dxf_affine import Affine, transformed
 from app.files.dxf_curves import NoLengthError, curves_of, heights_of, plane_of
 from app.model.curves import Curve, Point
@@ -61,14 +61,22 @@ class Walker:
         sheet = Sheet()
         for entity in entities:
             kind = entity.dxftype()
-            if entity.dxf.hasattr("invisible") and entity.dxf.invisible:
-                sheet.left_out[f"{kind} (invisible)"] += 1
-            elif kind == "INSERT":
-                self._insert(entity, sheet)
-            else:
-                self._draw(entity, kind, sheet)
+            try:
+                self._one(entity, kind, sheet)
+            except HitofudeError:
+                raise
+            except Exception:  # whatever an entity of a damaged file lacks: it is one that draws nothing
+                sheet.left_out[f"{kind} (damaged)"] += 1
             self._bounded(len(sheet.curves))
         return sheet
+
+    def _one(self, entity: Any, kind: str, sheet: Sheet) -> None:
+        if entity.dxf.hasattr("invisible") and entity.dxf.invisible:
+            sheet.left_out[f"{kind} (invisible)"] += 1
+        elif kind == "INSERT":
+            self._insert(entity, sheet)
+        else:
+            self._draw(entity, kind, sheet)
 
     def _draw(self, entity: Any, kind: str, sheet: Sheet) -> None:
         try:
@@ -76,14 +84,11 @@ class Walker:
         except NoLengthError as nothing:
             sheet.without_length.append(nothing.args[0])
             return
-        except (ValueError, ArithmeticError):
-            sheet.without_length.append(None)
-            return
         if curves is None:
             sheet.left_out[kind] += 1
             return
-        sheet.curves += [(curve, entity.dxf.layer) for curve in curves]
         sheet.see(heights_of(entity))
+        sheet.curves += [(curve, entity.dxf.layer) for curve in curves]
 
     def _insert(self, insert: Any, sheet: Sheet) -> None:
         """Add every copy of a block; what is on its layer 0 takes the layer of the insert."""

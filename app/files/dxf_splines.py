@@ -30,8 +30,11 @@ def spline_curve(entity: Any) -> Spline | None:
     for _ in range(2):
         control, knots = _clamped_start(control, knots, degree)
         control, knots = control[::-1], [knots[0] + knots[-1] - k for k in reversed(knots)]
+    placed = [(x / w, y / w) for x, y, w in control]
+    if not _sound(placed, knots, [w for _, _, w in control], degree):  # knots so large that their differences are lost
+        return None
     rational = any(abs(w - weights[0]) > 1e-12 * weights[0] for w in weights)
-    return Spline(degree, tuple((x / w, y / w) for x, y, w in control), tuple(knots), tuple(w for _, _, w in control) if rational else ())
+    return Spline(degree, tuple(placed), tuple(knots), tuple(w for _, _, w in control) if rational else ())
 
 
 def _sound(points: list[tuple[float, float]], knots: list[float], weights: list[float], degree: int) -> bool:

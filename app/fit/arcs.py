@@ -18,6 +18,8 @@ from app.model.curves import Arc, Circle, Ellipse, Line, Point, Primitive, Splin
 Floats = NDArray[np.float64]
 _SMALLEST = 1e-9
 """A stretch of parameter below which a corner that no arc can follow becomes a line."""
+_MOST = 20_000
+"""A curve that needs more arcs than this, some 100 m of it, is not what was meant."""
 _ROUNDS = 24
 """How often stretches whose bound exceeds the tolerance are halved; samples seldom miss anything, so mostly never."""
 
@@ -76,7 +78,7 @@ def lines_and_arcs(curve: Ellipse | Spline, tolerance: float = tolerances.CURVE)
         if max(bounds) <= tolerance:
             return LinesAndArcs(_joined(fits, curve, closed), max(bounds))
         fits = [finer for fit, bound in zip(fits, bounds, strict=True) for finer in _finer(pieces, fit, bound, tolerance)]
-    raise GeometryError(f"The curve that begins at ({curve.start[0]:.3f}, {curve.start[1]:.3f}) cannot be followed by arcs "
+    raise GeometryError(f"the curve that begins at ({curve.start[0]:.3f}, {curve.start[1]:.3f}) cannot be followed by arcs "
                         f"within {tolerance:g} mm; draw it again with fewer control points.")
 
 
@@ -84,7 +86,7 @@ def _check(curve: Ellipse | Spline) -> None:
     values = ((*curve.centre, *curve.major, curve.ratio, curve.start_parameter, curve.end_parameter) if isinstance(curve, Ellipse)
               else (*(v for point in curve.control_points for v in point), *curve.knots, *curve.weights))
     if not all(map(math.isfinite, values)):
-        raise GeometryError(f"The {type(curve).__name__.lower()} has a coordinate that is not a number; delete it or draw it again.")
+        raise GeometryError(f"the {type(curve).__name__.lower()} has a coordinate that is not a number; delete it or draw it again.")
 
 
 def _as_circle(curve: Ellipse | Spline, pieces: Pieces, closed: bool, tolerance: float) -> LinesAndArcs | None:
@@ -148,13 +150,19 @@ def _smooth_stretches(pieces: Pieces) -> list[tuple[float, float]]:
 
 
 def _stretch(pieces: Pieces, first: float, last: float, target: float) -> list[_Fit]:
-    """Cover the parameters from first to last, greedily: each fit is about the longest within target."""
+    """Cover the parameters from first to last, greedily: each fit is about the longest within target.
+
+    Raises:
+        GeometryError: the curve needs too many.
+    """
     fits: list[_Fit] = []
     step = min(1.0, (last - first) / 2)
     while first < last:
         fit, step = _longest(pieces, first, last, (step, target))
         fits.append(fit)
         first = fit.last
+        if len(fits) > _MOST:
+            raise GeometryError(f"the curve needs more than {_MOST} arcs at a tolerance this fine; check its size, or draw it again.")
     return fits
 
 

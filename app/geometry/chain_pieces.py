@@ -9,12 +9,17 @@ from dataclasses import dataclass, replace
 from app import tolerances
 from app.errors import GeometryError
 from app.fit.arcs import lines_and_arcs
-from app.model.curves import Arc, Circle, Ellipse, Line, Point, Primitive, Spline, reversed_curve
+from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Primitive, Spline, reversed_curve
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity
 
 _AMPLIFIED = 2.0
 """An arc that would leave its circle by more than this many gaps is not moved; a line bridges the gap instead."""
+
+
+FARTHEST = 1e6
+"""Coordinates beyond 1 km, mm, are no part of a workpiece; below, a double keeps WELD with room to spare."""
+_FARTHEST_CENTRE = 1e9
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,13 +86,25 @@ def pieces_from(entities: Sequence[Entity]) -> tuple[list[Piece], list[Finding]]
     return pieces, findings
 
 
+def within_reach(curve: Curve) -> bool:
+    """Return whether all coordinates are numbers and none is beyond FARTHEST (of centres of arcs, 1e9 mm)."""
+    if isinstance(curve, Spline):
+        return all(abs(v) <= FARTHEST for point in curve.control_points for v in point)
+    if isinstance(curve, Line):
+        return all(abs(v) <= FARTHEST for v in (*curve.start, *curve.end))
+    if isinstance(curve, Arc):
+        return all(abs(v) <= FARTHEST for v in (*curve.start, *curve.end)) and all(abs(v) <= _FARTHEST_CENTRE for v in curve.centre)
+    size = curve.radius if isinstance(curve, Circle) else math.hypot(*curve.major)
+    return all(abs(v) + size <= FARTHEST for v in curve.centre)
+
+
 def _primitives(entity: Entity) -> tuple[tuple[Primitive, ...], float]:
     curve = entity.curve
+    if not within_reach(curve):
+        raise GeometryError("it has a coordinate that is not a number or beyond 1 km; delete it or draw it again.")
     if isinstance(curve, Ellipse | Spline):
         made = lines_and_arcs(curve)
         return made.primitives, made.deviation
-    if not all(map(math.isfinite, (*curve.start, *curve.end))):
-        raise GeometryError("it has a coordinate that is not a number; delete it or draw it again.")
     if length_of(curve) < tolerances.WELD:
         return (), 0.0
     return (curve,), 0.0

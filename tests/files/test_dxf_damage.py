@@ -10,6 +10,7 @@ import pytest
 
 from app.errors import HitofudeError, InputError
 from app.files.dxf import read_dxf
+from app.geometry.chain import chain
 
 
 @pytest.mark.parametrize(("data", "what"), [
@@ -99,11 +100,9 @@ def test_senseless_entities_are_left_out() -> None:
 def test_numbers_that_are_none(data: Path, number: str) -> None:
     text = (data / "dxf" / "fig2.dxf").read_text("utf-8").replace("\n 10\n24.0\n", f"\n 10\n{number}\n")
     assert number in text
-    try:
-        drawing = read_dxf(text.encode(), "f.dxf")
-    except InputError:
-        return
-    assert len(drawing.part.entities) <= 20
+    drawing = read_dxf(text.encode(), "f.dxf")
+    assert len(drawing.part.entities) < 20
+    assert drawing.left_out == (("curve beyond 1 km or without a place", 20 - len(drawing.part.entities)),)
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -127,3 +126,32 @@ def test_random_damage_never_escapes(data: Path, seed: int) -> None:
         read_dxf(b"\n".join(lines), name)
     except HitofudeError as error:
         assert "\n" not in str(error)
+
+
+def altered(content: bytes, rng: random.Random) -> bytes:
+    """Numbers of geometry replaced by extreme ones, some pairs lost; the order of codes and values stays."""
+    lines = content.split(b"\n")
+    first = max(k for k, line in enumerate(lines) if b"ENTITIES" in line or b"BLOCKS" in line)
+    for _ in range(rng.randint(1, 20)):
+        k = rng.randrange(first, len(lines) - 8) | 1
+        code = lines[k - 1].strip()
+        if not code.isdigit() or not 10 <= int(code) < 80:
+            continue
+        choices = [b"0.0", b"-1.0", b"1e15", b"1e300", b"1e-300", b"7.0"] if int(code) < 60 else [b"0", b"1", b"-1", b"3", b"16"]
+        lines[k] = rng.choice(choices)
+        if rng.random() < 0.1:
+            del lines[k - 1 : k + 1]
+    return b"\n".join(lines)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_extreme_numbers_go_through_chaining(data: Path, seed: int) -> None:
+    rng = random.Random(seed)
+    name = rng.choice(["fig2.dxf", "genshi.dxf", "insert.dxf", "POLI-ALL210_12.dxf", "forms.dxf", "LM2.dxf"])
+    try:
+        drawing = read_dxf(altered((data / "dxf" / name).read_bytes(), rng), name)
+    except HitofudeError as error:
+        assert "\n" not in str(error)
+        return
+    for contour in chain(drawing.part.entities).contours:
+        assert contour.closed == (contour.primitives[0].start == contour.primitives[-1].end)

@@ -241,9 +241,9 @@ def test_curves_become_lines_and_arcs_with_their_deviation() -> None:
 
 
 def test_curves_without_length_are_named() -> None:
-    made = chained([*polygon(SQUARE), Line((3, 3), (3, 3)), Circle((1, 1), 1e-9), Line((0, math.nan), (1, 1))])
+    made = chained([*polygon(SQUARE), Line((3, 3), (3, 3)), Circle((1, 1), 1e-9), Line((0, math.nan), (1, 1)), Line((0, 0), (1e300, 1))])
     assert shape(made) == [(True, 4)]
-    assert [f.entity_ids for f in of_kind(made, FindingKind.TINY_ENTITY)] == [(5,), (6,), (7,)]
+    assert [f.entity_ids for f in of_kind(made, FindingKind.TINY_ENTITY)] == [(5,), (6,), (7,), (8,)]
 
 
 def test_many_faults_are_counted_not_listed() -> None:

@@ -13,6 +13,7 @@ from app.geometry.chain import chain
 from app.geometry.chain_pieces import equally_far
 from app.geometry.primitives import contour_rows, points_at, signed_area
 from app.model.curves import Arc, Circle, Curve, Line, Point, reversed_curve
+from app.model.finding import FindingKind
 from app.model.part import Contour, Entity
 
 TOLERANCE = 0.01
@@ -107,3 +108,42 @@ def test_one_curve_taken_away_leaves_one_open_contour(seed: int) -> None:
     assert found.amount == pytest.approx(math.dist(missing.start, missing.end))
     open_one = next(c for c in made.contours if not c.closed)
     assert {open_one.primitives[0].start, open_one.primitives[-1].end} == {missing.start, missing.end}
+
+
+@st.composite
+def scribbles(draw: st.DrawFn) -> list[Curve]:
+    """Curves on a coarse grid, with small offsets, so that ends coincide, nearly coincide, overlap and cross."""
+    offset = st.sampled_from([0.0, 0.0, 0.0, 1e-7, 5e-4, 0.004, 0.009])
+    place = st.builds(lambda x, y, dx, dy: (x + dx, y - dy), st.integers(0, 3), st.integers(0, 3), offset, offset)
+    found: list[Curve] = []
+    for _ in range(draw(st.integers(1, 14))):
+        a, b = draw(place), draw(place)
+        kind = draw(st.sampled_from(["line", "line", "arc", "circle", "again"]))
+        if kind == "circle":
+            found.append(Circle(a, draw(st.sampled_from([0.003, 0.5, 1.0]))))
+        elif kind == "again" and found:
+            found.append(reversed_curve(draw(st.sampled_from(found))))
+        elif kind == "arc" and a != b:
+            bulge = draw(st.sampled_from([1.0, -1.0, 0.2, -0.4, 30.0]))
+            h = (1 / bulge - bulge) / 4
+            found.append(Arc(a, b, ((a[0] + b[0]) / 2 - (b[1] - a[1]) * h, (a[1] + b[1]) / 2 + (b[0] - a[0]) * h), bulge > 0))
+        else:
+            found.append(Line(a, b))
+    return found
+
+
+@settings(max_examples=300, deadline=None)
+@given(scribbles(), st.sampled_from([0.0, 1e-3, 0.01, 0.5]))
+def test_any_scribble_gives_sound_contours(curves: list[Curve], tolerance: float) -> None:
+    made = chain([Entity(k, curve) for k, curve in enumerate(curves, 1)], tolerance)
+    known = [k for contour in made.contours for k in contour.entity_ids]
+    assert len(known) == len(set(known)) and set(known) <= set(range(1, len(curves) + 1))
+    for contour in made.contours:
+        assert all(a.end == b.start for a, b in pairwise(contour.primitives))
+        assert contour.closed == (contour.primitives[0].start == contour.primitives[-1].end)
+        for p in contour.primitives:
+            assert isinstance(p, Circle) or p.start != p.end
+            assert not isinstance(p, Arc) or abs(math.dist(p.start, p.centre) - math.dist(p.end, p.centre)) < 1e-9
+    open_ones = [f for f in made.findings if f.kind is FindingKind.OPEN_CONTOUR]
+    assert len(open_ones) == sum(not contour.closed for contour in made.contours)
+    assert all(finding.text.endswith(".") and "nan" not in finding.text for finding in made.findings)
