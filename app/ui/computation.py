@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ from app.model.finding import Finding
 from app.model.job import Job
 from app.model.moves import Program
 from app.progress import Progress
+from app.ui.canvas.program_picture import ProgramPicture
 from app.ui.worker import Answer, Worker
 
 if TYPE_CHECKING:
@@ -28,10 +30,20 @@ class State(Enum):
     FAILED = "Could not be computed"
 
 
-def _export(job: Job, drawing_findings: tuple[Finding, ...], progress: Progress) -> Made:
+@dataclass(frozen=True)
+class Computed:
+    """What a run gives: the result, and its moves prepared for painting, so that showing them costs the window nothing."""
+
+    made: Made
+    picture: ProgramPicture
+
+
+def _compute(job: Job, drawing_findings: tuple[Finding, ...], progress: Progress) -> Computed:
     from app.workflow.make import export  # imports the engines: never on the window's thread
 
-    return export(job, progress, drawing_findings)
+    made = export(job, progress.part(0.0, 0.95), drawing_findings)
+    progress.step(0.95, "Preparing the picture")
+    return Computed(made, ProgramPicture(made.program))
 
 
 class Computation(QObject):
@@ -42,6 +54,7 @@ class Computation(QObject):
 
     Attributes:
         made: the last result of this document, also when it is out of date; None before the first.
+        picture: its moves, prepared for painting.
         error: why the last run failed, or "".
         drawing_findings: what reading the drawing had to say.
     """
@@ -57,6 +70,7 @@ class Computation(QObject):
         self._snapshot: Job | None = None
         self._made_for: Job | None = None
         self.made: Made | None = None
+        self.picture: ProgramPicture | None = None
         self.error = ""
         self.drawing_findings: tuple[Finding, ...] = ()
         worker.done.connect(self._on_done)
@@ -85,12 +99,12 @@ class Computation(QObject):
         job, findings = self._document.job, self.drawing_findings
         self.error = ""
         self._snapshot = job
-        self._job_id = self._worker.start(lambda progress: _export(job, findings, progress), self._document.revision)
+        self._job_id = self._worker.start(lambda progress: _compute(job, findings, progress), self._document.revision)
         self.changed.emit()
 
     def forget(self, drawing_findings: tuple[Finding, ...] = ()) -> None:
         """Drop the result: another document was opened, and reading it had this to say."""
-        self.made, self._made_for, self.error = None, None, ""
+        self.made, self.picture, self._made_for, self.error = None, None, None, ""
         self.drawing_findings = drawing_findings
         self.changed.emit()
 
@@ -113,7 +127,8 @@ class Computation(QObject):
             return
         self._job_id = None
         if answer.revision == self._document.revision:
-            self.made, self._made_for = answer.value, self._snapshot  # type: ignore[assignment]
+            assert isinstance(answer.value, Computed)
+            self.made, self.picture, self._made_for = answer.value.made, answer.value.picture, self._snapshot
             self.changed.emit()
             self.finished.emit()
         else:

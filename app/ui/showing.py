@@ -139,7 +139,7 @@ class Showing(QObject):
         made, state = self._computation.made, self._computation.state
         if made is not self._shown_program:
             self._shown_program = made
-            self._window.canvas.set_program(made.program if made is not None else None)
+            self._window.canvas.set_program(self._computation.picture)
             if made is not None:
                 self._window.views.nc.show_program(made.nc.text, made.nc.lines, made.program.moves)
             self._window.canvas.set_findings(self._marked())
