@@ -156,10 +156,10 @@ def test_huge_array_is_refused_at_once() -> None:
     document.blocks.new("B").add_line((0, 0), (1, 0))
     grid = {"row_count": 30000, "column_count": 30000, "row_spacing": 1, "column_spacing": 1}
     document.modelspace().add_blockref("B", (0, 0), dxfattribs=grid)
-    started = time.perf_counter()
+    started = time.process_time()
     with pytest.raises(InputError, match="more than 500000 curves at block B"):
         read(document)
-    assert time.perf_counter() - started < 5
+    assert time.process_time() - started < 5
 
 
 def test_doubling_blocks_are_refused_within_bounds() -> None:
@@ -170,10 +170,10 @@ def test_doubling_blocks_are_refused_within_bounds() -> None:
         block.add_blockref(f"B{k}", (0, 0))
         block.add_blockref(f"B{k}", (0, 1))
     document.modelspace().add_blockref("B40", (0, 0))
-    started = time.perf_counter()
+    started = time.process_time()
     with pytest.raises(InputError, match="more than 500000 curves"):
         read(document)
-    assert time.perf_counter() - started < 20
+    assert time.process_time() - started < 20
 
 
 def test_empty_doubling_blocks_take_no_time() -> None:
