@@ -45,6 +45,7 @@ class Place:
         disc_mm: diameter of the largest disc that fits into it, mm.
         reachable: True when some tool of the job could cut it.
         outline: (n, 2) its outer boundary, mm.
+        holes: (m, 2) each, what lies within the boundary and is not left, mm.
     """
 
     x: float
@@ -53,6 +54,7 @@ class Place:
     disc_mm: float
     reachable: bool
     outline: NDArray[np.float64] = field(repr=False)
+    holes: tuple[NDArray[np.float64], ...] = field(default=(), repr=False)
 
 
 @dataclass(frozen=True)
@@ -187,7 +189,8 @@ def _places(shape: Shape, reachable: bool) -> tuple[Place, ...]:
             continue
         centre, rim = (np.array(point) for point in shapely.maximum_inscribed_circle(piece, tolerance=CHORD).coords)
         disc = 2 * float(np.hypot(*(rim - centre)))
-        places.append(Place(float(centre[0]), float(centre[1]), piece.area, disc, reachable, np.array(piece.exterior.coords)[:-1]))
+        outline, *holes = (shapely.get_coordinates(ring)[:-1] for ring in shapely.get_rings(piece))
+        places.append(Place(float(centre[0]), float(centre[1]), piece.area, disc, reachable, outline, tuple(holes)))
     return tuple(sorted(places, key=lambda place: -place.disc_mm))
 
 

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import shapely
 
 from app.errors import Cancelled, GeometryError, InputError, ParameterError
 from app.model.finding import FindingKind
@@ -18,10 +17,10 @@ from app.model.operation import ContourOperation, PocketOperation
 from app.model.part import Units
 from app.model.stock_box import stock_box, work_origin
 from app.progress import Progress
-from app.toolpath.flat import lines, move_rows, region_shapes
 from app.workflow.make import Made, make
 from app.workflow.options import MakeOptions
 from tests.nc.rs274_oracle import assert_same_motion, canonical_calls
+from tests.workflow.truth import assert_left_is_true
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = (ROOT / "tests/data/dxf", ROOT / "resources/samples", ROOT.parent / "shared/data/dxf", ROOT.parent / "shared/bench")
@@ -82,26 +81,7 @@ def test_the_control_accepts_a_program_of_fifty_thousand_moves() -> None:
 
 @each
 def test_what_the_report_calls_left_is_left_and_nothing_else_is(name: str) -> None:
-    """Exact distances at random points against the polygons' answer."""
-    this = made(name)
-    moves, rng = this.program.moves, np.random.default_rng(1)
-    area = shapely.union_all(region_shapes(this.program, 1e-3))
-    shapely.prepare(area)
-    x0, y0, x1, y1 = area.bounds
-    points = rng.uniform((x0, y0), (x1, y1), (400, 2))
-    spots = np.array([(place.x, place.y) for place in this.coverage.places[:200]]).reshape(-1, 2)
-    points = np.concatenate([points[shapely.contains_xy(area, points)], spots])
-    floor = (np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -this.coverage.floor_mm + 1e-9) & (moves.kind != MoveKind.RAPID)
-    uncut = np.full(len(points), np.inf)
-    for number in np.unique(moves.tool):
-        near = shapely.STRtree(lines(move_rows(moves)[floor & (moves.tool == number)], 1e-4))
-        (which, _), distance = near.query_nearest(shapely.points(points), return_distance=True)
-        np.minimum.at(uncut, which, distance - this.job.tool(int(number)).radius)
-    left = shapely.union_all([shapely.Polygon(place.outline) for place in this.coverage.places])
-    from_rim = shapely.distance(shapely.boundary(left), shapely.points(points)) if not left.is_empty else np.full(len(points), np.inf)
-    sure = (np.abs(uncut) > 0.01) & (from_rim > 0.01)
-    assert np.sum(sure) > 50
-    assert np.array_equal(shapely.contains_xy(left, points)[sure], uncut[sure] > 0)
+    assert assert_left_is_true(made(name)) > 50
 
 
 @each
