@@ -48,7 +48,7 @@ class Picture:
         contours: rows (n, 8) of each contour of the part.
         paths: style and connected rows, drawn in this order.
         plunges: (n, 2) where tools go down.
-        left, unreachable: outlines (n, 2) of floor that is left within and out of reach.
+        left, unreachable: outlines (n, 2), holes among them, of floor that is left within and out of reach.
     """
 
     title: str
@@ -109,7 +109,7 @@ def svg(picture: Picture) -> str:
         f"<title>{escape(picture.title)}</title>\n"
         f'<defs><pattern id="hatch" width="{step}" height="{step}" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">'
         f'<path d="M0 0V{step}" stroke="{UNREACHABLE}" stroke-width="{_n(4 * pixel)}"/></pattern></defs>\n'
-        f'<rect width="100%" height="100%" fill="{PAPER}"/>\n'
+        f'<rect width="{WIDTH}" height="{place.height}" fill="{PAPER}"/>\n'
         f'<g transform="matrix({_n(place.scale)} 0 0 {_n(-place.scale)} {_n(place.left)} {_n(place.top)})" '
         f'fill="none" stroke-linecap="round" stroke-linejoin="round">\n{inner}\n</g>\n{_legend(picture)}</svg>\n'
     )
@@ -122,7 +122,7 @@ def _areas(picture: Picture) -> Iterator[str]:
     for name, fill, outlines in (("unreachable", "url(#hatch)", picture.unreachable), ("left", LEFT, picture.left)):
         shape = "".join("M" + "L".join(f"{_n(x)} {_n(y)}" for x, y in outline) + "Z" for outline in outlines)
         if shape:
-            yield f'<path id="{name}" d="{shape}" fill="{fill}"/>'
+            yield f'<path id="{name}" d="{shape}" fill="{fill}" fill-rule="evenodd"/>'
 
 
 def _closed(rows: Rows) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.files.plot import CONTOUR, LINK, POCKET, RAPID, Picture, Style
+from app.files.plot import CONTOUR, LINK, POCKET, RAPID, Picture, Points, Style
 from app.geometry.primitives import contour_rows
 from app.model.moves import MoveKind, Moves, Program, Purpose
 from app.toolpath.coverage import Coverage
@@ -23,9 +23,15 @@ def picture_of(name: str, program: Program, coverage: Coverage) -> Picture:
         contours=tuple(contour_rows(contour) for region in program.regions for contour in region.contours),
         paths=tuple(sorted(_runs(moves), key=lambda run: _ORDER.index(run[0]))),
         plunges=np.unique(moves.end[plunge, :2], axis=0),
-        left=tuple(place.outline for place in coverage.places if place.reachable),
-        unreachable=tuple(place.outline for place in coverage.places if not place.reachable),
+        left=_rings(coverage, True),
+        unreachable=_rings(coverage, False),
     )
+
+
+def _rings(coverage: Coverage, reachable: bool) -> tuple[Points, ...]:
+    """Return outlines and holes of the pieces of one sort."""
+    places = [place for place in coverage.places if place.reachable is reachable]
+    return tuple(ring for place in places for ring in (place.outline, *place.holes))
 
 
 def _runs(moves: Moves) -> list[tuple[Style, np.ndarray]]:

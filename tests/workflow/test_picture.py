@@ -33,7 +33,7 @@ def test_runs_by_purpose() -> None:
 
 def test_what_is_left_is_shown_by_its_sort() -> None:
     outline = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
-    places = tuple(Place(0.2, 0.2, 0.5, 0.5, reachable, outline + reachable) for reachable in (True, False))
+    places = tuple(Place(0.2, 0.2, 0.5, 0.5, reachable, outline + reachable, (outline / 9,) * reachable) for reachable in (True, False))
     picture = picture_of("plate", Program(moves(), (square(),)), Coverage(places=places))
-    assert picture.left[0].max() == 2.0
-    assert picture.unreachable[0].max() == 1.0
+    assert [ring.max() for ring in picture.left] == pytest.approx([2.0, 1 / 9])
+    assert [ring.max() for ring in picture.unreachable] == [1.0]
