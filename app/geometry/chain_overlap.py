@@ -226,7 +226,9 @@ def twin_contours(contours: Sequence[Contour], reach: float) -> dict[int, int]:
     if len(closed) < 2:
         return {}
     rows = {k: contour_rows(contours[k]) for k in closed}
-    around = np.array([(*boxes(rows[k])[:, :2].min(axis=0), *boxes(rows[k])[:, 2:].max(axis=0)) for k in closed])
+    every = boxes(np.concatenate([rows[k] for k in closed]))
+    first = np.cumsum([0, *(len(rows[k]) for k in closed[:-1])])
+    around = np.hstack([np.minimum.reduceat(every[:, :2], first), np.maximum.reduceat(every[:, 2:], first)])
     twins: dict[int, int] = {}
     for a, b in sorted(cKDTree(around).query_pairs(4 * reach)):
         kept, other = closed[a], closed[b]
