@@ -6,6 +6,7 @@ import signal
 import sys
 import traceback
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from types import TracebackType
 
@@ -22,10 +23,16 @@ from app.ui.wiring import Wiring
 from app.ui.worker import Worker
 
 
+_ENGINES = ("ezdxf.recover", "shapely", "scipy.sparse.csgraph", "scipy.spatial", "cv2", "app.files.dxf", "app.toolpath.compute", "app.workflow.make")
+
+
 def _warm(progress: Progress) -> None:
-    from app.kernels import warm  # compiles or loads the inner loops: never on the window's thread
+    """Load what the first Open and Compute need: an import on the way would make the window stutter."""
+    from app.kernels import warm
 
     warm(progress)
+    for engine in _ENGINES:
+        import_module(engine)
 
 
 def build() -> tuple[MainWindow, Wiring]:
@@ -37,7 +44,7 @@ def build() -> tuple[MainWindow, Wiring]:
 
 
 def warm_up(window: MainWindow) -> Worker:
-    """Load the compiled loops in the background, so that the first Compute does not wait for them."""
+    """Load engines and compiled loops in the background, so that the first Compute does not wait for them."""
     warmer = Worker(window)
     warmer.start(_warm, 0)
     return warmer
