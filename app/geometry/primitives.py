@@ -98,6 +98,18 @@ def reversed_rows(rows: Rows) -> Rows:
     return back
 
 
+def within_half_turn(rows: Rows) -> Rows:
+    """Return the same path with arcs of up to a full turn cut into arcs below pi, as distances need them."""
+    parts = np.maximum(np.ceil(np.abs(sweeps(rows)) / _MAX_SWEEP), 1).astype(np.int64)
+    index = np.repeat(np.arange(len(rows)), parts)
+    number = np.arange(len(index)) - np.repeat(np.cumsum(parts) - parts, parts)
+    cut = rows[index].copy()
+    cut[:, :2] = points_at(rows[index], number / parts[index])
+    ends = points_at(rows[index], (number + 1) / parts[index])
+    cut[:, 2:4] = np.where((number + 1 == parts[index])[:, None], rows[index, 2:4], ends)
+    return np.ascontiguousarray(cut)
+
+
 def sweeps(rows: Rows) -> NDArray[np.float64]:
     """Return the signed sweep of each row, radians; 0 for lines; a row that ends where it starts is a full turn."""
     a = np.arctan2(rows[:, Y0] - rows[:, CY], rows[:, X0] - rows[:, CX])

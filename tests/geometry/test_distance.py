@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.geometry.distance import DistanceField
-from app.geometry.primitives import boxes, contour_rows, lengths, points_at, sample, signed_area
+from app.geometry.primitives import boxes, contour_rows, lengths, points_at, sample, signed_area, sweeps, within_half_turn
 from tests import plain_distance
 from tests.part_shapes import bulged, circle, random_part
 
@@ -62,3 +62,11 @@ def test_sampled_chords_stay_within_tolerance() -> None:
     points = sample(contour_rows(circle(10)), 0.01)
     middle = (points + np.roll(points, -1, axis=0)) / 2
     assert np.allclose(np.hypot(*points.T), 10) and np.hypot(*middle.T).min() >= 10 - 0.01
+
+
+def test_full_turns_cut_up_keep_their_length_and_ends() -> None:
+    turn = np.array([[5.0, 0, 5, 0, 0, 0, 5, 1], [0, 0, 3, 4, 0, 0, 0, 0], [0, 2, 2, 0, 0, 0, 2, 1]])
+    cut = within_half_turn(turn)
+    assert len(cut) == 3 + 1 + 2 and np.abs(sweeps(cut)).max() < np.pi
+    assert float(lengths(cut).sum()) == pytest.approx(10 * np.pi + 5 + 3 * np.pi)
+    assert DistanceField.of(cut).nearest(np.array([[0.0, -5.5]]))[0] == pytest.approx(0.5)
