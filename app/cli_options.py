@@ -128,7 +128,8 @@ def _tool_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--safe-z", metavar="MM", type=_number("clearance height"), help="clearance height above the stock (default 5)")
     group.add_argument("--feed", metavar="F", type=_number("feed rate", unit="mm/min"), help="feed rate, mm/min (default 600)")
     group.add_argument("--plunge", metavar="F", type=_number("plunge rate", unit="mm/min"), help="plunge rate, mm/min (default 200)")
-    group.add_argument("--speed", metavar="S", type=_number("spindle speed", unit="rpm"), help="spindle speed, rpm (default 12000; contour tool 18000)")
+    group.add_argument("--speed", metavar="S", type=_number("spindle speed", unit="rpm"),
+                       help="spindle speed, rpm (default 12000, contour 18000)")
     side = group.add_mutually_exclusive_group()
     side.add_argument("--climb", action="store_const", dest="direction", const=Direction.CLIMB, help="metal right of travel (default)")
     side.add_argument("--conventional", action="store_const", dest="direction", const=Direction.CONVENTIONAL, help="metal left of travel")
