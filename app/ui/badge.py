@@ -7,7 +7,8 @@ from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QScrollArea, QVBoxLay
 
 from app.model.finding import Finding
 from app.ui.figures import counted
-from app.ui.panels.fields import muted, restyle
+from app.ui.labels import muted
+from app.ui.panels.fields import restyle
 from app.ui.panels.section import Row, heading
 from app.ui.verdict import Level, Verdict, finding_level, short, worst_first
 

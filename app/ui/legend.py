@@ -10,7 +10,8 @@ from app.model.job import Job
 from app.model.operation import ContourOperation, Operation, PocketOperation
 from app.ui.canvas.modes import ColourBy
 from app.ui.icons import IconButton
-from app.ui.panels.fields import ChoiceField, muted
+from app.ui.labels import muted
+from app.ui.panels.fields import ChoiceField
 from app.ui.panels.section import hairline, heading
 from app.ui.samples import LineSample, Sample
 from app.ui.theme import LIGHT, Theme

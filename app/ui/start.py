@@ -22,8 +22,10 @@ from app.ui.memory import restore_geometry
 from app.ui.wiring import Wiring
 from app.ui.worker import Worker
 
-
-_ENGINES = ("ezdxf.recover", "shapely", "scipy.sparse.csgraph", "scipy.spatial", "cv2", "app.files.dxf", "app.toolpath.compute", "app.workflow.make")
+_ENGINES = (
+    "ezdxf.recover", "shapely", "scipy.sparse.csgraph", "scipy.spatial", "cv2",
+    "app.files.dxf", "app.toolpath.compute", "app.workflow.make",
+)
 
 
 def _warm(progress: Progress) -> None:

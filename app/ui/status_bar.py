@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QProgressBar, QSizePolicy, QToolButton, QWidget
 
 from app.ui.badge import Badge
 from app.ui.icons import IconButton
-from app.ui.panels.fields import muted
+from app.ui.labels import Elided, muted
 
 
 def _separator() -> QFrame:
@@ -16,17 +15,6 @@ def _separator() -> QFrame:
     made.setObjectName("hairline")
     made.setFixedSize(1, 16)
     return made
-
-
-class _Elided(QLabel):
-    """A line that ends in … when it does not fit."""
-
-    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
-        """Draw as much as fits."""
-        painter = QPainter(self)
-        painter.setPen(self.palette().color(self.foregroundRole()))
-        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, self.width())
-        painter.drawText(self.rect(), Qt.AlignmentFlag.AlignVCenter, text)
 
 
 class StatusBar(QWidget):
@@ -45,8 +33,7 @@ class StatusBar(QWidget):
         self.setFixedHeight(34)
         self.place_x, self.place_y = QLabel(), QLabel()
         self.snap, self.ortho, self.grid = (self._toggle(text) for text in ("Snap", "Ortho", "Grid"))
-        self.message = _Elided()
-        self.message.setProperty("role", "muted")
+        self.message = Elided(role="muted")
         self.message.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.bar, self.step = QProgressBar(), muted()
         self.cancel = IconButton("cancel", "Cancel the job (Esc)")

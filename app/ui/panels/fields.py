@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QButtonGroup, QComboBox, QGridLayout, QHBoxLayout,
 from app.edit.errors import CommandError
 from app.edit.numbers import length
 from app.errors import HitofudeError
+from app.ui.labels import muted
 
 LABEL_WIDTH = 92
 VALUE_WIDTH = 84
@@ -51,13 +52,6 @@ class Spec:
         if not self.low <= value <= self.high:
             raise HitofudeError(f"{self.name} is {value:g} {self.unit}; use {self.low:g} to {self.high:g}.")
         return value
-
-
-def muted(text: str = "") -> QLabel:
-    """Return a label in the quiet colour."""
-    made = QLabel(text)
-    made.setProperty("role", "muted")
-    return made
 
 
 def restyle(widget: QWidget) -> None:

@@ -15,8 +15,9 @@ from app.model.part import Units
 from app.model.tool import Tool, ToolKind
 from app.ui.figures import counted
 from app.ui.icons import IconButton
+from app.ui.labels import muted
 from app.ui.panels.changes import operation_name, stepover_of, with_cut, with_operation, with_tool
-from app.ui.panels.fields import ChoiceField, ListField, NumberField, Spec, muted
+from app.ui.panels.fields import ChoiceField, ListField, NumberField, Spec
 from app.ui.panels.section import Section
 from app.ui.samples import StepoverDrawing
 

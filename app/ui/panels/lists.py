@@ -11,8 +11,8 @@ from app.model.operation import ContourOperation, Operation, PocketOperation
 from app.model.tool import Tool
 from app.ui.figures import TIMES, clock, grouped
 from app.ui.icons import IconButton, IconLabel
+from app.ui.labels import Elided, muted
 from app.ui.panels.changes import Subject, SubjectKind, operation_name
-from app.ui.panels.fields import muted
 from app.ui.panels.section import Row, Section
 from app.ui.samples import LineSample, Sample, Switch
 from app.ui.theme import Theme
@@ -85,7 +85,7 @@ class JobSection(ListSection):
 
     def __init__(self) -> None:
         super().__init__("Job")
-        self.stock, self.origin = QLabel(), QLabel()
+        self.stock, self.origin = Elided(), Elided()
         for name, value in (("Stock", self.stock), ("Origin", self.origin)):
             label = muted(name)
             label.setFixedWidth(56)
@@ -140,7 +140,7 @@ class ToolSection(ListSection):
         for tool in job.tools:
             number = _bold(f"T{tool.number}")
             number.setMinimumWidth(24)
-            row = Row(IconLabel("cutter"), number, QLabel(tool.label), muted(f"{grouped(tool.spindle_speed, 0)} rpm"), stretch_after=2)
+            row = Row(IconLabel("cutter"), number, Elided(tool.label), muted(f"{grouped(tool.spindle_speed, 0)} rpm"), stretch_after=2)
             self.add_row(Subject(SubjectKind.TOOL, tool.number), row)
 
 
@@ -187,4 +187,4 @@ class OperationSection(ListSection):
         sample.setEnabled(cut.enabled)
         tool = next((t for t in job.tools if t.number == cut.tool), None)
         text = f"T{cut.tool} {tool.label}" if tool is not None else f"T{cut.tool} is missing"
-        return Row(switch, sample, QLabel(name), muted(text), time, stretch_after=3)
+        return Row(switch, sample, QLabel(name), Elided(text, "muted"), time, stretch_after=3)

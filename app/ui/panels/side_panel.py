@@ -19,7 +19,7 @@ from app.ui.panels.forms import JobForm, OperationForm, ToolForm
 from app.ui.panels.lists import JobSection, OperationSection, ToolSection
 from app.ui.panels.section import hairline
 
-WIDTH = 320
+WIDTH = 328
 
 
 class SidePanel(QScrollArea):

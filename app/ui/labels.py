@@ -1,0 +1,35 @@
+"""Labels: the quiet one, and the one that ends in … when it does not fit."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtWidgets import QLabel
+
+_LEAST_PX = 24
+
+
+def muted(text: str = "") -> QLabel:
+    """Return a label in the quiet colour."""
+    made = QLabel(text)
+    made.setProperty("role", "muted")
+    return made
+
+
+class Elided(QLabel):
+    """One line that gives way where room is short; `role` is its colour: "muted", or "" for ink."""
+
+    def __init__(self, text: str = "", role: str = "") -> None:
+        super().__init__(text)
+        self.setProperty("role", role)
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
+        """A few letters."""
+        return QSize(_LEAST_PX, super().minimumSizeHint().height())
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Draw as much as fits."""
+        painter = QPainter(self)
+        painter.setPen(self.palette().color(self.foregroundRole()))
+        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, self.width())
+        painter.drawText(self.rect(), Qt.AlignmentFlag.AlignVCenter, text)
