@@ -23,8 +23,13 @@ from app.geometry import kernels, offset_kernels, ring_kernels
 from app.geometry.distance import DistanceField
 from app.geometry.offset_polyline import polyline_loops
 from app.geometry.primitives import CX, TURN, Indices, Primitives, Rows, boxes, lengths, signed_area
+from app.pool import pool
 from app.progress import NO_PROGRESS, Progress
 
+_WORTH_TWO_CORES = 2000
+"""Pieces from which a second core is worth its start."""
+
+_BANDS = 4
 _NUDGES = (0.0, 1e-7, 3.3e-7, 7.1e-7, -1.3e-7)
 
 
@@ -128,16 +133,22 @@ class _Engine:
         return tuple(self._back(ring) for ring in rings if keep_ridges or not _on_a_ridge(ring))
 
     def _trim(self, distance: float) -> Rows:
-        """Return the pieces (m, 3) of elements to which nothing is nearer than the distance."""
+        """Return the pieces (m, 3) of elements to which nothing is nearer than the distance; many are cut on two cores."""
         order, nodes = self._blockers(distance)
-        room = 4 * len(self._active) + 64
-        while True:
-            pieces = np.empty((room, 3))
-            count = offset_kernels.trim(self._rows, self._vertices, order, nodes, self._boxes, self._active,
-                                        np.array([distance, self._slack]), pieces)
-            if count < room:
-                return np.ascontiguousarray(pieces[:count])
-            room *= 4
+        level_slack = np.array([distance, self._slack])
+
+        def trimmed(active: Rows) -> Rows:
+            room = 4 * len(active) + 64
+            while True:
+                pieces = np.empty((room, 3))
+                count = offset_kernels.trim(self._rows, self._vertices, order, nodes, self._boxes, active, level_slack, pieces)
+                if count < room:
+                    return pieces[:count]
+                room *= 4
+
+        if len(self._active) < _WORTH_TWO_CORES:
+            return np.ascontiguousarray(trimmed(self._active))
+        return np.concatenate(list(pool().map(trimmed, np.array_split(self._active, _BANDS))))
 
     def _blockers(self, distance: float) -> tuple[Indices, Rows]:
         """Return a tree of the rows that can be nearest to any point of this level.
