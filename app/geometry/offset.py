@@ -169,7 +169,7 @@ class _Engine:
         return out
 
     def _stitch(self, pieces: Rows, distance: float) -> list[Ring] | None:
-        """Return closed rings made of all pieces, or None when one has no continuation or measures wrong."""
+        """Return closed rings made of all pieces, or None when one has no continuation, measures wrong or lies outside."""
         rows = self._piece_rows(pieces, distance)
         count = len(rows)
         following = np.empty(count, np.int64)
@@ -183,6 +183,8 @@ class _Engine:
             return None
         sums = np.empty((rings, 2))
         ring_kernels.sums(joined, starts, rings, sums)
+        if not self._field.inside(joined[starts[:rings], :2]).all():
+            return None
         regions = self._primitives.region[pieces[order[starts[:rings]], 0].astype(np.int64) % len(self._rows)]
         return [Ring(joined[starts[k]:starts[k + 1]], int(regions[k]), float(sums[k, 0]), float(sums[k, 1])) for k in range(rings)]
 

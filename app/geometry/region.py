@@ -22,7 +22,8 @@ def nest(contours: Sequence[Contour]) -> tuple[Region, ...]:
     """Return the regions that closed contours bound by the even-odd rule.
 
     A contour inside an even number of others bounds an area, one inside an odd number is an island of the
-    smallest contour round it; what lies in an island is an area again. Open contours bound nothing.
+    smallest contour round it; what lies in an island is an area again. Open contours bound nothing, nor do areas
+    thinner than 1 um, which are left over where contours meet.
 
     Args:
         contours: closed ones may touch, but should not cross one another.
@@ -42,13 +43,17 @@ def nest(contours: Sequence[Contour]) -> tuple[Region, ...]:
     for contour, held in zip(turned, holders, strict=True):
         if len(held) % 2 == 1:
             islands.setdefault(min(held, key=lambda i: abs(areas[i])), []).append(contour)
-    outer = [i for i, held in enumerate(holders) if len(held) % 2 == 0]
+    outer = [i for i, held in enumerate(holders) if len(held) % 2 == 0 and _thickness(rows[i]) > tolerances.LEVEL / 2]
     return tuple(Region(number, turned[i], tuple(islands.get(i, ()))) for number, i in enumerate(outer, 1))
 
 
 def _ring(rows: Rows) -> NDArray[np.float64]:
-    thin = abs(signed_area(rows)) / max(float(lengths(rows).sum()), tolerances.WELD)
-    return sample(rows, min(_CHORD, max(thin / 8, tolerances.WELD)))
+    return sample(rows, min(_CHORD, max(_thickness(rows) / 8, tolerances.WELD)))
+
+
+def _thickness(rows: Rows) -> float:
+    """Return area / length, mm: half the width of something long and thin."""
+    return abs(signed_area(rows)) / max(float(lengths(rows).sum()), tolerances.WELD)
 
 
 def _holders(polygons: list[shapely.Geometry], areas: NDArray[np.float64]) -> list[list[int]]:

@@ -86,12 +86,12 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
 
 
 def regions_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
-    """Return (regions, findings about the drawing) of the layers that a job machines; contours that cross count even-odd."""
+    """Return (regions, findings about the drawing) of the layers that a job machines; contours that meet count even-odd."""
     visible = {layer.name for layer in job.part.layers if layer.visible}
     wanted = set(job.layer_names) or visible
     chaining = chain([e for e in job.part.entities if e.layer in wanted], job.join_tolerance)
     contours = [contour for contour in chaining.contours if contour.closed]
-    if any(f.kind is FindingKind.SELF_INTERSECTION and f.counts for f in chaining.findings):
+    if any(f.kind is FindingKind.SELF_INTERSECTION for f in chaining.findings):
         contours = list(without_crossings(contours))
     return nest(contours), list(chaining.findings)
 

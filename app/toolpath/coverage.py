@@ -3,7 +3,7 @@
 Three areas are told apart on the floor of the deepest pass: cleared; left although a tool of the job could cut it
 (must be 0); out of reach of every tool of the job. A tool of radius r that keeps the stock to leave reaches the
 opening of the area by its disc. The swept area is the union of all cutting moves at full depth, each as wide as its
-tool. Method: polygons (shapely), arcs as chords within CHORD, wherever a coarse picture does not prove the floor
+tool. Method: polygons (shapely), arcs as chords within CHORD, wherever exact distances do not prove the floor
 cleared; strips thinner than STRIP are numeric and not counted.
 """
 
@@ -31,8 +31,15 @@ CHORD = 1e-3
 STRIP = 0.01
 """mm; what is narrower than this is no material but the chords' own error."""
 
+_FITS = 2e-3
+"""mm by which a gap may be narrower than a tool that still counts as fitting: chords make it so by up to 1 um a side."""
+
 _DEPTH = 1e-6
 """mm by which a move may miss the floor and still count as on it."""
+
+
+_RUN = 64
+"""Moves that are widened in one go; longer runs cross themselves too often for the library."""
 
 
 @dataclass(frozen=True)
@@ -127,7 +134,7 @@ def _farthest(operations: list[Operation], job: Job) -> list[Operation]:
 
 def _reach(regions: NDArray[np.object_], operation: Operation, job: Job) -> Shape:
     """Return what the operation's tool can cut without touching a wall: the opening by its disc."""
-    radius = job.tool(operation.cut.tool).radius
+    radius = job.tool(operation.cut.tool).radius - _FITS
     return shapely.union_all(grown(grown(regions, -radius - operation.cut.stock_to_leave, CHORD), radius, CHORD))
 
 
@@ -138,39 +145,41 @@ def _beyond_band(regions: NDArray[np.object_], operations: list[Operation], job:
 
 
 def _left(wanted: Shape, moves: Moves, where: tuple[Job, float], progress: Progress) -> Shape:
-    """Return what of a wanted area no move at the floor has cut; the tool with the shortest path first."""
+    """Return what of a wanted area no move at the floor has cut."""
     job, floor = where
     deep = np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -floor + _DEPTH
     chosen = deep & (moves.kind != MoveKind.RAPID)
-    numbers = sorted(map(int, np.unique(moves.tool[chosen])), key=lambda number: int(np.sum(chosen & (moves.tool == number))))
-    for done, number in enumerate(numbers):
-        progress.step(done / len(numbers), f"Measuring what T{number} leaves")
-        wanted = _uncut(wanted, moves, np.flatnonzero(chosen & (moves.tool == number)), job.tool(number).radius)
+    numbers = [int(number) for number in np.unique(moves.tool[chosen])]
+    paths = [_Path(np.flatnonzero(chosen & (moves.tool == number)), moves, job.tool(number).radius) for number in numbers]
+    tiles = uncertain(wanted, [(path.rows, path.radius) for path in paths], progress)
+    wanted = shapely.intersection(wanted, shapely.union_all(tiles))
+    tree = shapely.STRtree(tiles)
+    for done, path in enumerate(paths):
+        progress.step(0.5 + done / len(paths) / 2, "Measuring what is left")
+        wanted = shapely.difference(wanted, path.swept_near(tree))
     return _solid(wanted)
 
 
-def _uncut(wanted: Shape, moves: Moves, chosen: NDArray[np.int64], radius: float) -> Shape:
-    """Return what of a wanted area some moves of one tool do not cover.
+class _Path:
+    """The cutting moves of one tool."""
 
-    Args:
-        wanted: polygons, mm.
-        moves: of the whole program. chosen: (n,) indices of the moves, ascending.
-        radius: of the tool, mm.
-    """
-    rows = move_rows(moves)[chosen]
-    tiles = uncertain(wanted, _runs(rows, chosen), radius)
-    wanted = shapely.intersection(wanted, shapely.union_all(tiles))
-    near = np.unique(shapely.STRtree(tiles).query(lines(rows, CHORD), predicate="dwithin", distance=radius + STRIP)[0])
-    if not len(near):
-        return wanted
-    swept = [grown(shapely.linestrings(path), radius, CHORD) for path in _runs(rows[near], chosen[near])]
-    return shapely.difference(wanted, shapely.union_all(swept))
+    def __init__(self, chosen: NDArray[np.int64], moves: Moves, radius: float) -> None:
+        self._chosen, self.rows, self.radius = chosen, move_rows(moves)[chosen], radius
+
+    def swept_near(self, tree: shapely.STRtree) -> Shape:
+        """Return the area that is covered by those moves that come near some boxes."""
+        near = np.unique(tree.query(lines(self.rows, CHORD), predicate="dwithin", distance=self.radius + STRIP)[0])
+        runs = _runs(self.rows[near], self._chosen[near])
+        return shapely.union_all([grown(shapely.linestrings(points), self.radius, CHORD) for points in runs])
 
 
 def _runs(rows: Rows, chosen: NDArray[np.int64]) -> list[NDArray[np.float64]]:
-    """Return the points of each run of moves that follow one another."""
+    """Return the points of each run of moves that follow one another, but not too many in one."""
+    if not len(chosen):
+        return []
     owner, points = flattened(rows, CHORD)
-    run = np.concatenate([[0], np.cumsum(np.diff(chosen) != 1)])[owner]
+    place = np.arange(len(chosen))
+    run = np.cumsum(np.concatenate([[False], np.diff(chosen) != 1]) | (place % _RUN == 0))[owner]
     return np.split(points, np.flatnonzero(np.diff(run)) + 1)
 
 

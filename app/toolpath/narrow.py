@@ -38,11 +38,12 @@ def too_small(regions: Sequence[Region], level: Level, tool: Tool, counts: bool)
 
 def largest_disc(region: Region) -> tuple[float, float, float]:
     """Return (x, y, diameter), mm, of the largest disc in a region, within 0.01 mm."""
-    polygon = shapely.make_valid(shapely.Polygon(sample(contour_rows(region.boundary), _CHORD),
-                                                 [p for i in region.islands if len(p := sample(contour_rows(i), _CHORD)) > 2]))
-    if polygon.is_empty or polygon.area <= 0:
-        x, y = contour_rows(region.boundary)[0, :2]
-        return float(x), float(y), 0.0
+    outline, *holes = (sample(contour_rows(contour), _CHORD) for contour in region.contours)
+    polygon = shapely.Polygon()
+    if len(outline) > 2:
+        polygon = shapely.make_valid(shapely.Polygon(outline, [hole for hole in holes if len(hole) > 2]))
+    if polygon.area <= 0:
+        return float(outline[0, 0]), float(outline[0, 1]), 0.0
     radius = shapely.maximum_inscribed_circle(polygon, tolerance=_CHORD)
     (x, y), _ = shapely.get_coordinates(radius)
     return float(x), float(y), 2 * float(radius.length)

@@ -1,85 +1,93 @@
-"""A coarse picture proves most of a swept area covered, so that only the rest needs exact polygons.
+"""Squares that hold all of an area that some cutters may not have covered; everything else is proven covered.
 
-The centre lines of the path are drawn on a grid and the distance of every cell from them is taken. A cell is proven
-covered when that distance, with everything the grid can be wrong by, is within the cutter's radius. Row 0 = min Y.
+The distance from a path changes by no more than the way gone, so one exact distance, from a square's centre, can decide
+the whole square: covered, when the cutter reaches its farthest corner; untouched, when it does not reach its nearest
+point. What neither proves is divided in four, down to a fraction of the cutter's radius.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
-import cv2
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
-_CELLS_A_RADIUS = 10
-_LARGEST = 1600
-"""Cells along the longer side, at most."""
+from app.geometry.distance import DistanceField
+from app.geometry.primitives import Rows, within_half_turn
+from app.progress import NO_PROGRESS, Progress
 
-_DOUBT = 2.0
-"""Cells by which a distance may be too small: drawn cell from path, cell's centre from its corner, rounding."""
+_FINEST = 8
+"""The smallest squares' half side goes so many times into the smallest cutter's radius."""
 
-_TILE = 8
-"""Cells along the side of a tile."""
+_START = 32
+"""Squares along the area's longer side at the beginning."""
 
-_SHIFT = 4
-"""Binary digits of a cell that positions keep."""
-
-
-@dataclass(frozen=True)
-class _Grid:
-    x0: float
-    y0: float
-    pitch: float
-    rows: int
-    columns: int
-
-    def cells(self, points: NDArray[np.float64]) -> NDArray[np.int32]:
-        """Return points (n, 2), mm, as cells in fixed point."""
-        place = (points - (self.x0, self.y0)) / self.pitch - 0.5
-        return np.asarray(np.round(place * 2**_SHIFT), dtype=np.int32)
-
-    def blank(self, value: int) -> NDArray[np.uint8]:
-        """Return a picture of one value."""
-        return np.full((self.rows, self.columns), value, np.uint8)
+Floats = NDArray[np.float64]
 
 
-def uncertain(wanted: Shape, paths: Sequence[NDArray[np.float64]], radius: float) -> NDArray[np.object_]:
+def uncertain(wanted: Shape, paths: Sequence[tuple[Rows, float]], progress: Progress = NO_PROGRESS) -> NDArray[np.object_]:
     """Return boxes (n,) that hold every point of a wanted area that is not proven covered.
 
     Args:
         wanted: polygons, mm.
-        paths: points (n, 2) of each path, mm.
-        radius: of the cutter, mm, > 0.
+        paths: (rows (m, 8) of a path, radius of its cutter, mm, > 0); rows may sweep up to a full turn.
+        progress: looked at between sizes of squares.
     """
     if wanted.is_empty:
         return np.zeros(0, dtype=object)
-    grid = _grid(wanted, radius)
-    lines = grid.blank(1)
-    cv2.polylines(lines, [grid.cells(path) for path in paths], False, 0, 1, cv2.LINE_8, _SHIFT)
-    distance = cv2.distanceTransform(lines, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
-    doubtful = ((distance + _DOUBT) * grid.pitch > radius) & (_drawn(wanted, grid) > 0)
-    tiles = doubtful.reshape(grid.rows // _TILE, _TILE, grid.columns // _TILE, _TILE).any(axis=(1, 3))
-    row, column = np.nonzero(tiles)
-    x = grid.x0 + np.arange(tiles.shape[1] + 1) * _TILE * grid.pitch
-    y = grid.y0 + np.arange(tiles.shape[0] + 1) * _TILE * grid.pitch
-    return np.asarray(shapely.box(x[column], y[row], x[column + 1], y[row + 1]), dtype=object)
+    shapely.prepare(wanted)
+    fields = [(DistanceField.of(within_half_turn(rows)), radius) for rows, radius in paths if len(rows)]
+    finest = min((radius for _, radius in fields), default=math.inf) / _FINEST
+    centres, half = _grid(wanted.bounds)
+    kept = []
+    while True:
+        progress.step(0.0, "Measuring what is left")
+        centres = centres[shapely.intersects(wanted, _boxes(centres, half))]
+        q = half * math.sqrt(2)
+        uncut = np.full(len(centres), math.inf)
+        for field, radius in fields:
+            uncut = np.minimum(uncut, field.nearest(centres, radius + 2 * q)[0] - radius)
+        centres, uncut = centres[uncut > -q], uncut[uncut > -q]
+        last = half <= finest
+        whole = (uncut >= q) | last
+        kept.append(_runs(centres[whole], half))
+        if last:
+            return np.concatenate(kept)
+        half /= 2
+        centres = _quarters(centres[~whole], half)
 
 
-def _grid(wanted: Shape, radius: float) -> _Grid:
-    """Return a grid over an area, with two cells round it."""
-    x0, y0, x1, y1 = wanted.bounds
-    pitch = max(radius / _CELLS_A_RADIUS, max(x1 - x0, y1 - y0) / _LARGEST)
-    rows, columns = (_TILE * int(np.ceil((span / pitch + 4) / _TILE)) for span in (y1 - y0, x1 - x0))
-    return _Grid(x0 - 2 * pitch, y0 - 2 * pitch, pitch, rows, columns)
+def _boxes(centres: Floats, half: float) -> NDArray[np.object_]:
+    low, high = centres - half, centres + half
+    return np.asarray(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]), dtype=object)
 
 
-def _drawn(wanted: Shape, grid: _Grid) -> NDArray[np.uint8]:
-    """Return a picture whose cells are not 0 wherever the area is, and up to two cells round it."""
-    rings = [shapely.get_coordinates(ring) for ring in shapely.get_rings(shapely.get_parts(wanted))]
-    picture = grid.blank(0)
-    cv2.fillPoly(picture, [grid.cells(ring) for ring in rings], 1, cv2.LINE_8, _SHIFT)
-    return np.asarray(cv2.dilate(picture, np.ones((3, 3), np.uint8)), dtype=np.uint8)
+def _runs(centres: Floats, half: float) -> NDArray[np.object_]:
+    """Return boxes round squares of one size; those side by side share one."""
+    if not len(centres):
+        return np.zeros(0, dtype=object)
+    column, row = np.round((centres - centres.min(axis=0)) / (2 * half)).astype(np.int64).T
+    order = np.lexsort((column, row))
+    column, row = column[order], row[order]
+    first = np.concatenate([[True], (np.diff(row) != 0) | (np.diff(column) != 1)])
+    last = np.concatenate([first[1:], [True]])
+    low, high = centres[order][first] - half, centres[order][last] + half
+    return np.asarray(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]), dtype=object)
+
+
+def _grid(bounds: tuple[float, float, float, float]) -> tuple[Floats, float]:
+    """Return (centres (n, 2), half side): binary fractions, so that edges of squares of all sizes meet to the last digit."""
+    x0, y0, x1, y1 = bounds
+    half = 2.0 ** math.ceil(math.log2(max(x1 - x0, y1 - y0) / _START / 2))
+    x, y = (np.arange(math.floor(low / half / 2), math.ceil(high / half / 2)) * 2 * half + half for low, high in ((x0, x1), (y0, y1)))
+    return np.stack(np.meshgrid(x, y), -1).reshape(-1, 2), half
+
+
+def _quarters(centres: Floats, half: float) -> Floats:
+    """Return the centres of the four quarters, of half side `half`, of each square."""
+    corners = np.array([[-half, -half], [half, -half], [-half, half], [half, half]])
+    quarters: Floats = (centres[:, None] + corners).reshape(-1, 2)
+    return quarters

@@ -124,15 +124,15 @@ def test_no_operation_no_region_no_moves() -> None:
 
 
 @pytest.mark.parametrize("radii", [(7.0, 4.0, 1.0), (7.0, 1.0), (6.0,)])
-def test_what_the_coarse_picture_proves_changes_nothing(radii: tuple[float, ...], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_proven_covered_changes_nothing(radii: tuple[float, ...], monkeypatch: pytest.MonkeyPatch) -> None:
     """Every tile taken as uncertain gives the same answer, also for an area of several parts with holes."""
     island = Contour((Circle((30.0, 0.0), 1.5, ccw=False),))
     regions = (DISC, Region(2, Contour((Circle((30.0, 0.0), 9.0),)), (island,)), Region(3, Contour((Circle((0.0, 25.0), 9.0),))))
     program = rings(*radii).program(*regions)
     quick = measure(program, one_tool())
-    monkeypatch.setattr("app.toolpath.coverage.uncertain", lambda wanted, paths, radius: np.array([shapely.box(*wanted.bounds)]))
+    monkeypatch.setattr("app.toolpath.coverage.uncertain", lambda wanted, paths, progress: np.array([shapely.box(*wanted.bounds)]))
     full = measure(program, one_tool())
-    assert quick.reachable_left_mm2 == pytest.approx(full.reachable_left_mm2, abs=1e-6)
+    assert quick.reachable_left_mm2 == pytest.approx(full.reachable_left_mm2, abs=1e-3)
     assert quick.reachable_left_mm2 > 300
     assert quick.unreachable_mm2 == full.unreachable_mm2
     assert len(quick.places) == len(full.places)
@@ -142,9 +142,10 @@ def test_an_uncertain_tile_lies_wherever_the_floor_is_not_cut() -> None:
     area = shapely.box(0, 0, 40, 30).difference(shapely.Point(20, 15).buffer(4))
     path = np.array([[3.0, 3.0], [37.0, 3.0], [37.0, 27.0]])
     uncut = area.difference(shapely.LineString(path).buffer(3, quad_segs=64))
-    tiles = shapely.union_all(uncertain(area, [path], 3.0))
+    rows = np.hstack([path[:-1], path[1:], np.zeros((2, 4))])
+    tiles = shapely.union_all(uncertain(area, [(rows, 3.0)]))
     assert tiles.covers(uncut)
-    assert 0 < area.difference(tiles).area < area.area - uncut.area
+    assert 0.75 * (area.area - uncut.area) < area.difference(tiles).area < area.area - uncut.area
 
 
 def test_ramps_and_rapids_do_not_clear_the_floor() -> None:
