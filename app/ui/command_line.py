@@ -108,7 +108,10 @@ class CommandLine(QWidget):
         self.edit.insert(text)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
-        """Enter, Escape, Up and Down."""
+        """Enter, Escape, Up and Down; with nothing typed, keys like Ctrl+Z are the window's."""
+        if event.type() == QEvent.Type.ShortcutOverride and not self.edit.text():
+            event.ignore()
+            return True
         if event.type() != QEvent.Type.KeyPress or not isinstance(event, QKeyEvent):
             return super().eventFilter(watched, event)
         key = event.key()
@@ -125,7 +128,7 @@ class CommandLine(QWidget):
 
     def _enter(self) -> None:
         text = self.edit.text().strip()
-        self.edit.clear()
+        self.edit.setText("")  # forgets what QLineEdit could undo, which `clear` does not
         if not text:
             self.accepted.emit()
             return

@@ -5,11 +5,14 @@ from __future__ import annotations
 from contextlib import suppress
 from dataclasses import replace
 
-from PySide6.QtCore import QByteArray
+from PySide6.QtCore import QByteArray, QRect
 
 from app.errors import HitofudeError
 from app.settings import ThemeChoice, save_settings
 from app.ui.main_window import MainWindow
+
+_TITLE_BAR_PX = 36
+"""Kept free for the title bar, which the desktop adds above the window."""
 
 
 def remember(window: MainWindow) -> None:
@@ -21,9 +24,20 @@ def remember(window: MainWindow) -> None:
 
 
 def restore_geometry(window: MainWindow) -> None:
-    """Put the window where it was the last time."""
+    """Put the window where it was the last time, and in any case onto the screen."""
     if window.settings.window_geometry:
         window.restoreGeometry(QByteArray.fromBase64(window.settings.window_geometry.encode()))
+    fit_onto(window, window.screen().availableGeometry())
+
+
+def fit_onto(window: MainWindow, screen: QRect) -> None:
+    """Make the window no larger than a screen's free rectangle, and move it there when it reaches beyond."""
+    if window.isMaximized() or window.isFullScreen():
+        return
+    room = screen.adjusted(0, _TITLE_BAR_PX, 0, 0)
+    window.resize(window.size().boundedTo(room.size()))
+    if not room.contains(window.geometry()):
+        window.move(screen.topLeft())
 
 
 def choose_theme(window: MainWindow, choice: ThemeChoice) -> None:

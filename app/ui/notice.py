@@ -65,6 +65,7 @@ class Notice(QWidget):
             restyle(widget)
         for at, (text, act) in enumerate(answers):
             button = QPushButton(text)
+            button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
             button.clicked.connect(self.hide)
             button.clicked.connect(partial(_call, act))
             self.buttons.append(button)

@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject
 from app.edit.document import Change
 from app.model.finding import Finding
 from app.model.part import Part
-from app.ui.canvas.modes import ColourBy, PathLayers
+from app.ui.canvas.modes import CanvasTool, ColourBy, PathLayers
 from app.ui.computation import State
 from app.ui.main_window import MainWindow
 from app.ui.opening import size_of
@@ -57,6 +57,7 @@ class Showing(QObject):
         window.status.badge.clicked.connect(self.open_findings)
         window.findings_list.picked.connect(self.go_to)
         window.views.nc.line_picked.connect(self._on_line_picked)
+        window.canvas.tool_changed.connect(lambda _: self._show_missing())
         window.views.empty.pressed.connect(lambda: window.actions_[self._empty_action].trigger())
         window.views.legend.layer_switched.connect(self._on_layer)
         window.views.legend.colour_chosen.connect(lambda by: window.canvas.set_colour_by(ColourBy(by)))
@@ -128,7 +129,8 @@ class Showing(QObject):
         if self._computation.state is State.RUNNING:
             return COMPUTING if self.view is not View.DRAW else NOTHING
         if not self._document.part.entities:
-            return NO_DRAWING
+            drawing = self.view is not View.NC and self._window.canvas.tool is not CanvasTool.SELECT
+            return NOTHING if drawing else NO_DRAWING
         return {View.PATHS: NO_PATHS, View.NC: NO_NC}.get(self.view, NOTHING)
 
     def show_hovered(self, text: str) -> None:

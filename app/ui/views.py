@@ -36,6 +36,7 @@ class EmptyState(QWidget):
         self.sentence, self.button = QLabel(), QPushButton()
         self.sentence.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.button.clicked.connect(self.pressed)
+        self.button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         column = QVBoxLayout(self)
         column.setContentsMargins(24, 16, 24, 16)
         column.setSpacing(12)

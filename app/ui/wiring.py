@@ -121,7 +121,7 @@ class Wiring(QObject):
             self._on(name, partial(canvas.set_tool, tool))
         window.actions_["tool_select"].setChecked(True)
         canvas.cursor_moved.connect(window.status.show_place)
-        canvas.cursor_moved.connect(lambda *_: window.status.show_grid(canvas.grid_step))
+        canvas.view_changed.connect(lambda: window.status.show_grid(canvas.grid_step))
         window.status.show_grid(canvas.grid_step)
         canvas.prompt_changed.connect(window.command_line.set_prompt)
         canvas.hovered.connect(self.showing.show_hovered)
