@@ -27,6 +27,9 @@ LARGEST_INPUT = 256 * 2**20
 REMARKS = 3
 """Remarks of one kind that are printed; the report has all."""
 
+COUNTED = 10
+"""Findings of one kind that are printed; the report has all."""
+
 
 def make_command(argv: Sequence[str], stopped: threading.Event) -> int:
     """Run `make` and return its exit status: 0 clean, 1 with findings.
@@ -146,14 +149,15 @@ def _progress(quiet: bool, stopped: threading.Event) -> Progress:
 
 
 def _summary(made: Made, output: Path) -> None:
-    """Say in a few lines what was made and what there is to know about it: what counts whole, of remarks the first few."""
+    """Say in a few lines what was made and what there is to know about it, the first few of each kind."""
     print(made.report.summary(str(output)))
     shown: Counter[FindingKind] = Counter()
     for finding in made.findings:
         shown[finding.kind] += 1
-        if finding.counts or shown[finding.kind] <= REMARKS:
+        if shown[finding.kind] <= (COUNTED if finding.counts else REMARKS):
             print(f"  {'!' if finding.counts else '-'} {finding.text}")
     for kind, count in shown.items():
-        told = sum(1 for finding in made.findings if finding.kind is kind and finding.counts)
-        if count > max(told, REMARKS):
-            print(f"  - {count - max(told, REMARKS)} more of the kind {kind.value}; --report R.json lists them all")
+        counting = sum(1 for finding in made.findings if finding.kind is kind and finding.counts)
+        told = max(min(counting, COUNTED), min(count, REMARKS))
+        if count > told:
+            print(f"  - {count - told} more of the kind {kind.value}; --report R.json lists them all")

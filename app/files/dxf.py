@@ -159,7 +159,8 @@ def _on_layers(part: Part, layers: tuple[str, ...], name: str) -> Part:
 def _unit_findings(given: Units | None, shown: Units, named: bool) -> Iterable[Finding]:
     word = shown.name.lower()
     if not named and given is None:
-        yield _remark(f"The drawing names no units; {word} is assumed. If it is in inches, say --units in, or choose them on opening.")
+        text = f"The drawing names no units; {word} is assumed. If it is in inches, say --units in, or choose them on opening."
+        yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
     elif named and given is not None and given is not shown:
         yield _remark(f"The drawing names its own units, {word}; the units given, {given.name.lower()}, are not used.")
 

@@ -94,7 +94,7 @@ def gap_findings(gaps: Sequence[tuple[float, Point]]) -> list[Finding]:
         return []
     widest, place = max(gaps)
     count = "1 gap was" if len(gaps) == 1 else f"{len(gaps)} gaps were"
-    return [Finding(FindingKind.TOLERANCE, f"{count} closed; the widest, {widest:.4f} mm, is at {at(place)}.", *place, False, (), widest)]
+    return [Finding(FindingKind.GAP_CLOSED, f"{count} closed; the widest, {widest:.4f} mm, is at {at(place)}.", *place, False, (), widest)]
 
 
 def branch_findings(branches: Sequence[tuple[Point, int]]) -> list[Finding]:

@@ -12,6 +12,8 @@ class FindingKind(Enum):
     OPEN_CONTOUR = "open_contour"
     SELF_INTERSECTION = "self_intersection"
     OVERLAP = "overlap"
+    GAP_CLOSED = "gap_closed"
+    UNITS_ASSUMED = "units_assumed"
     LEFT_OUT = "left_out"
     TINY_ENTITY = "tiny_entity"
     REGION_TOO_SMALL = "region_too_small"

@@ -70,7 +70,7 @@ def test_gap_within_tolerance_is_closed_and_said() -> None:
     points = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0), (0.0, 0.004)]
     made = chained([Line(a, b) for a, b in pairwise(points)])
     assert shape(made) == [(True, 4)]
-    (gap,) = of_kind(made, FindingKind.TOLERANCE)
+    (gap,) = of_kind(made, FindingKind.GAP_CLOSED)
     assert not gap.counts and gap.amount == pytest.approx(0.004) and "(0.000, 0.002)" in gap.text
     assert made.contours[0].deviation == pytest.approx(0.002)
 
