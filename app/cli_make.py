@@ -12,10 +12,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from app.atomic import write_atomically
 from app.cli_options import make_options, read_arguments
 from app.cli_signals import undisturbed
 from app.errors import InputError
-from app.files.atomic import write_atomically
 from app.model.finding import FindingKind
 from app.progress import Progress
 from app.workflow.make import Made, make

@@ -11,8 +11,8 @@ from typing import Any
 
 import platformdirs
 
+from app.atomic import write_atomically
 from app.errors import InputError
-from app.files.atomic import write_atomically
 
 RECENT_FILES = 10
 """How many files the list of recent files holds."""

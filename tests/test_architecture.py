@@ -13,7 +13,7 @@ import pytest
 from tests.conftest import ROOT
 
 APP = ROOT / "app"
-LEAVES = {"errors", "progress", "tolerances", "resources", "pool", "jit"}
+LEAVES = {"errors", "progress", "tolerances", "resources", "pool", "jit", "atomic", "settings"}
 KNOWS = {
     "model": set(),
     "geometry": {"model", "fit"},
@@ -24,8 +24,7 @@ KNOWS = {
     "files": {"model", "geometry", "fit"},
     "edit": {"model", "geometry", "fit", "files"},
     "workflow": {"model", "geometry", "fit", "bitmap", "toolpath", "nc", "files"},
-    "ui": {"model", "geometry", "fit", "bitmap", "toolpath", "nc", "files", "edit", "workflow", "settings", "kernels", "cli"},
-    "settings": {"files"},
+    "ui": {"model", "geometry", "fit", "bitmap", "toolpath", "nc", "files", "edit", "workflow", "kernels", "cli"},
     "kernels": set(),
     "cli": {"model", "geometry", "fit", "bitmap", "toolpath", "nc", "files", "edit", "workflow"},
     "__main__": {"cli", "ui"},

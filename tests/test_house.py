@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from app.atomic import write_atomically
 from app.errors import Cancelled, InputError
-from app.files.atomic import write_atomically
 from app.kernels import kernel_modules, warm
 from app.pool import pool
 from app.progress import Progress

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
+from app.atomic import write_atomically
 from app.errors import HitofudeError
-from app.files.atomic import write_atomically
 from app.ui.computation import Computation, State
 from app.ui.figures import counted
 from app.ui.notice import Notice
