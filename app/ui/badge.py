@@ -23,6 +23,7 @@ class Badge(QPushButton):
         super().__init__()
         self.setProperty("role", "badge")
         self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.setFixedHeight(24)
         self._turn = 0
         self._timer = QTimer(self)
@@ -119,7 +120,7 @@ class FindingsList(QFrame):
         return area
 
     def _row(self, finding: Finding) -> Row:
-        label = QLabel(finding.text)
+        label = QLabel(finding.text.replace("mm2", "mm²"))
         label.setWordWrap(True)
         label.setFixedWidth(472)
         label.setToolTip(short(finding))

@@ -43,7 +43,7 @@ def _compute(job: Job, drawing_findings: tuple[Finding, ...], progress: Progress
 
     made = export(job, progress.part(0.0, 0.95), drawing_findings)
     progress.step(0.95, "Preparing the picture")
-    return Computed(made, ProgramPicture(made.program))
+    return Computed(made, ProgramPicture(made.program, made.coverage.places))
 
 
 class Computation(QObject):

@@ -87,7 +87,7 @@ class Legend(QFrame):
         column.addWidget(muted("Colour by"))
         self.colour = ChoiceField("", [(ColourBy.TOOL, "Tool"), (ColourBy.REGION, "Region")])
         self.colour.show_value(ColourBy.TOOL)
-        self.colour.chosen.connect(self.colour_chosen)
+        self.colour.chosen.connect(self._choose_colour)
         column.addWidget(self.colour)
 
     def _head(self) -> QHBoxLayout:
@@ -105,10 +105,20 @@ class Legend(QFrame):
         self.fold.show_icon("down" if folded else "up", "Unfold the legend" if folded else "Fold the legend")
         self.adjustSize()
 
+    def _choose_colour(self, by: ColourBy) -> None:
+        for row in self.rows.values():
+            row.line.set_any_colour(by is ColourBy.REGION)
+        self.colour_chosen.emit(by)
+
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""
         self._theme = theme
         self.update()
+
+    def show_left(self, left: bool, unreachable: bool) -> None:
+        """Have entries for what is left on the floor only when there is some."""
+        self.rows[Sample.LEFT].setVisible(left)
+        self.rows[Sample.UNREACHABLE].setVisible(unreachable)
 
     def show_job(self, job: Job) -> None:
         """Name the tools of pocket and contour paths."""

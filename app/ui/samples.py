@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QWidget
 
 from app.ui.theme import LIGHT, Theme
@@ -20,12 +20,14 @@ class Sample(Enum):
     LINK = "Link"
     RAPID = "Rapid"
     PLUNGE = "Plunge"
+    LEFT = "Left material"
+    UNREACHABLE = "Out of reach"
 
 
 def sample_pen(sample: Sample, theme: Theme) -> QPen:
     """Return the pen that paths of this kind are drawn with."""
     colours = {Sample.PART: theme.ink, Sample.POCKET: theme.pocket, Sample.CONTOUR: theme.contour, Sample.LINK: theme.pocket,
-               Sample.RAPID: theme.rapid, Sample.PLUNGE: theme.plunge}
+               Sample.RAPID: theme.rapid, Sample.PLUNGE: theme.plunge, Sample.LEFT: theme.left, Sample.UNREACHABLE: theme.unreachable}
     pen = QPen(colours[sample], 1.0 if sample in (Sample.LINK, Sample.RAPID, Sample.PART) else 1.8)
     pen.setCapStyle(Qt.PenCapStyle.FlatCap)
     if sample is Sample.CONTOUR:
@@ -41,6 +43,7 @@ class LineSample(QWidget):
     def __init__(self, sample: Sample, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._sample, self._theme = sample, LIGHT
+        self._any_colour = False
         self.setFixedSize(28, 16)
 
     def set_theme(self, theme: Theme) -> None:
@@ -48,20 +51,39 @@ class LineSample(QWidget):
         self._theme = theme
         self.update()
 
+    def set_any_colour(self, on: bool) -> None:
+        """Draw cutting paths in grey: their colour tells something else than their kind."""
+        self._any_colour = on
+        self.update()
+
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Draw the line, or the mark of a plunge."""
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setOpacity(1.0 if self.isEnabled() else 0.35)
-        painter.setPen(sample_pen(self._sample, self._theme))
+        pen = sample_pen(self._sample, self._theme)
+        if self._any_colour and self._sample in (Sample.POCKET, Sample.CONTOUR, Sample.LINK):
+            pen.setColor(self._theme.muted)
+        painter.setPen(pen)
         middle = QPointF(self.width() / 2, self.height() / 2)
         if self._sample is Sample.PLUNGE:
             painter.setPen(QPen(self._theme.plunge, 1.4))
             painter.drawEllipse(middle, 4.2, 4.2)
             painter.setPen(QPen(self._theme.plunge, 2.6, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
             painter.drawPoint(middle)
+        elif self._sample in (Sample.LEFT, Sample.UNREACHABLE):
+            self._hatch(painter, painter.pen().color())
         else:
             painter.drawLine(QPointF(1, middle.y()), QPointF(self.width() - 1, middle.y()))
+
+    def _hatch(self, painter: QPainter, colour: QColor) -> None:
+        area = QRectF(1.5, 2.5, self.width() - 3, self.height() - 5)
+        ground = QColor(colour)
+        ground.setAlphaF(0.35)
+        painter.fillRect(area, ground)
+        painter.setPen(QPen(colour, 1))
+        painter.setBrush(QBrush(colour, Qt.BrushStyle.BDiagPattern))
+        painter.drawRect(area)
 
 
 class Switch(QAbstractButton):

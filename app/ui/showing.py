@@ -20,6 +20,7 @@ from app.ui.views import View
 _LAYERS = {
     Sample.PART: PathLayers.PART, Sample.POCKET: PathLayers.POCKET, Sample.CONTOUR: PathLayers.CONTOUR,
     Sample.LINK: PathLayers.LINK, Sample.RAPID: PathLayers.RAPID, Sample.PLUNGE: PathLayers.PLUNGE,
+    Sample.LEFT: PathLayers.LEFT, Sample.UNREACHABLE: PathLayers.UNREACHABLE,
 }
 
 
@@ -141,7 +142,10 @@ class Showing(QObject):
         made, state = self._computation.made, self._computation.state
         if made is not self._shown_program:
             self._shown_program = made
-            self._window.canvas.set_program(self._computation.picture)
+            picture = self._computation.picture
+            self._window.canvas.set_program(picture)
+            if picture is not None:
+                self._window.views.legend.show_left(bool(picture.left), bool(picture.unreachable))
             if made is not None:
                 self._window.views.nc.show_program(made.nc.text, made.nc.lines, made.program.moves)
             self._window.canvas.set_findings(self._marked())
@@ -188,7 +192,8 @@ class Showing(QObject):
         self._window.canvas.set_findings((*self._marked(), finding))
         if self.view is View.NC:
             self.show_view(View.PATHS)
-        self._window.canvas.go_to(finding.x, finding.y)
+        self._window.canvas.go_to(finding.x, finding.y, closely=True)
+        self._window.canvas.setFocus()
         self._document.select(finding.entity_ids)
 
     def _on_line_picked(self, move: int) -> None:

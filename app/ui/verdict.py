@@ -70,6 +70,11 @@ def short(finding: Finding) -> str:
     return f"{_NAMES[finding.kind]}{amount}{place}"
 
 
+def _sentence(finding: Finding) -> str:
+    text = short(finding)
+    return text[0].upper() + text[1:]
+
+
 def figures(data: Mapping[str, Any]) -> str:
     """Return the measured figures of a report: "0 gouge · 0 left · 2 strokes · 4:12". What was not measured is not said."""
     parts = []
@@ -90,8 +95,8 @@ def verdict(findings: tuple[Finding, ...], data: Mapping[str, Any]) -> Verdict:
     """Return the verdict on a computed program from its findings and its report."""
     counting = [f for f in worst_first(findings) if f.counts]
     if not any(data.get("moves", {}).values()):
-        return Verdict(Level.REMARK, short(counting[0]) if counting else "No closed contour to machine")
+        return Verdict(Level.REMARK, _sentence(counting[0]) if counting else "No closed contour to machine")
     if not counting:
         return Verdict(Level.OK, f"✓ {figures(data)}")
-    more = f"  +{len(counting) - 1}" if len(counting) > 1 else ""
-    return Verdict(finding_level(counting[0]), short(counting[0]) + more)
+    more = f" · {len(counting) - 1} more" if len(counting) > 1 else ""
+    return Verdict(finding_level(counting[0]), _sentence(counting[0]) + more)

@@ -19,10 +19,12 @@ from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program, Purpose
 from app.model.part import Contour, Entity, Part, Region
 from app.toolpath.compute import compute
+from app.toolpath.coverage import Place
 from app.ui.canvas.canvas import Canvas, CanvasMode, CanvasTool, ColourBy, PathLayers
 from app.ui.canvas.program_chunks import chunks, plunges, rapids, rapids_path
 from app.ui.canvas.program_geometry import shape_moves
 from app.ui.canvas.program_hover import nearest_move
+from app.ui.canvas.program_picture import ProgramPicture
 from app.ui.canvas.view import View
 from app.ui.theme import DARK, LIGHT, Theme
 from tests.conftest import ROOT
@@ -122,6 +124,27 @@ def test_the_region_is_lightly_filled(canvas: Canvas) -> None:
     assert inside() == LIGHT.region_fill.name()
     canvas.set_visible_layers(PathLayers.ALL & ~PathLayers.REGION)
     assert inside() == LIGHT.canvas.name()
+
+
+@pytest.mark.parametrize(("reachable", "layer", "colour"), [
+    (True, PathLayers.LEFT, "left"), (False, PathLayers.UNREACHABLE, "unreachable")], ids=["left", "out of reach"])
+def test_what_is_left_is_hatched_but_for_its_holes(canvas: Canvas, reachable: bool, layer: PathLayers, colour: str) -> None:
+    def square(half: float) -> np.ndarray:
+        return np.array([(40 - half, 50 - half), (40 + half, 50 - half), (40 + half, 50 + half), (40 - half, 50 + half)])
+
+    place = Place(40.0, 50.0, 48.0, 2.0, reachable, square(4.0), (square(2.0),))
+    canvas.set_program(ProgramPicture(TWO_RINGS, (place,)))
+
+    def share_of_hatch(x: float) -> float:
+        image, at = canvas.grab().toImage(), canvas.view.to_screen((x, 50.0)).toPoint()
+        wanted = getattr(LIGHT, colour)
+        seen = [image.pixelColor(at.x() + dx, at.y() + dy) == wanted for dx in range(-6, 7) for dy in range(-6, 7)]
+        return sum(seen) / len(seen)
+
+    assert 0.05 < share_of_hatch(37.0) < 0.5
+    assert share_of_hatch(40.0) == 0
+    canvas.set_visible_layers(PathLayers.ALL & ~layer)
+    assert share_of_hatch(37.0) == 0
 
 
 def test_arcs_are_round_at_every_zoom(canvas: Canvas) -> None:
@@ -234,6 +257,11 @@ def test_findings_are_marked_and_can_be_gone_to(canvas: Canvas, qtbot: QtBot) ->
     canvas.go_to(40.0, 45.0)
     qtbot.wait(300)
     assert canvas.view.to_world(canvas.area.center()) == pytest.approx((40, 45))
+    assert canvas.view.scale == 8.0
+    canvas.go_to(20.0, 30.0, closely=True)
+    qtbot.wait(300)
+    assert canvas.view.to_world(canvas.area.center()) == pytest.approx((20, 30))
+    assert canvas.view.scale > 30
 
 
 def test_a_crowded_scene_stays_fluid(qtbot: QtBot) -> None:

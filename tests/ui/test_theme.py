@@ -1,5 +1,7 @@
 """Both themes: text can be read, icons can be seen, every action of the table is there."""
 
+import math
+
 import pytest
 from PySide6.QtGui import QColor, QFontMetrics
 
@@ -43,6 +45,15 @@ def test_style_sheet_names_no_colour_that_is_missing(theme):
 def test_eight_regions_differ_in_both_themes():
     for theme in (LIGHT, DARK):
         assert len({c.name() for c in theme.regions}) == 8
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK], ids=lambda t: t.name)
+@pytest.mark.parametrize("taken", ["plunge", "contour", "gouge", "left"])
+def test_no_region_is_taken_for_something_else(theme, taken):
+    other = getattr(theme, taken)
+    for region in theme.regions:
+        apart = math.dist(region.getRgb()[:3], other.getRgb()[:3])
+        assert apart > 45, f"{region.name()} looks like {taken} {other.name()}"
 
 
 def test_every_icon_draws_something_in_the_colour_asked_for(qapp):

@@ -22,7 +22,7 @@ def test_what_was_not_measured_is_not_said():
 def test_worst_finding_stands_first():
     shown = verdict((OPEN, CORNER, GOUGE), CLEAN)
     assert shown.level is Level.BAD
-    assert shown.text == "gouge 0.120 mm at (41.2, 8.0)  +1"
+    assert shown.text == "Gouge 0.120 mm at (41.2, 8.0) · 1 more"
     assert worst_first((CORNER, OPEN, GOUGE)) == (GOUGE, OPEN, CORNER)
 
 

@@ -4,15 +4,17 @@ import time
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtCore import QMimeData, QPoint, QPointF, QRect, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 
 from app.settings import ThemeChoice, load_settings
 from app.ui.canvas.modes import CanvasTool, ColourBy
 from app.ui.computation import State
 from app.ui.files import FIRST_START
+from app.ui.memory import fit_onto
 from app.ui.panels.changes import Subject, SubjectKind
+from app.ui.samples import Sample
 from app.ui.start import build
 from app.ui.theme import DARK, LIGHT
 from app.ui.views import View
@@ -275,9 +277,55 @@ def test_finding_leads_to_its_place(qtbot, computed):
 def test_legend_switches_layers(qtbot, computed):
     legend = computed.window_.views.legend
     before = computed.window_.canvas.grab().toImage()
-    for row in legend.rows.values():
+    for row in filter(QWidget.isVisible, legend.rows.values()):
         qtbot.mouseClick(row, Qt.MouseButton.LeftButton)
     assert computed.window_.canvas.grab().toImage() != before
+
+
+def test_legend_tells_of_left_material_only_when_there_is_some(qtbot, wiring):
+    rows = wiring.window_.views.legend.rows
+
+    def compute():
+        wiring.compute()
+        qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=WAIT_MS)
+
+    wiring.document.run("circle 50,50 20")
+    compute()
+    assert not rows[Sample.LEFT].isVisible()
+    assert not rows[Sample.UNREACHABLE].isVisible()
+    wiring.document.run("rect 80,30 120,70")
+    compute()
+    assert not rows[Sample.LEFT].isVisible()
+    assert rows[Sample.UNREACHABLE].isVisible()
+
+
+def test_empty_command_line_leaves_undo_to_the_drawing(qtbot, wiring):
+    line = wiring.window_.command_line.edit
+    line.setFocus()
+    for words in ("circle 0,0 10", "circle 0,0 20"):
+        qtbot.keyClicks(line, words)
+        qtbot.keyClick(line, Qt.Key.Key_Return)
+    for left in (1, 0, 0):
+        qtbot.keyClick(line, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+        assert len(wiring.document.part.entities) == left
+        assert line.text() == ""
+
+
+def test_empty_view_gives_way_to_a_drawing_tool(qtbot, wiring):
+    empty = wiring.window_.views.empty
+    assert empty.isVisible()
+    wiring.window_.actions_["tool_circle"].trigger()
+    assert not empty.isVisible()
+    wiring.window_.actions_["tool_select"].trigger()
+    assert empty.isVisible()
+
+
+def test_window_fits_onto_a_small_screen(qtbot, wiring):
+    window = wiring.window_
+    window.resize(1440, 900)
+    fit_onto(window, QRect(0, 0, 1280, 800))
+    assert window.width() <= 1280
+    assert window.height() < 800
 
 
 def test_legend_folds_and_colours_by_region(qtbot, computed):

@@ -30,6 +30,9 @@ __all__ = ["Canvas", "CanvasMode", "CanvasTool", "ColourBy", "Frame", "PathLayer
 _BLEED_PX = 8.0
 """How far lines and marks reach beyond the shape they belong to."""
 
+_CLOSE_MM = 16.0
+"""How much is seen around a place that is looked at closely."""
+
 _LARGE = 0.35
 """A part that takes up this share of the frame's span is shown together with the frame."""
 
@@ -114,9 +117,10 @@ class Canvas(Hands):
         """Show the whole part, or the frame while nothing is drawn."""
         self.glide_to_box(self.picture.lookup.box or self.frame.extent)
 
-    def go_to(self, x: float, y: float) -> None:
-        """Bring a point in mm to the middle."""
-        self.glide_to_point((x, y))
+    def go_to(self, x: float, y: float, closely: bool = False) -> None:
+        """Bring a point in mm to the middle; with `closely` zoom in, too, unless it is seen larger already."""
+        scale = min(self.area.width(), self.area.height()) / _CLOSE_MM if closely else 0.0
+        self.glide_to(replace(self.view, scale=max(self.view.scale, scale)).centred((x, y), self.area))
 
     def paint_scene(self, painter: QPainter, area: QRectF) -> None:
         """Paint paper, paths and part within a screen rectangle."""

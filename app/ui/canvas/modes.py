@@ -42,4 +42,6 @@ class PathLayers(Flag):
     LEAD = auto()
     RAPID = auto()
     PLUNGE = auto()
-    ALL = PART | REGION | POCKET | CONTOUR | LINK | LEAD | RAPID | PLUNGE
+    LEFT = auto()
+    UNREACHABLE = auto()
+    ALL = PART | REGION | POCKET | CONTOUR | LINK | LEAD | RAPID | PLUNGE | LEFT | UNREACHABLE

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import Qt
@@ -11,12 +12,16 @@ from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 from app.edit.sample import Box
 from app.model.moves import Program, Purpose
 from app.ui.canvas.curve_path import MANY, chain_path
+from app.ui.canvas.left_picture import LeftPicture
 from app.ui.canvas.modes import ColourBy, PathLayers
 from app.ui.canvas.pens import FINE, screen_pen
 from app.ui.canvas.program_chunks import PathStyle, chunks, plunges, rapids, rapids_path
 from app.ui.canvas.program_geometry import shape_moves
 from app.ui.canvas.view import View
 from app.ui.theme import Theme
+
+if TYPE_CHECKING:
+    from app.toolpath.coverage import Place
 
 CUT_WIDTH, LINK_WIDTH, RAPID_WIDTH = 1.6, 1.0, 1.0
 CONTOUR_DASHES, RAPID_DOTS = (6.0, 3.6), (1.2, 2.6)
@@ -43,14 +48,17 @@ def shown_purposes(layers: PathLayers) -> frozenset[Purpose]:
 
 
 class ProgramPicture:
-    """One program, ready to paint.
+    """One program and what it leaves on the floor, ready to paint.
 
     Attributes:
         shapes: its moves, for picking.
+        left, unreachable: what a tool could have cut and did not; what no tool reaches.
     """
 
-    def __init__(self, program: Program) -> None:
+    def __init__(self, program: Program, places: tuple[Place, ...] = ()) -> None:
         """Build every path once, in mm."""
+        self.left = LeftPicture([place for place in places if place.reachable])
+        self.unreachable = LeftPicture([place for place in places if not place.reachable])
         self.shapes = shape_moves(program.moves)
         self._chunks = sorted(chunks(self.shapes), key=lambda c: _ORDER.index(c.style.purpose))
         self._boxes = np.array([c.box for c in self._chunks]).reshape(-1, 4)
@@ -72,6 +80,10 @@ class ProgramPicture:
         painter.setTransform(view.transform(), True)
         if PathLayers.REGION in look.layers:
             self._paint_regions(painter, look)
+        if PathLayers.UNREACHABLE in look.layers:
+            self.unreachable.paint(painter, view, box, look.theme.unreachable)
+        if PathLayers.LEFT in look.layers:
+            self.left.paint(painter, view, box, look.theme.left)
         painter.setBrush(Qt.BrushStyle.NoBrush)
         if PathLayers.RAPID in look.layers:
             painter.setPen(screen_pen(painter, look.theme.rapid, RAPID_WIDTH, RAPID_DOTS))

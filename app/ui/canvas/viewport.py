@@ -9,7 +9,6 @@ from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPixmap, QResizeEv
 from PySide6.QtWidgets import QWidget
 
 from app.edit.sample import Box
-from app.model.curves import Point
 from app.ui.canvas.grid import RULER
 from app.ui.canvas.view import View, fitted
 
@@ -108,10 +107,6 @@ class Viewport(QWidget):
         """Go to the view that shows a box in mm, as `fit_to` does."""
         self.glide_to(fitted(box, self.area))
         self._fitted = box
-
-    def glide_to_point(self, point: Point) -> None:
-        """Go to the view with a point in mm in the middle."""
-        self.glide_to(self.view.centred(point, self.area))
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Show the kept scene and paint over it."""

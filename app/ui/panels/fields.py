@@ -118,7 +118,10 @@ class NumberField(QWidget):
         self._mark(reason)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
-        """Escape brings the old value back."""
+        """Escape brings the old value back; a double click takes the whole number, not the digits before the point."""
+        if event.type() == QEvent.Type.MouseButtonDblClick:
+            self.edit.selectAll()
+            return True
         if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Escape:
             self.edit.setModified(False)
             self.show_value(self._value, self.note.text())
