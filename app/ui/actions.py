@@ -160,7 +160,7 @@ def keys_text() -> str:
     rows += [
         ("Zoom at the mouse", "wheel"), ("Pan", "middle button, Space + drag"), ("Leave a tool, clear the selection", "Esc"),
         ("Repeat the last tool, end a chain", "Enter"), ("Straight up or across while drawing", "Shift"),
-        ("Place by number", "x,y   @dx,dy   @length<angle"),
+        ("Cut an operation earlier, later", "Alt+Up, Alt+Down"), ("Place by number", "x,y   @dx,dy   @length<angle"),
     ]
     half = (len(rows) + 1) // 2
     rows += [("", "")] * (2 * half - len(rows))

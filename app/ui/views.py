@@ -14,7 +14,7 @@ from app.ui.legend import Legend
 from app.ui.nc_view import NcView
 from app.ui.theme import LIGHT, Theme
 
-_RULER_PX = 24
+_RULER_PX, _MARGIN_PX = 24, 16
 
 
 class View(Enum):
@@ -74,6 +74,7 @@ class Views(QStackedWidget):
         self.addWidget(self.nc)
         self.legend, self.empty = Legend(self), EmptyState(self)
         self.legend.hide()
+        canvas.covered_right = self.legend.width() + _MARGIN_PX
         self.installEventFilter(self)
 
     def show_view(self, view: View) -> None:
@@ -103,7 +104,7 @@ class Views(QStackedWidget):
     def place(self) -> None:
         """Put the overlays where they belong."""
         self.legend.adjustSize()
-        self.legend.move(self.width() - self.legend.width() - 16, _RULER_PX + 12)
+        self.legend.move(self.width() - self.legend.width() - _MARGIN_PX, _RULER_PX + 12)
         self.empty.adjustSize()
         self.empty.move((self.width() - self.empty.width()) // 2, (self.height() - self.empty.height()) // 2)
 

@@ -7,7 +7,7 @@ from PySide6.QtCore import Qt
 
 from app.edit.document import Document
 from app.model.job import Job, OriginXY
-from app.model.operation import ContourOperation, Cut, PocketOperation
+from app.model.operation import ContourOperation, Cut, Order, PocketOperation
 from app.model.part import Part
 from app.model.tool import Tool
 from app.ui.panels.changes import Subject, SubjectKind, with_tool
@@ -131,6 +131,33 @@ def test_operations_are_added_and_removed(qtbot, document, panel):
     qtbot.mouseClick(panel.operation_form.remove_button, Qt.MouseButton.LeftButton)
     assert document.job.operations == ()
     assert panel.subject.kind is SubjectKind.JOB
+
+
+def kinds(document):
+    return "".join("P" if isinstance(op, PocketOperation) else "C" for op in document.job.operations)
+
+
+def test_operations_are_listed_as_they_are_cut(qtbot, document, panel):
+    assert kinds(document) == "PC"
+    panel.operations.added.emit(PocketOperation)
+    assert (kinds(document), panel.subject.key) == ("PPC", 1)
+    panel.choose(Subject(SubjectKind.JOB))
+    qtbot.mouseClick(panel.job_form.order.buttons[Order.PATENT_1986], Qt.MouseButton.LeftButton)
+    assert kinds(document) == "CPP"
+
+
+def test_operations_move_with_keys_and_buttons(qtbot, document, panel):
+    moved = document.job.operations[0]
+    panel.choose(Subject(SubjectKind.OPERATION, 0))
+    assert not panel.operation_form.earlier.isEnabled()
+    qtbot.mouseClick(panel.operation_form.later, Qt.MouseButton.LeftButton)
+    assert (kinds(document), panel.subject.key, document.job.order) == ("CP", 1, Order.PATENT_1986)
+    assert document.job.operations[1] is moved
+    row = panel.window().focusWidget()
+    qtbot.keyClick(row, Qt.Key.Key_Up, Qt.KeyboardModifier.AltModifier)
+    assert (kinds(document), panel.subject.key, document.job.order) == ("PC", 0, Order.POCKET_FIRST)
+    document.undo()
+    assert (kinds(document), document.undo_name) == ("CP", "Move operation")
 
 
 def test_contour_has_no_stepover(qtbot, document, panel):

@@ -17,6 +17,7 @@ _SETTLE_MS = 90
 """After this rest a shifted scene is painted anew, so that dashes meet where the strips met."""
 
 _NOTCH = 1.2
+_SPARE = 0.3
 
 
 class Viewport(QWidget):
@@ -24,6 +25,7 @@ class Viewport(QWidget):
 
     Attributes:
         scene_ms: how long the last painting of the scene took, ms.
+        covered_right: width at the right that something is laid over, px; what is fitted is fitted beside it.
     """
 
     view_changed = Signal()
@@ -37,6 +39,7 @@ class Viewport(QWidget):
         self._scene_view = self.view
         self._pan_from: QPointF | None = None
         self._fitted: Box | None = None
+        self.covered_right = 0.0
         self._settle = QTimer(self, singleShot=True, interval=_SETTLE_MS)
         self._settle.timeout.connect(self.repaint_scene)
         self._glide = QVariantAnimation(self)
@@ -71,8 +74,13 @@ class Viewport(QWidget):
 
     def fit_to(self, box: Box) -> None:
         """Show a box in mm at once, and again when the size of the widget changes, until the view is moved."""
-        self.set_view(fitted(box, self.area))
+        self.set_view(fitted(box, self._free()))
         self._fitted = box
+
+    def _free(self) -> QRectF:
+        """Return the part of the area that nothing laid over it covers; a narrow widget has no room to spare."""
+        covered = self.covered_right if self.covered_right < _SPARE * self.area.width() else 0.0
+        return self.area.adjusted(0.0, 0.0, -covered, 0.0)
 
     def _show(self, view: View) -> None:
         self.view = view
@@ -105,7 +113,7 @@ class Viewport(QWidget):
 
     def glide_to_box(self, box: Box) -> None:
         """Go to the view that shows a box in mm, as `fit_to` does."""
-        self.glide_to(fitted(box, self.area))
+        self.glide_to(fitted(box, self._free()))
         self._fitted = box
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
@@ -124,7 +132,7 @@ class Viewport(QWidget):
         old = event.oldSize()
         if self._fitted is not None:
             self._glide.stop()
-            self.view = fitted(self._fitted, self.area)
+            self.view = fitted(self._fitted, self._free())
         elif old.isValid():
             self.view = self.view.panned((self.width() - old.width()) / 2, (self.height() - old.height()) / 2)
         self.repaint_scene()

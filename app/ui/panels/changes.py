@@ -7,7 +7,7 @@ from enum import Enum
 
 from app.errors import ParameterError
 from app.model.job import Job
-from app.model.operation import ContourOperation, Cut, Operation, PocketOperation
+from app.model.operation import ContourOperation, Cut, Operation, Order, PocketOperation
 from app.model.tool import Tool
 
 
@@ -90,8 +90,33 @@ def with_cut(job: Job, index: int, cut: Cut) -> Job:
     return with_operation(job, index, replace(job.operations[index], cut=cut))
 
 
-def with_new_operation(job: Job, kind: type[PocketOperation] | type[ContourOperation]) -> Job:
-    """Return the job with one more operation, cut as deep as the last one.
+def in_cutting_order(job: Job) -> Job:
+    """Return the job with its operations listed as they are cut: all pockets before all contours, or after them."""
+    last = PocketOperation if job.order is Order.PATENT_1986 else ContourOperation
+    return replace(job, operations=tuple(sorted(job.operations, key=lambda op: isinstance(op, last))))
+
+
+def with_moved_operation(job: Job, index: int, way: int) -> tuple[Job, int]:
+    """Return the job with one operation cut earlier (way -1) or later (1), and its new index.
+
+    Past an operation of the other kind it takes all of its own kind along: pockets and contours are not mixed.
+    """
+    other = index + way
+    if not 0 <= other < len(job.operations):
+        return job, index
+    moved, passed = job.operations[index], job.operations[other]
+    operations = list(job.operations)
+    operations[index], operations[other] = passed, moved
+    if isinstance(moved, PocketOperation) == isinstance(passed, PocketOperation):
+        return replace(job, operations=tuple(operations)), other
+    first = moved if way < 0 else passed
+    order = Order.POCKET_FIRST if isinstance(first, PocketOperation) else Order.PATENT_1986
+    made = in_cutting_order(replace(job, operations=tuple(operations), order=order))
+    return made, next(k for k, operation in enumerate(made.operations) if operation is moved)
+
+
+def with_new_operation(job: Job, kind: type[PocketOperation] | type[ContourOperation]) -> tuple[Job, int]:
+    """Return the job with one more operation, cut as deep as the last one, and its index.
 
     Raises:
         ParameterError: the job has no tool.
@@ -99,7 +124,9 @@ def with_new_operation(job: Job, kind: type[PocketOperation] | type[ContourOpera
     if not job.tools:
         raise ParameterError("The job has no tool yet; add one first.")
     like = job.operations[-1].cut if job.operations else Cut(tool=job.tools[0].number)
-    return replace(job, operations=(*job.operations, kind(replace(like, enabled=True))))
+    new = kind(replace(like, enabled=True))
+    made = in_cutting_order(replace(job, operations=(*job.operations, new)))
+    return made, next(k for k, operation in enumerate(made.operations) if operation is new)
 
 
 def without_operation(job: Job, index: int) -> Job:

@@ -16,7 +16,7 @@ from app.model.tool import Tool, ToolKind
 from app.ui.figures import counted
 from app.ui.icons import IconButton
 from app.ui.labels import muted
-from app.ui.panels.changes import operation_name, stepover_of, with_cut, with_operation, with_tool
+from app.ui.panels.changes import in_cutting_order, operation_name, stepover_of, with_cut, with_operation, with_tool
 from app.ui.panels.fields import ChoiceField, ListField, NumberField, Spec
 from app.ui.panels.section import Section
 from app.ui.samples import StepoverDrawing
@@ -81,7 +81,7 @@ class JobForm(Form):
             Spec("Join tolerance", low=0, high=100, tip="Loose ends of the drawing nearer than this are joined."),
             lambda job, v: replace(job, join_tolerance=v))
         self.order = ChoiceField("Cut first", [(Order.POCKET_FIRST, "Pocket"), (Order.PATENT_1986, "Contour (1986)")])
-        self.add_choice("Order", self.order, lambda job, v: replace(job, order=Order(v)))
+        self.add_choice("Order", self.order, lambda job, v: in_cutting_order(replace(job, order=Order(v))))
         self.units = ChoiceField("NC units", [(Units.MM, "mm"), (Units.INCH, "inch")])
         self.add_choice("NC units", self.units, lambda job, v: replace(job, out_units=Units(v)))
 
@@ -137,10 +137,21 @@ def _too_wide(stepover: float, diameter: float) -> str:
 
 
 class OperationForm(Form):
-    """Tool, depth, stepdown, stepover, stock to leave, direction of one operation."""
+    """Tool, depth, stepdown, stepover, stock to leave, direction of one operation.
+
+    Signals:
+        moved(way): to be cut earlier (-1) or later (1).
+    """
+
+    moved = Signal(int)
 
     def __init__(self) -> None:
         super().__init__("Operation", removable="operation")
+        self.earlier = IconButton("up", "Cut earlier (Alt+Up in the list)")
+        self.later = IconButton("down", "Cut later (Alt+Down in the list)")
+        for button, way in ((self.earlier, -1), (self.later, 1)):
+            button.clicked.connect(lambda _=False, w=way: self.moved.emit(w))
+            self.head.insertWidget(self.head.count() - 1, button)
         self._index, self._diameter = 0, 1.0
         self.tool = ListField("Tool", [])
         self.add_choice("Tool", self.tool, lambda job, v: self._cut(job, tool=v))
@@ -197,6 +208,8 @@ class OperationForm(Form):
     def show_operation(self, job: Job, index: int, strokes: int | None) -> None:
         """Show one operation of the job; `strokes` is what was computed for it, if it was."""
         self._index = index
+        self.earlier.setEnabled(index > 0)
+        self.later.setEnabled(index < len(job.operations) - 1)
         operation = job.operations[index]
         cut = operation.cut
         self.title.setText(operation_name(operation))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QLabel, QMenu, QWidget
 
@@ -61,6 +61,12 @@ class ListSection(Section):
         """Mark the row whose properties are shown."""
         for key, row in self._rows.items():
             row.set_chosen(key == subject)
+
+    def focus(self, subject: Subject) -> None:
+        """Give a row the keyboard, when it is still there."""
+        if subject in self._rows:
+            self._rows[subject].show()
+            self._rows[subject].setFocus(Qt.FocusReason.OtherFocusReason)
 
     def set_theme(self, theme: Theme) -> None:
         """Remember the theme for rows to come."""
@@ -149,6 +155,7 @@ class OperationSection(ListSection):
 
     added = Signal(type)
     switched = Signal(int, bool)
+    moved = Signal(int, int)
 
     def __init__(self) -> None:
         super().__init__("Operations")
@@ -174,6 +181,8 @@ class OperationSection(ListSection):
         for index, operation in enumerate(job.operations):
             time = QLabel(clock(times[index])) if index in times and operation.cut.enabled else muted("-")
             row = self._operation_row(index, operation, job, time)
+            row.moved.connect(lambda way, i=index: self.moved.emit(i, way))
+            row.setToolTip("Alt+Up, Alt+Down: cut earlier or later")
             self.add_row(Subject(SubjectKind.OPERATION, index), row)
 
     def _operation_row(self, index: int, operation: Operation, job: Job, time: QLabel) -> Row:

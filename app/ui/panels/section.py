@@ -59,6 +59,7 @@ class Row(QWidget):
     clicked = Signal()
     removed = Signal()
     stepped = Signal(int)
+    moved = Signal(int)
 
     def __init__(self, *widgets: QWidget, stretch_after: int = 0) -> None:
         super().__init__()
@@ -88,9 +89,11 @@ class Row(QWidget):
             self.setFocus(Qt.FocusReason.MouseFocusReason)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """Space and Enter choose, Up and Down choose the neighbour, Delete removes."""
+        """Space and Enter choose, Up and Down choose the neighbour, with Alt they move the row, Delete removes."""
         steps = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1}
-        if event.key() in steps:
+        if event.key() in steps and event.modifiers() & Qt.KeyboardModifier.AltModifier:
+            self.moved.emit(steps[Qt.Key(event.key())])
+        elif event.key() in steps:
             self.stepped.emit(steps[Qt.Key(event.key())])
         elif event.key() in (Qt.Key.Key_Space, Qt.Key.Key_Return, Qt.Key.Key_Enter):
             self.clicked.emit()

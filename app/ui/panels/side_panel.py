@@ -72,6 +72,8 @@ class SidePanel(QScrollArea):
         self.operations.added.connect(self._add_operation)
         self.operations.removed.connect(self._remove)
         self.operations.switched.connect(self._switch)
+        self.operations.moved.connect(self._move)
+        self.operation_form.moved.connect(lambda way: self._move(self.subject.key, way))
         for form in (self.job_form, self.tool_form, self.operation_form):
             form.edited.connect(self._on_edited)
         self._unsubscribe = self._document.subscribe(self._on_change)
@@ -152,10 +154,20 @@ class SidePanel(QScrollArea):
 
     def _add_operation(self, kind: type) -> None:
         def make(job: Job) -> Job:
-            self.subject = Subject(SubjectKind.OPERATION, len(job.operations))
-            return changes.with_new_operation(job, kind)
+            new, index = changes.with_new_operation(job, kind)
+            self.subject = Subject(SubjectKind.OPERATION, index)
+            return new
 
         self.change("Add operation", make)
+
+    def _move(self, index: int, way: int) -> None:
+        def make(job: Job) -> Job:
+            new, place = changes.with_moved_operation(job, index, way)
+            self.subject = Subject(SubjectKind.OPERATION, place)
+            return new
+
+        self.change("Move operation", make)
+        self.operations.focus(self.subject)
 
     def _switch(self, index: int, on: bool) -> None:
         name = "Switch operation on" if on else "Switch operation off"
