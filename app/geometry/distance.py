@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.geometry import kernels
 from app.geometry.primitives import Indices, Rows, boxes
+from app.pool import pool
+
+_WORTH_TWO_CORES = 20_000
+"""Points from which a second core is worth its start."""
+
+_BANDS = 4
 
 
 @dataclass(frozen=True)
@@ -37,7 +44,14 @@ class DistanceField:
         """Return (distances (m,) mm, rows (m,)) for points (m, 2); rows farther than `limit` give (limit, -1)."""
         points = np.ascontiguousarray(points, dtype=np.float64)
         distances, found = np.empty(len(points)), np.empty(len(points), np.int64)
-        kernels.nearest_many(self.rows, self.order, self.nodes, points, limit, distances, found)
+
+        def measure(part: slice) -> None:
+            kernels.nearest_many(self.rows, self.order, self.nodes, points[part], limit, distances[part], found[part])
+
+        if len(points) < _WORTH_TWO_CORES:
+            measure(slice(None))
+        else:
+            list(pool().map(measure, (slice(*band) for band in pairwise(np.linspace(0, len(points), _BANDS + 1).astype(int)))))
         return distances, found
 
     def inside(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:

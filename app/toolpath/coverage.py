@@ -168,7 +168,8 @@ class _Path:
 
     def swept_near(self, tree: shapely.STRtree) -> Shape:
         """Return the area that is covered by those moves that come near some boxes."""
-        near = np.unique(tree.query(lines(self.rows, CHORD), predicate="dwithin", distance=self.radius + STRIP)[0])
+        rough = self.radius / 20  # who is near is asked with few chords, and with as much more reach
+        near = np.unique(tree.query(lines(self.rows, rough), predicate="dwithin", distance=self.radius + rough + STRIP)[0])
         runs = _runs(self.rows[near], self._chosen[near])
         return shapely.union_all([grown(shapely.linestrings(points), self.radius, CHORD) for points in runs])
 

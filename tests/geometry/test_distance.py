@@ -70,3 +70,12 @@ def test_full_turns_cut_up_keep_their_length_and_ends() -> None:
     assert len(cut) == 3 + 1 + 2 and np.abs(sweeps(cut)).max() < np.pi
     assert float(lengths(cut).sum()) == pytest.approx(10 * np.pi + 5 + 3 * np.pi)
     assert DistanceField.of(cut).nearest(np.array([[0.0, -5.5]]))[0] == pytest.approx(0.5)
+
+
+def test_many_points_on_two_cores_measure_as_few_do() -> None:
+    field = DistanceField.of(np.concatenate([contour_rows(c) for c in random_part(4)[0]]))
+    points = np.random.default_rng(0).uniform(-30, 30, (25_001, 2))
+    distance, row = field.nearest(points, 9.0)
+    for part in np.array_split(np.arange(len(points)), 7):
+        few = field.nearest(points[part], 9.0)
+        assert np.array_equal(distance[part], few[0]) and np.array_equal(row[part], few[1])
