@@ -90,6 +90,11 @@ class Computation(QObject):
         return State.CURRENT if self._made_for is self._document.job else State.STALE
 
     @property
+    def outdated(self) -> bool:
+        """Whether there is a result, of a job that has changed since."""
+        return self.made is not None and self._made_for is not self._document.job
+
+    @property
     def program(self) -> Program | None:
         """Moves of the last result."""
         return self.made.program if self.made is not None else None

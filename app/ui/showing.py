@@ -149,6 +149,7 @@ class Showing(QObject):
             if made is not None:
                 self._window.views.nc.show_program(made.nc.text, made.nc.lines, made.program.moves)
             self._window.canvas.set_findings(self._marked())
+        self._window.canvas.set_stale(self._computation.outdated)
         strokes = made.program.strokes if made is not None and state is State.CURRENT else None
         self._window.panel.show_results(self._computation.operation_times(), strokes)
         self._show_badge()

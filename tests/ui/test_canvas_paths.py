@@ -113,6 +113,13 @@ def test_layers_switch_off(canvas: Canvas, theme: Theme) -> None:
     assert share(along_circle(canvas, (60, 20), 10), theme.contour) > 0.3
 
 
+def test_stale_paths_are_faint(canvas: Canvas) -> None:
+    canvas.set_stale(True)
+    assert share(along_circle(canvas, (20, 20), 10), LIGHT.pocket) < 0.1
+    canvas.set_stale(False)
+    assert share(along_circle(canvas, (20, 20), 10), LIGHT.pocket) > 0.9
+
+
 def test_draw_mode_shows_no_paths(canvas: Canvas) -> None:
     canvas.set_mode(CanvasMode.DRAW)
     assert share(along_circle(canvas, (20, 20), 10), LIGHT.pocket) == 0

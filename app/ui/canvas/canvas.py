@@ -33,6 +33,7 @@ _BLEED_PX = 8.0
 _CLOSE_MM = 16.0
 """How much is seen around a place that is looked at closely."""
 
+_STALE_OPACITY = 0.4
 _LARGE = 0.35
 """A part that takes up this share of the frame's span is shown together with the frame."""
 
@@ -108,6 +109,11 @@ class Canvas(Hands):
         """Colour the paths by tool or by region."""
         self._set_look(replace(self._look, colour_by=colour_by))
 
+    def set_stale(self, stale: bool) -> None:
+        """Show the paths faintly, because the job has changed since they were computed, or fully."""
+        if stale != self._look.stale:
+            self._set_look(replace(self._look, stale=stale))
+
     def set_frame(self, frame: Frame) -> None:
         """Lay the display's frame elsewhere, or give its cells another size."""
         self.frame = frame
@@ -129,7 +135,9 @@ class Canvas(Hands):
         paint_paper(painter, self.view, area, self.frame, theme)
         program = self._program if self._mode is CanvasMode.PATHS else None
         if program is not None:
+            painter.setOpacity(_STALE_OPACITY if self._look.stale else 1.0)
             program.paint(painter, self.view, box, self._look)
+            painter.setOpacity(1.0)
         if program is None or PathLayers.PART in self._look.layers:
             self.picture.paint(painter, self.view, box, theme)
         paint_origin(painter, self.view, theme)

@@ -89,7 +89,7 @@ def paint_ruler_marks(painter: QPainter, at: QPointF, theme: Theme) -> None:
 def _top_mark(painter: QPainter, x: float, text: str, colours: tuple[QColor, QColor]) -> None:
     painter.setPen(_line(colours[0]))
     painter.drawLine(QLineF(x, RULER - (6 if text else 4), x, RULER - 2))
-    if text:
+    if _beside_corner(painter, x, text):
         painter.setPen(colours[1])
         painter.drawText(QRectF(x - 50, 0, 100, RULER - 6), Qt.AlignmentFlag.AlignCenter, text)
 
@@ -97,7 +97,7 @@ def _top_mark(painter: QPainter, x: float, text: str, colours: tuple[QColor, QCo
 def _left_mark(painter: QPainter, y: float, text: str, colours: tuple[QColor, QColor]) -> None:
     painter.setPen(_line(colours[0]))
     painter.drawLine(QLineF(RULER - (6 if text else 4), y, RULER - 2, y))
-    if text:
+    if _beside_corner(painter, y, text):
         painter.setPen(colours[1])
         painter.save()
         painter.translate((RULER - 6) / 2, y)
@@ -105,6 +105,11 @@ def _left_mark(painter: QPainter, y: float, text: str, colours: tuple[QColor, QC
         height = QFontMetricsF(painter.font()).height()
         painter.drawText(QRectF(-50, -height / 2, 100, height), Qt.AlignmentFlag.AlignCenter, text)
         painter.restore()
+
+
+def _beside_corner(painter: QPainter, at: float, text: str) -> bool:
+    """Whether there is a text, and the rulers' corner does not cut it."""
+    return bool(text) and at - QFontMetricsF(painter.font()).horizontalAdvance(text) / 2 >= RULER
 
 
 def _text_at(value: float, major: float) -> str:

@@ -35,11 +35,12 @@ _ORDER = (Purpose.LINK, Purpose.POCKET, Purpose.LEAD, Purpose.CONTOUR)
 
 @dataclass(frozen=True, slots=True)
 class PathLook:
-    """How paths are shown."""
+    """How paths are shown; `stale` paths, which the job has outgrown, are faint."""
 
     theme: Theme
     layers: PathLayers = PathLayers.ALL
     colour_by: ColourBy = ColourBy.TOOL
+    stale: bool = False
 
 
 def shown_purposes(layers: PathLayers) -> frozenset[Purpose]:
