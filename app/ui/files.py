@@ -87,7 +87,7 @@ class Files(QObject):
 
     def _choose_nc_file(self) -> Path | None:
         stem = self._document.path.stem if self._document.path else self._document.part.name
-        start = str(Path(self._window.settings.last_folder) / f"{stem}.ngc")
+        start = str(Path(self._window.settings.last_folder or Path.home()) / f"{stem}.ngc")
         name, _ = QFileDialog.getSaveFileName(self._window, "Export NC", start, FILTER)
         return Path(name) if name else None
 
@@ -116,7 +116,8 @@ class Files(QObject):
 
     def _on_opened(self, opened: Opened) -> None:
         window = self._window
-        window.settings = window.settings.with_recent_file(opened.path)
+        if opened.path != opening_files.sample_path():
+            window.settings = window.settings.with_recent_file(opened.path)
         self._computation.forget(opened.drawing.findings)
         self._log.note(f"open {opened.path.name}", self._opened_sentence(opened))
         window.notice.hide()

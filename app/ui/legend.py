@@ -119,6 +119,11 @@ class Legend(QFrame):
         """Have entries for what is left on the floor only when there is some."""
         self.rows[Sample.LEFT].setVisible(left)
         self.rows[Sample.UNREACHABLE].setVisible(unreachable)
+        for widget in (self.body, self):
+            layout = widget.layout()
+            if layout is not None:
+                layout.activate()
+        self.adjustSize()
 
     def show_job(self, job: Job) -> None:
         """Name the tools of pocket and contour paths."""

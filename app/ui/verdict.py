@@ -8,7 +8,7 @@ from enum import Enum
 from typing import Any
 
 from app.model.finding import Finding, FindingKind
-from app.ui.figures import clock, counted
+from app.ui.figures import clock, counted, grouped
 
 
 class Level(Enum):
@@ -63,11 +63,15 @@ def short(finding: Finding) -> str:
     """Return what was found and where, without the sentence: "gouge 0.120 mm at (41.2, 8.0)"."""
     amount = ""
     if finding.amount is not None and finding.kind is FindingKind.LEFT_REACHABLE:
-        amount = f" {finding.amount:.3g} mm²"
+        amount = f" {_area(finding.amount)} mm²"
     elif finding.amount is not None and finding.kind in (FindingKind.GOUGE, FindingKind.OPEN_CONTOUR):
         amount = f" {finding.amount:.3f} mm"
     place = "" if finding.x is None or finding.y is None else f" at ({finding.x:.1f}, {finding.y:.1f})"
     return f"{_NAMES[finding.kind]}{amount}{place}"
+
+
+def _area(mm2: float) -> str:
+    return grouped(mm2, 0) if mm2 >= 100 else f"{mm2:.3g}"
 
 
 def _sentence(finding: Finding) -> str:

@@ -10,11 +10,13 @@ from PySide6.QtWidgets import QLabel, QPushButton, QStackedWidget, QVBoxLayout, 
 
 from app.ui.canvas.canvas import Canvas
 from app.ui.canvas.modes import CanvasMode
+from app.ui.fade import Fade
 from app.ui.legend import Legend
 from app.ui.nc_view import NcView
 from app.ui.theme import LIGHT, Theme
 
 _RULER_PX, _MARGIN_PX = 24, 16
+_LONG_MS = 30.0
 
 
 class View(Enum):
@@ -72,13 +74,16 @@ class Views(QStackedWidget):
         self.view = View.DRAW
         self.addWidget(canvas)
         self.addWidget(self.nc)
-        self.legend, self.empty = Legend(self), EmptyState(self)
+        self.legend, self.empty, self.fade = Legend(self), EmptyState(self), Fade(self)
         self.legend.hide()
         canvas.covered_right = self.legend.width() + _MARGIN_PX
         self.installEventFilter(self)
 
     def show_view(self, view: View) -> None:
-        """Bring a view to the front; zoom and selection stay."""
+        """Bring a view to the front; zoom and selection stay. The one before fades, unless painting it would take long."""
+        if view is not self.view and self.isVisible() and self.canvas.scene_ms < _LONG_MS:
+            self.fade.hide()
+            self.fade.begin(self.grab())
         self.view = view
         if view is View.NC:
             self.setCurrentWidget(self.nc)
@@ -99,6 +104,7 @@ class Views(QStackedWidget):
             self.empty.raise_()
         self.legend.setVisible(self.view is View.PATHS and shows_paths)
         self.legend.raise_()
+        self.fade.raise_()
         self.place()
 
     def place(self) -> None:

@@ -1,8 +1,10 @@
 """The verdict's line: measured figures only, the worst finding first."""
 
+import pytest
+
 from app.model.finding import Finding, FindingKind
 from app.ui.figures import clock, counted, grouped
-from app.ui.verdict import Level, figures, verdict, worst_first
+from app.ui.verdict import Level, figures, short, verdict, worst_first
 
 CLEAN = {"gouge": {"count": 0, "max_mm": 0.0}, "left": {"reachable_mm2": 0.0}, "strokes": 2, "time_s": 252.4, "moves": {"G1": 5}}
 GOUGE = Finding(FindingKind.GOUGE, "Cut 0.12 mm into the part.", 41.2, 8.0, amount=0.12)
@@ -17,6 +19,12 @@ def test_clean_program_shows_its_figures():
 
 def test_what_was_not_measured_is_not_said():
     assert figures({"strokes": 1}) == "1 stroke"
+
+
+@pytest.mark.parametrize(("area", "said"), [(0.1234, "0.123 mm²"), (65.74, "65.7 mm²"), (2735.4, "2\u2009735 mm²")])
+def test_area_left_is_said_in_plain_figures(area, said):
+    left = Finding(FindingKind.LEFT_REACHABLE, "Left.", 1.0, 2.0, amount=area)
+    assert short(left) == f"material left {said} at (1.0, 2.0)"
 
 
 def test_worst_finding_stands_first():

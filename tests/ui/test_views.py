@@ -1,0 +1,67 @@
+"""The views in the middle of the window."""
+
+import pytest
+from PySide6.QtCore import Qt
+
+from app.edit.document import Document
+from app.ui.canvas.canvas import Canvas
+from app.ui.canvas.modes import ColourBy
+from app.ui.fade import FADE_MS
+from app.ui.samples import Sample
+from app.ui.theme import LIGHT
+from app.ui.views import View, Views
+
+
+@pytest.fixture
+def views(qtbot):
+    document = Document()
+    document.run("circle 50,50 20")
+    made = Views(Canvas(document, LIGHT))
+    qtbot.addWidget(made)
+    made.resize(900, 600)
+    made.show()
+    return made
+
+
+def test_view_that_is_left_fades_and_is_gone_soon(qtbot, views):
+    before = views.grab().toImage()
+    views.show_view(View.NC)
+    assert views.currentWidget() is views.nc
+    assert views.fade.isVisible()
+    assert views.fade.testAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+    qtbot.waitUntil(lambda: not views.fade.isVisible(), timeout=FADE_MS * 10)
+    assert views.grab().toImage() != before
+    views.show_view(View.NC)
+    assert not views.fade.isVisible()
+
+
+def test_what_is_fitted_keeps_clear_of_the_legend(qtbot, views):
+    views.canvas.fit_to((0.0, 0.0, 200.0, 50.0))
+    views.show_missing("", "", shows_paths=True)
+    right = views.canvas.view.to_screen((200.0, 0.0)).x()
+    assert right < views.width() - views.legend.width()
+
+
+def test_legend_closes_up_when_an_entry_goes(views):
+    legend = views.legend
+    views.show_view(View.PATHS)
+    legend.show_left(True, True)
+    views.show_missing("", "", shows_paths=True)
+    tall = legend.height()
+    legend.show_left(False, False)
+    assert legend.height() == tall - 2 * legend.rows[Sample.LEFT].height()
+
+
+def test_samples_are_grey_while_colours_tell_the_region(qtbot, views):
+    views.show_view(View.PATHS)
+    views.show_missing("", "", shows_paths=True)
+    line = views.legend.rows[Sample.POCKET].line
+
+    def middle():
+        return line.grab().toImage().pixelColor(line.width() // 2, line.height() // 2).name()
+
+    before = middle()
+    qtbot.mouseClick(views.legend.colour.buttons[ColourBy.REGION], Qt.MouseButton.LeftButton)
+    assert middle() != before
+    qtbot.mouseClick(views.legend.colour.buttons[ColourBy.TOOL], Qt.MouseButton.LeftButton)
+    assert middle() == before
