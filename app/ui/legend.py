@@ -63,7 +63,7 @@ class Legend(QFrame):
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
-        self._theme = LIGHT
+        self._theme, self._folded_for_room = LIGHT, False
         self.setFixedWidth(170)
         column = QVBoxLayout(self)
         column.setContentsMargins(12, 10, 12, 10)
@@ -99,6 +99,18 @@ class Legend(QFrame):
         head.addStretch(1)
         head.addWidget(self.fold)
         return head
+
+    def fit_into(self, room: int) -> None:
+        """Fold when there are fewer px of height than the sheet needs, and unfold again when there are enough."""
+        layout = self.layout()
+        folded_px = layout.minimumSize().height() if layout is not None and self.fold.isChecked() else self.height() - self.body.height()
+        needed = folded_px + self.body.sizeHint().height()
+        if needed > room and not self.fold.isChecked():
+            self._folded_for_room = True
+            self.fold.setChecked(True)
+        elif needed <= room and self._folded_for_room:
+            self.fold.setChecked(False)
+            self._folded_for_room = False
 
     def _fold(self, folded: bool) -> None:
         self.body.setVisible(not folded)

@@ -80,7 +80,7 @@ class MainWindow(QMainWindow):
         column.addWidget(self.status)
         self.setCentralWidget(root)
         self.setAcceptDrops(True)
-        self.setMinimumSize(960, 640)
+        self.setMinimumSize(840, 520)
         self.resize(*SIZE)
         self.canvas.setFocus()
 

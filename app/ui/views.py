@@ -110,6 +110,7 @@ class Views(QStackedWidget):
     def place(self) -> None:
         """Put the overlays where they belong."""
         self.legend.adjustSize()
+        self.legend.fit_into(self.height() - _RULER_PX - _MARGIN_PX)
         self.legend.move(self.width() - self.legend.width() - _MARGIN_PX, _RULER_PX + 12)
         self.empty.adjustSize()
         self.empty.move((self.width() - self.empty.width()) // 2, (self.height() - self.empty.height()) // 2)

@@ -171,7 +171,7 @@ def test_hovering_tells_operation_tool_feed_length_and_z(canvas: Canvas, qtbot: 
     told: list[str] = []
     canvas.hovered.connect(told.append)
     qtbot.mouseMove(canvas, canvas.view.to_screen((20.0, 30.1)).toPoint())
-    assert told[-1] == "Pocket · T1 Flat 6 mm · region 1 · F 600 mm/min · 31.416 mm of 62.832 mm · R 10.000 · Z -2.000 mm"
+    assert told[-1] == "Pocket · T1 Flat 6 mm · region 1 · F 600 · 31.416 of 62.832 mm · R 10.000 · Z -2.000"
     qtbot.mouseMove(canvas, canvas.view.to_screen((20.0, 25.0)).toPoint())
     assert told[-1] == ""
     qtbot.mouseMove(canvas, canvas.view.to_screen((60.0, 30.0)).toPoint())

@@ -52,6 +52,20 @@ def test_legend_closes_up_when_an_entry_goes(views):
     assert legend.height() == tall - 2 * legend.rows[Sample.LEFT].height()
 
 
+def test_legend_folds_where_there_is_no_room_for_it(qtbot, views):
+    views.show_view(View.PATHS)
+    views.show_missing("", "", shows_paths=True)
+    legend = views.legend
+    assert not legend.fold.isChecked()
+    views.resize(900, 220)
+    assert legend.fold.isChecked()
+    views.resize(900, 600)
+    assert not legend.fold.isChecked()
+    qtbot.mouseClick(legend.fold, Qt.MouseButton.LeftButton)
+    views.resize(900, 590)
+    assert legend.fold.isChecked()
+
+
 def test_samples_are_grey_while_colours_tell_the_region(qtbot, views):
     views.show_view(View.PATHS)
     views.show_missing("", "", shows_paths=True)

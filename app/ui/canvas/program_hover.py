@@ -48,11 +48,11 @@ def describe(shapes: MoveShapes, move: int, job: Job) -> str:
     if moves.region[move] > 0:
         words.append(f"region {int(moves.region[move])}")
     if moves.kind[move] != MoveKind.RAPID:
-        words.append(f"F {moves.feed[move]:g} mm/min")
-    words.append(f"{shapes.length[move]:.3f} mm" + (f" of {whole:.3f} mm" if whole > shapes.length[move] + 5e-4 else ""))
+        words.append(f"F {moves.feed[move]:g}")
+    words.append(f"{shapes.length[move]:.3f}" + (f" of {whole:.3f} mm" if whole > shapes.length[move] + 5e-4 else " mm"))
     if moves.kind[move] >= MoveKind.ARC_CW:
         words.append(f"R {math.dist(moves.end[move, :2], moves.centre[move]):.3f}")
-    return " · ".join([*words, f"Z {moves.end[move, 2]:.3f} mm"])
+    return " · ".join([*words, f"Z {moves.end[move, 2]:.3f}"])
 
 
 def _name(operation: int, purpose: Purpose, job: Job) -> str:

@@ -17,7 +17,7 @@ _SETTLE_MS = 90
 """After this rest a shifted scene is painted anew, so that dashes meet where the strips met."""
 
 _NOTCH = 1.2
-_SPARE = 0.3
+_SPARE = 0.45
 
 
 class Viewport(QWidget):
