@@ -98,9 +98,9 @@ def figures(data: Mapping[str, Any]) -> str:
 def verdict(findings: tuple[Finding, ...], data: Mapping[str, Any]) -> Verdict:
     """Return the verdict on a computed program from its findings and its report."""
     counting = [f for f in worst_first(findings) if f.counts]
+    more = f" · {len(counting) - 1} more" if len(counting) > 1 else ""
     if not any(data.get("moves", {}).values()):
-        return Verdict(Level.REMARK, _sentence(counting[0]) if counting else "No closed contour to machine")
+        return Verdict(Level.REMARK, _sentence(counting[0]) + more if counting else "No closed contour to machine")
     if not counting:
         return Verdict(Level.OK, f"✓ {figures(data)}")
-    more = f" · {len(counting) - 1} more" if len(counting) > 1 else ""
     return Verdict(finding_level(counting[0]), _sentence(counting[0]) + more)
