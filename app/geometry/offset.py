@@ -183,10 +183,12 @@ class _Engine:
             return None
         sums = np.empty((rings, 2))
         ring_kernels.sums(joined, starts, rings, sums)
-        if not self._field.inside(joined[starts[:rings], :2]).all():
-            return None
         regions = self._primitives.region[pieces[order[starts[:rings]], 0].astype(np.int64) % len(self._rows)]
-        return [Ring(joined[starts[k]:starts[k + 1]], int(regions[k]), float(sums[k, 0]), float(sums[k, 1])) for k in range(rings)]
+        found = [Ring(joined[starts[k]:starts[k + 1]], int(regions[k]), float(sums[k, 0]), float(sums[k, 1])) for k in range(rings)]
+        inside = self._field.inside(joined[starts[:rings], :2])
+        if not all(good or _on_a_ridge(ring) for good, ring in zip(inside, found, strict=True)):
+            return None
+        return [ring for good, ring in zip(inside, found, strict=True) if good]
 
     def _polylines(self, distance: float) -> list[Ring]:
         """Return the rings as fine polylines that measure right."""

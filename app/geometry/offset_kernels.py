@@ -15,6 +15,7 @@ import numpy as np
 from app.geometry.kernels import any_nearer, point_distance, query_box
 from app.jit import kernel
 
+CUSP = 1e-7  # radians; a turn this near to a half turn is one
 SHORTEST = 1e-7  # mm; pieces below this are bridged by the stitching tolerance
 
 
@@ -30,8 +31,13 @@ def vertex_arcs(rows, previous, vertices):  # type: ignore[no-untyped-def]
         if rows[i, 7] != 0.0:
             vx, vy = -rows[i, 7] * (rows[i, 1] - rows[i, 5]), rows[i, 7] * (rows[i, 0] - rows[i, 4])
         turn = math.atan2(ux * vy - uy * vx, ux * vx + uy * vy)
-        if turn > math.pi - 1e-9:
-            turn -= 2 * math.pi  # a cusp: the boundary turns back on itself
+        if abs(turn) > math.pi - CUSP:  # the boundary turns back on itself; its curvatures tell to which side
+            leaving = rows[i, 7] / rows[i, 6] if rows[i, 7] != 0.0 else 0.0
+            arriving = -rows[k, 7] / rows[k, 6] if rows[k, 7] != 0.0 else 0.0
+            if arriving > leaving + 1e-12:
+                turn = math.pi
+            elif turn > 0.0:
+                turn -= 2 * math.pi
         vertices[i, 0] = math.atan2(ux, -uy)
         vertices[i, 1] = turn if turn < -1e-9 else 0.0
 

@@ -171,7 +171,21 @@ class _Path:
         rough = self.radius / 20  # who is near is asked with few chords, and with as much more reach
         near = np.unique(tree.query(lines(self.rows, rough), predicate="dwithin", distance=self.radius + rough + STRIP)[0])
         runs = _runs(self.rows[near], self._chosen[near])
-        return shapely.union_all([grown(shapely.linestrings(points), self.radius, CHORD) for points in runs])
+        return shapely.union_all([shape for points in runs for shape in _widened(points, self.radius)])
+
+
+def _widened(points: NDArray[np.float64], radius: float) -> list[Shape]:
+    """Return what a cutter covers along a path, in one or more shapes.
+
+    The library can lose holes of a path that crosses itself; then the area is more than length times width, and the
+    path is widened in halves.
+    """
+    shape = grown(shapely.linestrings(points), radius, CHORD)
+    length = float(np.hypot(*np.diff(points, axis=0).T).sum())
+    if shape.area <= (2 * radius * length + np.pi * radius**2) * (1 + 1e-9) or len(points) < 3:
+        return [shape]
+    middle = len(points) // 2
+    return _widened(points[:middle + 1], radius) + _widened(points[middle:], radius)
 
 
 def _runs(rows: Rows, chosen: NDArray[np.int64]) -> list[NDArray[np.float64]]:

@@ -19,7 +19,7 @@ from app.geometry.region import nest, polygon_contour
 from app.model.part import Contour
 from app.progress import Progress
 from tests import plain_distance
-from tests.part_shapes import circle, fig2, random_part, square
+from tests.part_shapes import bulged, circle, fig2, random_part, square
 
 
 def levels_of(contours: list[Contour], distances: list[float], crossing: bool = False) -> tuple[Level, ...]:
@@ -156,3 +156,26 @@ def test_cancel_stops_between_levels() -> None:
     with pytest.raises(Cancelled):
         offset_levels(pack(nest(fig2())), [1, 2, 3, 4, 5], Progress(listen))
     assert len(seen) == 3
+
+
+def test_cusps_that_point_out_of_the_area_get_no_arc_and_those_that_point_in_do() -> None:
+    star = bulged([(10, 0, -math.sqrt(2) + 1), (0, 10, -math.sqrt(2) + 1), (-10, 0, -math.sqrt(2) + 1), (0, -10, -math.sqrt(2) + 1)])
+    (level,) = levels_of([star], [1.0])
+    assert [ring.polyline for ring in level.rings] == [False]
+    corner = 10 - math.sqrt(11**2 - 10**2)  # where the grown quarter circles meet
+    half = math.asin(corner / math.sqrt(2) / 11)
+    assert area_of(level) == pytest.approx(2 * corner**2 - 4 * 11**2 * (half - math.sin(2 * half) / 2), abs=1e-9)
+    assert set(level.rings[0].rows[:, 7]) == {-1.0}
+    outer = square(60, -30, -30)
+    (level,) = levels_of([outer, star], [1.0])
+    assert not any(ring.polyline for ring in level.rings)
+    assert np.abs(plain_distance.distance(points_of(level), [outer, star]) - 1.0).max() < 1e-6
+
+
+@pytest.mark.parametrize("island", [circle(10, 50, 20), circle(6, 6, 20), square(10, 0, 5)])
+def test_islands_that_touch_the_wall_keep_lines_and_arcs(island: Contour) -> None:
+    wall = polygon_contour([(0, 0), (60, 0), (60, 40), (0, 40)])
+    contours = list(without_crossings([wall, island]))
+    for level in levels_of(contours, [1.0, 4.0, 7.0]):
+        assert level.rings and not any(ring.polyline for ring in level.rings)
+        assert len(level.rings[0].rows) < 20
