@@ -6,9 +6,13 @@ from dataclasses import dataclass
 from enum import Enum
 
 from app.errors import ParameterError
-from app.model.operation import ContourOperation, Cut, Operation, Order, PocketOperation
+from app.model.operation import LEAST_LENGTH, ContourOperation, Cut, Operation, Order, PocketOperation
 from app.model.part import Part, Units
 from app.model.tool import Tool
+
+
+LARGEST_JOIN = 10.0
+"""mm; a wider gap is no loose end any more."""
 
 
 class OriginXY(Enum):
@@ -50,9 +54,9 @@ class Job:
 
     Attributes:
         operations: in the order of the list; `order` decides which kind cuts first.
-        safe_z: clearance height, mm above the stock's top, > 0.
-        retract_z: height from which plunges go at plunge rate, mm above the top, in (0, safe_z].
-        join_tolerance: loose ends nearer than this are joined, mm, >= 0.
+        safe_z: clearance height, mm above the stock's top, in [0.001, 1e5).
+        retract_z: height from which plunges go at plunge rate, mm above the top, in [0.001, safe_z].
+        join_tolerance: loose ends nearer than this are joined, mm, in [0, 10].
         layer_names: layers to machine; empty = all visible ones.
         post: name of the post that writes the NC text.
         out_units: units of the NC text, MM or INCH.
@@ -74,9 +78,11 @@ class Job:
     exact_path: bool = False
 
     def __post_init__(self) -> None:
-        if not 0 < self.retract_z <= self.safe_z < 1e5:
+        if not LEAST_LENGTH <= self.retract_z <= self.safe_z < 1e5:
             raise ParameterError(f"Safe Z is {self.safe_z:g} mm and retract Z {self.retract_z:g} mm; "
-                                 "both must be above 0 and retract not above safe Z.")
+                                 f"both must be {LEAST_LENGTH:g} mm or more and retract not above safe Z.")
+        if not 0 <= self.join_tolerance <= LARGEST_JOIN:
+            raise ParameterError(f"Join tolerance is {self.join_tolerance:g} mm; use 0 to {LARGEST_JOIN:g} mm.")
 
     def tool(self, number: int) -> Tool:
         """Return the tool with this T number.

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import Enum
 
 from app.errors import ParameterError
+
+
+LEAST_LENGTH = 1e-3
+"""mm; a smaller depth, step or height would vanish in the digits of an NC program."""
+
+MOST_PASSES = 10_000
+"""Depth passes of one operation; more are a slip of the pen."""
 
 
 class Direction(Enum):
@@ -28,9 +36,9 @@ class Cut:
 
     Attributes:
         tool: T number of a tool of the job.
-        depth: down from Z 0 = top of stock to the floor, mm, > 0.
-        stepdown: largest depth of one pass, mm, > 0; passes are made equal.
-        stock_to_leave: metal left on walls on purpose, mm, >= 0.
+        depth: down from Z 0 = top of stock to the floor, mm, in [0.001, 1e5).
+        stepdown: largest depth of one pass, mm, in [0.001, 1e5); passes are made equal, at most 10,000 of them.
+        stock_to_leave: metal left on walls on purpose, mm, in [0, 1e4).
         direction: climb or conventional.
         enabled: switched-off operations stay in the list and make no moves.
     """
@@ -44,8 +52,13 @@ class Cut:
 
     def __post_init__(self) -> None:
         for name in ("depth", "stepdown"):
-            if not 0 < getattr(self, name) < 1e5:
-                raise ParameterError(f"{name.capitalize()} is {getattr(self, name):g} mm; it must be greater than 0.")
+            if not LEAST_LENGTH <= getattr(self, name) < 1e5:
+                raise ParameterError(f"{name.capitalize()} is {getattr(self, name):g} mm; "
+                                     f"it must be {LEAST_LENGTH:g} mm or more and less than 100000 mm.")
+        passes = math.ceil(self.depth / self.stepdown - 1e-9)
+        if passes > MOST_PASSES:
+            raise ParameterError(f"Depth {self.depth:g} mm in steps of {self.stepdown:g} mm makes {passes} passes; "
+                                 f"{MOST_PASSES} are the most, so take a larger stepdown.")
         if not 0 <= self.stock_to_leave < 1e4:
             raise ParameterError(f"Stock to leave is {self.stock_to_leave:g} mm; it must be 0 or more.")
 
@@ -62,7 +75,7 @@ class PocketOperation:
     """Clear the area inside with the pocket tool (steps 141-148).
 
     Attributes:
-        stepover: distance between rings, mm, in (0, tool diameter); None = half the diameter, the largest
+        stepover: distance between rings, mm, in [0.001, tool diameter); None = half the diameter, the largest
             that covers everything by itself. Overlap (the 1986 text's parameter) = diameter - stepover.
     """
 
@@ -70,8 +83,8 @@ class PocketOperation:
     stepover: float | None = None
 
     def __post_init__(self) -> None:
-        if self.stepover is not None and not 0 < self.stepover < 1e4:
-            raise ParameterError(f"Stepover is {self.stepover:g} mm; it must be greater than 0.")
+        if self.stepover is not None and not LEAST_LENGTH <= self.stepover < 1e4:
+            raise ParameterError(f"Stepover is {self.stepover:g} mm; it must be {LEAST_LENGTH:g} mm or more and less than 10000 mm.")
 
 
 Operation = ContourOperation | PocketOperation

@@ -8,6 +8,10 @@ from enum import Enum
 from app.errors import ParameterError
 
 
+LEAST_RATE = 1.0
+"""mm/min; a slower feed would be rounded away in the digits of F."""
+
+
 class ToolKind(Enum):
     """Shape of the cutter's end."""
 
@@ -24,12 +28,12 @@ class Tool:
 
     Attributes:
         number: T word, 1 … 9999.
-        diameter: cutting diameter, mm, > 0.
+        diameter: cutting diameter, mm, in (0, 1e6).
         kind: shape of its end.
         name: remark for lists and NC comments, or "".
         flutes: cutting edges, >= 1.
-        spindle_speed: rpm, > 0.
-        feed_rate, plunge_rate: mm/min, > 0.
+        spindle_speed: rpm, in (0, 1e6).
+        feed_rate, plunge_rate: mm/min, in [1, 1e6).
     """
 
     number: int
@@ -44,10 +48,12 @@ class Tool:
     def __post_init__(self) -> None:
         if not 1 <= self.number <= 9999:
             raise ParameterError(f"Tool number {self.number} is out of range; use 1 to 9999.")
-        for name in ("diameter", "spindle_speed", "feed_rate", "plunge_rate"):
-            value = getattr(self, name)
-            if not 0 < value < 1e6:
-                raise ParameterError(f"T{self.number}: {name.replace('_', ' ')} is {value:g}; it must be greater than 0.")
+        for name, unit in (("diameter", "mm"), ("spindle_speed", "rpm"), ("feed_rate", "mm/min"), ("plunge_rate", "mm/min")):
+            value, rate = getattr(self, name), unit == "mm/min"
+            if not 0 < value < 1e6 or (rate and value < LEAST_RATE):
+                least = f"{LEAST_RATE:g} {unit} or more" if rate else f"greater than 0 {unit}"
+                raise ParameterError(f"T{self.number}: {name.replace('_', ' ')} is {value:g} {unit}; "
+                                     f"it must be {least} and less than 1000000 {unit}.")
 
     @property
     def radius(self) -> float:

@@ -6,9 +6,13 @@ from dataclasses import dataclass, replace
 
 from app.errors import ParameterError
 from app.model.job import Job, OriginXY, OriginZ, Stock
-from app.model.operation import ContourOperation, Cut, Direction, Operation, Order, PocketOperation
+from app.model.operation import LEAST_LENGTH, ContourOperation, Cut, Direction, Operation, Order, PocketOperation
 from app.model.part import Part, Units
 from app.model.tool import Tool
+
+
+LEAST_PER_CENT = 1.0
+"""Of the diameter; a smaller stepover is a slip of the pen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,7 +20,7 @@ class Stepover:
     """Distance between rings.
 
     Attributes:
-        value: mm, or per cent of the tool's diameter.
+        value: mm, in [0.001, diameter), or per cent of the tool's diameter, in [1, 100).
         percent: True when `value` is per cent.
     """
 
@@ -24,7 +28,13 @@ class Stepover:
     percent: bool = False
 
     def of(self, diameter: float) -> float:
-        """Return the stepover in mm for a tool of this diameter in mm."""
+        """Return the stepover in mm for a tool of this diameter in mm.
+
+        Raises:
+            ParameterError: the percentage is out of its range.
+        """
+        if self.percent and not LEAST_PER_CENT <= self.value < 100:
+            raise ParameterError(f"Stepover is {self.value:g} %; it must be {LEAST_PER_CENT:g} % or more and less than 100 % of the diameter.")
         return self.value * diameter / 100 if self.percent else self.value
 
 
@@ -76,8 +86,8 @@ def job_with_options(part: Part, options: MakeOptions) -> Job:
     tools, operations = _tools(base, options)
     operations = tuple(_operation(each, tools, options) for each in operations)
     safe_z = base.safe_z if options.safe_z is None else options.safe_z
-    if safe_z <= 0:
-        raise ParameterError(f"Safe Z is {safe_z:g} mm; it must be above 0, the top of the stock.")
+    if not safe_z >= LEAST_LENGTH:
+        raise ParameterError(f"Safe Z is {safe_z:g} mm; it must be {LEAST_LENGTH:g} mm or more above the top of the stock.")
     return replace(
         base,
         tools=tuple(_speeds(tool, options) for tool in tools.values()),
@@ -132,9 +142,9 @@ def _operation(operation: Operation, tools: dict[int, Tool], options: MakeOption
         stepover = options.stepover.of(diameter)
     if options.overlap is not None:
         stepover = _stepover_of_overlap(options, diameter)
-    if stepover is not None and not 0 < stepover < diameter:
+    if stepover is not None and not LEAST_LENGTH <= stepover < diameter:
         raise ParameterError(f"Stepover is {stepover:g} mm with a pocket tool of {diameter:g} mm; "
-                             "it must be greater than 0 and less than the tool's diameter.")
+                             f"it must be {LEAST_LENGTH:g} mm or more and less than the tool's diameter.")
     return replace(operation, stepover=stepover)
 
 
