@@ -55,7 +55,7 @@ def read_dxf(data: bytes, name: str = "drawing.dxf", units: Units | None = None,
     part = Part(name=PurePath(name).stem, units=shown, layers=_layers(document)).with_entities(entities)
     part = _on_layers(part, layers, name)
     findings = [*_unit_findings(units, shown, named), *_damage(repaired), *_nothing(without_length), *_heights(sheet, factor),
-                *_left_out(left_out)]
+                *_switched_off(part, layers), *_left_out(left_out)]
     return Drawing(part, tuple(findings), tuple(sorted(left_out.items())), named)
 
 
@@ -188,6 +188,19 @@ def _heights(sheet: Sheet, factor: float) -> Iterable[Finding]:
     low, high = (z * factor for z in sheet.heights)
     if high - low > tolerances.CURVE:
         yield _remark(f"The drawing is not flat, its Z runs from {low:g} to {high:g} mm; it is read as seen from above.", high - low)
+
+
+def _switched_off(part: Part, asked: tuple[str, ...]) -> Iterable[Finding]:
+    """Name the layers that have curves but are off or frozen, unless layers were asked for by name."""
+    hidden = {layer.name for layer in part.layers if not layer.visible}
+    curves = Counter(entity.layer for entity in part.entities if entity.layer in hidden)
+    if asked or not curves:
+        return
+    count = curves.total()
+    who = f"Layers {', '.join(curves)} are" if len(curves) > 1 else f"Layer {next(iter(curves))} is"
+    what = f"{count} curves on {'them' if len(curves) > 1 else 'it'} are" if count > 1 else "1 curve on it is"
+    advice = f"Say --layer {next(iter(curves))} to machine {'one' if len(curves) > 1 else 'it'}."
+    yield _remark(f"{who} switched off or frozen; {what} not machined. {advice}", float(count))
 
 
 def _left_out(left_out: Counter[str]) -> Iterable[Finding]:

@@ -253,3 +253,28 @@ def test_other_kinds_of_files_are_refused_with_what_can_be_read() -> None:
 def test_suffix_in_capitals() -> None:
     drawing = read_drawing("some/Where.DXF", drawn(lambda space: space.add_line((0, 0), (1, 0))))
     assert drawing.part.name == "Where"
+
+
+def with_layers_off(*names: str) -> bytes:
+    document = ezdxf.new()
+    document.layers.add("OFF").off()
+    document.layers.add("FRZ").freeze()
+    space = document.modelspace()
+    space.add_circle((0, 0), 50)
+    for name in names:
+        space.add_circle((10, 10), 9, dxfattribs={"layer": name})
+    return bytes_of(document)
+
+
+def test_curves_on_layers_that_are_off_or_frozen_are_named() -> None:
+    found = [f for f in read_dxf(with_layers_off("OFF", "FRZ")).findings if "switched off" in f.text]
+    assert [f.text for f in found] == ["Layers OFF, FRZ are switched off or frozen; 2 curves on them are not machined. "
+                                       "Say --layer OFF to machine one."]
+    assert found[0].kind is FindingKind.LEFT_OUT and not found[0].counts and found[0].amount == 2
+    (one,) = [f.text for f in read_dxf(with_layers_off("FRZ")).findings if "switched off" in f.text]
+    assert one == "Layer FRZ is switched off or frozen; 1 curve on it is not machined. Say --layer FRZ to machine it."
+
+
+def test_layers_that_were_asked_for_or_are_empty_are_not_named() -> None:
+    asked = read_dxf(with_layers_off("OFF", "FRZ"), layers=("OFF",))
+    assert not [f for f in (*asked.findings, *read_dxf(with_layers_off()).findings) if "switched off" in f.text]
