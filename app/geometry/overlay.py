@@ -12,8 +12,27 @@ from app import tolerances
 from app.geometry.chain_crossings import contacts
 from app.geometry.chain_overlap import near_pairs
 from app.geometry.distance import DistanceField
-from app.geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Rows, contour_rows, lengths, points_at, row_curve, signed_area, sweeps
+from app.geometry.primitives import (
+    CX,
+    CY,
+    TURN,
+    X0,
+    X1,
+    Y0,
+    Y1,
+    Rows,
+    contour_rows,
+    lengths,
+    points_at,
+    reversed_rows,
+    row_curve,
+    signed_area,
+    sweeps,
+)
 from app.model.part import Contour
+
+_NOT_BACK = 1e-9
+"""Radians; the way back along a shared edge is the last choice, not the first."""
 
 _SIDE = tolerances.WELD
 """mm; how far from a piece its two sides are looked at."""
@@ -53,7 +72,8 @@ def _meeting(contours: Sequence[Contour]) -> list[int]:
 
 def _parted(contours: Sequence[Contour]) -> tuple[Contour, ...]:
     """Return the simple contours of one group."""
-    whole = np.concatenate([contour_rows(contour) for contour in contours])
+    rows = [contour_rows(contour) for contour in contours]
+    whole = np.concatenate([block if signed_area(block) > 0 else reversed_rows(block) for block in rows])
     pieces = _split(whole)
     pieces = pieces[lengths(pieces) > tolerances.WELD]
     pieces, start, end = _welded(_turned(pieces, DistanceField.of(whole)))
@@ -95,7 +115,11 @@ def _fractions(rows: Rows, points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _turned(pieces: Rows, field: DistanceField) -> Rows:
-    """Return the pieces with the area to their left; those with the same on both sides bound nothing and go."""
+    """Return the pieces with the area to their left.
+
+    With the area on both sides a piece is an edge that two contours share: a wall without thickness, which each keeps
+    in the direction of its own counter-clockwise outline. With the area on neither side it bounds nothing, and goes.
+    """
     middle = points_at(pieces, np.full(len(pieces), 0.5))
     ahead = points_at(pieces, np.full(len(pieces), 0.5 + 1e-6)) - points_at(pieces, np.full(len(pieces), 0.5 - 1e-6))
     normal = np.stack([-ahead[:, 1], ahead[:, 0]], 1) / np.maximum(np.hypot(*ahead.T), 1e-300)[:, None]
@@ -103,8 +127,19 @@ def _turned(pieces: Rows, field: DistanceField) -> Rows:
     back = pieces.copy()
     back[:, [X0, Y0, X1, Y1]] = pieces[:, [X1, Y1, X0, Y0]]
     back[:, TURN] *= -1
-    turned: Rows = np.where((right & ~left)[:, None], back, pieces)[left != right]
+    kept = (left != right) | (left & right & _twice(middle))
+    turned: Rows = np.where((right & ~left)[:, None], back, pieces)[kept]
     return turned
+
+
+def _twice(points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which points (n, 2) are there more than once."""
+    from scipy.spatial import cKDTree
+
+    if len(points) < 2:
+        return np.zeros(len(points), np.bool_)
+    twice: NDArray[np.bool_] = cKDTree(points).query(points, k=2)[0][:, 1] < 10 * tolerances.WELD
+    return twice
 
 
 def _welded(pieces: Rows) -> tuple[Rows, NDArray[np.int64], NDArray[np.int64]]:
@@ -142,7 +177,7 @@ def _loops(pieces: Rows, start: NDArray[np.int64], end: NDArray[np.int64]) -> li
             if not choices:
                 break  # a loose end: not a closed contour, and dropped
             reverse = math.atan2(back[loop[-1], 1], back[loop[-1], 0])
-            following = min(choices, key=lambda k: (reverse - math.atan2(out[k, 1], out[k, 0])) % math.tau)
+            following = min(choices, key=lambda k: (reverse - math.atan2(out[k, 1], out[k, 0]) - _NOT_BACK) % math.tau)
             if following == loop[0]:
                 loops.append(loop)
                 break

@@ -9,9 +9,10 @@ import pytest
 
 from app.geometry.chain_crossings import crossings
 from app.geometry.distance import DistanceField
+from app.geometry.offset import offset_levels
 from app.geometry.overlay import without_crossings
-from app.geometry.primitives import contour_rows, signed_area
-from app.geometry.region import nest, polygon_contour
+from app.geometry.primitives import contour_rows, pack, signed_area
+from app.geometry.region import nest, polygon_contour, reversed_contour
 from tests import plain_distance
 from tests.part_shapes import circle, random_part, square
 
@@ -52,3 +53,17 @@ def test_random_parts_keep_their_even_odd_area_point_by_point(seed: int) -> None
     for part in parts:
         ends = [c.end for c in part.primitives]
         assert [c.start for c in part.primitives] == ends[-1:] + ends[:-1]
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_an_edge_that_two_areas_share_stays_a_wall_of_both(turned: bool) -> None:
+    left, right = square(20), square(20, 20, 0)
+    parts = without_crossings([left, reversed_contour(right) if turned else right])
+    assert [signed_area(contour_rows(p)) for p in parts] == pytest.approx([400, 400])
+    (level,) = offset_levels(pack(nest(parts)), [3.0])
+    assert [ring.area for ring in level.rings] == pytest.approx([14 * 14] * 2)
+
+
+def test_an_island_along_the_wall_becomes_a_notch() -> None:
+    parts = without_crossings([square(40), square(10, 0, 15)])
+    assert [abs(signed_area(contour_rows(p))) for p in parts] == pytest.approx([1500])
