@@ -9,6 +9,7 @@ import traceback
 from collections.abc import Sequence
 
 from app import __version__
+from app.cli_output import tell
 from app.cli_signals import stoppable
 from app.errors import Cancelled, HitofudeError
 
@@ -53,10 +54,10 @@ def main(argv: Sequence[str]) -> int:
 def _command(argv: list[str], stopped: threading.Event) -> int:
     name, rest = (argv[0], argv[1:]) if argv else ("", [])
     if name in ("", "-h", "--help", "help"):
-        print(HELP, end="")
+        tell(HELP.rstrip())
         return DONE
     if name in ("-V", "--version"):
-        print(f"hitofude {__version__}")
+        tell(f"hitofude {__version__}")
         return DONE
     if name == "make":
         from app.cli_make import make_command

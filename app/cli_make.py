@@ -14,6 +14,7 @@ from pathlib import Path
 
 from app.atomic import write_atomically
 from app.cli_options import make_options, read_arguments
+from app.cli_output import tell
 from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.model.finding import FindingKind
@@ -45,7 +46,7 @@ def make_command(argv: Sequence[str], stopped: threading.Event) -> int:
     if any(argument in ("-h", "--help") for argument in argv):
         from app.cli_options import make_parser
 
-        make_parser().print_help()
+        tell(make_parser().format_help().rstrip())
         return 0
     arguments = read_arguments(argv)
     outputs = _check_outputs(arguments)
@@ -150,14 +151,15 @@ def _progress(quiet: bool, stopped: threading.Event) -> Progress:
 
 def _summary(made: Made, output: Path) -> None:
     """Say in a few lines what was made and what there is to know about it, the first few of each kind."""
-    print(made.report.summary(str(output)))
+    lines = [made.report.summary(str(output))]
     shown: Counter[FindingKind] = Counter()
     for finding in made.findings:
         shown[finding.kind] += 1
         if shown[finding.kind] <= (COUNTED if finding.counts else REMARKS):
-            print(f"  {'!' if finding.counts else '-'} {finding.text}")
+            lines.append(f"  {'!' if finding.counts else '-'} {finding.text}")
     for kind, count in shown.items():
         counting = sum(1 for finding in made.findings if finding.kind is kind and finding.counts)
         told = max(min(counting, COUNTED), min(count, REMARKS))
         if count > told:
-            print(f"  - {count - told} more of the kind {kind.value}; --report R.json lists them all")
+            lines.append(f"  - {count - told} more of the kind {kind.value}; --report R.json lists them all")
+    tell("\n".join(lines))

@@ -14,8 +14,10 @@ from app.edit.errors import CommandError
 from app.edit.numbers import length
 from app.errors import InputError
 from app.files.job_toml import ORIGIN_HELP, parse_origin, read_out_units, read_units
-from app.model.operation import Direction, Order
-from app.workflow.options import MakeOptions, Stepover
+from app.model.job import LARGEST_JOIN
+from app.model.operation import LEAST_LENGTH, Direction, Order
+from app.model.tool import LEAST_RATE
+from app.workflow.options import LEAST_PER_CENT, MakeOptions, Stepover
 
 EPILOG = """\
 D is a diameter: 6, 6mm, 0.25in, 1/4in. Lengths are mm unless a unit is written. With one tool given it does both jobs;
@@ -51,8 +53,8 @@ class _HelpFormatter(argparse.RawDescriptionHelpFormatter):
         return textwrap.wrap(" ".join(text.split()), width, break_on_hyphens=False)
 
 
-def _number(what: str, *, zero: bool = False, unit: str = "mm") -> Callable[[str], float]:
-    """Return a reader of numbers > 0 (or >= 0), for argparse."""
+def _number(what: str, *, least: float | None = None, unit: str = "mm") -> Callable[[str], float]:
+    """Return a reader of numbers from `least`, or greater than 0 where there is none, to below 1e5, for argparse."""
 
     def read(text: str) -> float:
         try:
@@ -61,9 +63,9 @@ def _number(what: str, *, zero: bool = False, unit: str = "mm") -> Callable[[str
             raise argparse.ArgumentTypeError(f"is wrong: {error.reason}") from error
         except ValueError as error:
             raise argparse.ArgumentTypeError(f"is wrong: '{text}' is no number; write the {what} in {unit}") from error
-        if not math.isfinite(value) or value < 0 or (value == 0 and not zero) or value >= 1e5:
-            least = "0 or more" if zero else "greater than 0"
-            raise argparse.ArgumentTypeError(f"is {value:g} {unit}; the {what} must be {least} and less than 100000")
+        if not math.isfinite(value) or value >= 1e5 or (value <= 0 if least is None else value < least):
+            bound = f"greater than 0 {unit}" if least is None else f"{least:g} {unit} or more" if least else "0 or more"
+            raise argparse.ArgumentTypeError(f"is {value:g} {unit}; the {what} must be {bound} and less than 100000 {unit}")
         return value
 
     return read
@@ -75,10 +77,18 @@ def _stepover(text: str) -> Stepover:
         stepover = Stepover(float(text.strip()[:-1]) if percent else length(text), percent)
     except (InputError, ValueError) as error:
         raise argparse.ArgumentTypeError(f"is wrong: '{text}' is neither a length nor per cent; write one such as 1.5mm or 40%") from error
-    if not 0 < stepover.value < (100 if percent else 1e5):
-        unit = " %" if percent else " mm"
-        raise argparse.ArgumentTypeError(f"is {stepover.value:g}{unit}; it must be more than 0 and less than the tool's diameter (100 %)")
+    least, unit = (LEAST_PER_CENT, "%") if percent else (LEAST_LENGTH, "mm")
+    if not least <= stepover.value < (100 if percent else 1e5):
+        raise argparse.ArgumentTypeError(f"is {stepover.value:g} {unit}; it must be {least:g} {unit} or more and less than "
+                                         "the tool's diameter (100 %)")
     return stepover
+
+
+def _join_tolerance(text: str) -> float:
+    value = _number("join tolerance", least=0.0)(text)
+    if value > LARGEST_JOIN:
+        raise argparse.ArgumentTypeError(f"is wrong: join tolerance is {value:g} mm; use 0 to {LARGEST_JOIN:g} mm")
+    return value
 
 
 def _typed(read: Callable[[str], object]) -> Callable[[str], object]:
@@ -120,14 +130,19 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
 def _tool_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--contour-tool", metavar="D", type=_number("diameter"), help="diameter of the tool that follows the walls")
     group.add_argument("--pocket-tool", metavar="D", type=_number("diameter"), help="diameter of the tool that clears the area")
-    group.add_argument("--stepover", metavar="MM|%", type=_stepover, help="distance between rings (default 50%% of the diameter)")
+    group.add_argument("--stepover", metavar="MM|%", type=_stepover, help="distance between rings, from 1%% or 0.001 mm (default 50%%)")
     group.add_argument("--overlap", metavar="MM", type=_number("overlap"), help="the same as diameter - stepover")
-    group.add_argument("--depth", metavar="Z", type=_number("depth"), help="depth of the floor, > 0 (default 2)")
-    group.add_argument("--stepdown", metavar="MM", type=_number("stepdown"), help="largest depth of one pass (default 2)")
-    group.add_argument("--stock-to-leave", metavar="MM", type=_number("stock to leave", zero=True), help="metal left on walls (default 0)")
-    group.add_argument("--safe-z", metavar="MM", type=_number("clearance height"), help="clearance height above the stock (default 5)")
-    group.add_argument("--feed", metavar="F", type=_number("feed rate", unit="mm/min"), help="feed rate, mm/min (default 600)")
-    group.add_argument("--plunge", metavar="F", type=_number("plunge rate", unit="mm/min"), help="plunge rate, mm/min (default 200)")
+    group.add_argument("--depth", metavar="Z", type=_number("depth", least=LEAST_LENGTH),
+                       help="depth of the floor, 0.001 mm or more (default 2)")
+    group.add_argument("--stepdown", metavar="MM", type=_number("stepdown", least=LEAST_LENGTH),
+                       help="largest depth of one pass, 0.001 mm or more (default 2)")
+    group.add_argument("--stock-to-leave", metavar="MM", type=_number("stock to leave", least=0.0), help="metal left on walls (default 0)")
+    group.add_argument("--safe-z", metavar="MM", type=_number("clearance height", least=LEAST_LENGTH),
+                       help="clearance height above the stock, 0.001 mm or more (default 5)")
+    group.add_argument("--feed", metavar="F", type=_number("feed rate", least=LEAST_RATE, unit="mm/min"),
+                       help="feed rate, mm/min, 1 or more (default 600)")
+    group.add_argument("--plunge", metavar="F", type=_number("plunge rate", least=LEAST_RATE, unit="mm/min"),
+                       help="plunge rate, mm/min, 1 or more (default 200)")
     group.add_argument("--speed", metavar="S", type=_number("spindle speed", unit="rpm"),
                        help="spindle speed, rpm (default 12000, contour 18000)")
     side = group.add_mutually_exclusive_group()
@@ -141,8 +156,8 @@ def _drawing_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--units", metavar="mm|in", type=_typed(read_units), help="units of a drawing that names none (default mm)")
     group.add_argument("--origin", metavar="WHERE", type=_typed(parse_origin), help=ORIGIN_HELP)
     group.add_argument("--layer", metavar="NAME", action="append", default=[], help="machine only this layer; may be repeated")
-    group.add_argument("--join-tolerance", metavar="MM", type=_number("join tolerance", zero=True),
-                       help="join loose ends nearer than this (default 0.01)")
+    group.add_argument("--join-tolerance", metavar="MM", type=_join_tolerance,
+                       help="join loose ends nearer than this, 0 to 10 mm (default 0.01)")
     group.add_argument("--bitmap", metavar="N", help=argparse.SUPPRESS)
     group.add_argument("--pitch", metavar="MM", help=argparse.SUPPRESS)
 

@@ -63,6 +63,44 @@ def test_the_whole_command(out: Path, tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["i.svg", "out.ngc", "r.json"]
 
 
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize(("drawing", "options", "status"), [
+    ("resources/samples/fig2.dxf", ["--safe-z=6"], 0),
+    ("tests/data/dxf/gear.dxf", ["--pocket-tool=2", "--contour-tool=1"], 1),
+])  # fmt: skip
+def test_a_closed_stdout_is_silent_and_keeps_the_status(drawing: str, options: list[str], status: int, unbuffered: str, out: Path) -> None:
+    done, told = unread(unbuffered, "make", str(ROOT / drawing), "-o", str(out), *options)
+    assert (done, told) == (status, "")
+    assert out.read_bytes() != OLD
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["make", "--help"]])
+def test_help_that_nobody_reads_is_silent(arguments: list[str]) -> None:
+    assert unread("1", *arguments) == (0, "")
+
+
+def unread(unbuffered: str, *arguments: str) -> tuple[int, str]:
+    """Run a command whose stdout is a pipe that is closed at the other end; return exit status and stderr."""
+    read, write = os.pipe()
+    os.close(read)
+    environment = {**os.environ, "PYTHONUNBUFFERED": unbuffered}
+    done = subprocess.run([sys.executable, "-m", "app", *arguments], stdout=write, stderr=subprocess.PIPE, text=True, cwd=ROOT,
+                          env=environment, timeout=120)
+    os.close(write)
+    return done.returncode, done.stderr
+
+
+def test_a_full_stdout_is_told_and_keeps_the_status(out: Path) -> None:
+    if not Path("/dev/full").exists():
+        pytest.skip("this system has no /dev/full")
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([sys.executable, "-m", "app", "make", str(FIG2), "-o", str(out)], stdout=full, stderr=subprocess.PIPE,
+                              text=True, cwd=ROOT, timeout=120)
+    assert done.returncode == 0
+    assert done.stderr.count("\n") == 1
+    assert "the summary could not be printed" in done.stderr
+
+
 def test_findings_give_exit_status_1(out: Path, data: Path) -> None:
     done = run("make", data / "dxf/gear.dxf", "-o", out, "--pocket-tool=2", "--contour-tool=1")
     assert done.returncode == 1
@@ -98,15 +136,25 @@ def test_help_of_make_names_every_option() -> None:
 
 
 @pytest.mark.parametrize(("arguments", "words"), [
-    ("--safe-z -1", "--safe-z is -1 mm; the clearance height must be greater than 0"),
+    ("--safe-z -1", "--safe-z is -1 mm; the clearance height must be 0.001 mm or more"),
     ("--safe-z=-1mm", "--safe-z is -1 mm"),
     ("--safe-z -1mm", "--safe-z is -1 mm"),
-    ("--depth 0", "--depth is 0 mm; the depth must be greater than 0"),
+    ("--depth 0", "--depth is 0 mm; the depth must be 0.001 mm or more and less than 100000 mm"),
+    ("--depth 0.0005", "--depth is 0.0005 mm; the depth must be 0.001 mm or more"),
+    ("--stepdown 1e-9", "--stepdown is 1e-09 mm; the stepdown must be 0.001 mm or more"),
+    ("--depth 20 --stepdown 0.001", "makes 20000 passes; 10000 are the most"),
+    ("--safe-z 0.0001", "--safe-z is 0.0001 mm"),
+    ("--feed 0.1", "--feed is 0.1 mm/min; the feed rate must be 1 mm/min or more"),
+    ("--plunge 0.99", "--plunge is 0.99 mm/min; the plunge rate must be 1 mm/min or more"),
+    ("--stepover 0.5%", "--stepover is 0.5 %; it must be 1 % or more and less than the tool's diameter"),
+    ("--stepover 0.0001", "--stepover is 0.0001 mm; it must be 0.001 mm or more"),
+    ("--overlap 5.9999", "Stepover is 0.0001 mm with a pocket tool of 6 mm; it must be 0.001 mm or more"),
+    ("--join-tolerance 1000", "oin tolerance is 1000 mm; use 0 to 10 mm"),
     ("--depth -1/4in", "--depth is -6.35 mm"),
     ("--depth nan", "--depth is wrong: 'nan' is no number"),
     ("--depth deep", "--depth is wrong"),
     ("--stock-to-leave -0.1", "must be 0 or more"),
-    ("--stepover 120%", "--stepover is 120 %; it must be more than 0 and less than the tool's diameter"),
+    ("--stepover 120%", "--stepover is 120 %; it must be 1 % or more and less than the tool's diameter"),
     ("--stepover -5%", "--stepover is -5 %"),
     ("--stepover wide", "--stepover is wrong: 'wide' is neither a length nor per cent"),
     ("--stepover 7", "Stepover is 7 mm with a pocket tool of 6 mm"),

@@ -10,7 +10,6 @@ from app.model.operation import LEAST_LENGTH, ContourOperation, Cut, Operation, 
 from app.model.part import Part, Units
 from app.model.tool import Tool
 
-
 LARGEST_JOIN = 10.0
 """mm; a wider gap is no loose end any more."""
 

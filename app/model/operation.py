@@ -8,7 +8,6 @@ from enum import Enum
 
 from app.errors import ParameterError
 
-
 LEAST_LENGTH = 1e-3
 """mm; a smaller depth, step or height would vanish in the digits of an NC program."""
 

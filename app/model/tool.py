@@ -7,7 +7,6 @@ from enum import Enum
 
 from app.errors import ParameterError
 
-
 LEAST_RATE = 1.0
 """mm/min; a slower feed would be rounded away in the digits of F."""
 

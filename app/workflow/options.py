@@ -10,7 +10,6 @@ from app.model.operation import LEAST_LENGTH, ContourOperation, Cut, Direction, 
 from app.model.part import Part, Units
 from app.model.tool import Tool
 
-
 LEAST_PER_CENT = 1.0
 """Of the diameter; a smaller stepover is a slip of the pen."""
 
@@ -34,7 +33,7 @@ class Stepover:
             ParameterError: the percentage is out of its range.
         """
         if self.percent and not LEAST_PER_CENT <= self.value < 100:
-            raise ParameterError(f"Stepover is {self.value:g} %; it must be {LEAST_PER_CENT:g} % or more and less than 100 % of the diameter.")
+            raise ParameterError(f"Stepover is {self.value:g} %; it must be {LEAST_PER_CENT:g} % or more and less than 100 %.")
         return self.value * diameter / 100 if self.percent else self.value
 
 
