@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import pathlib
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -15,7 +17,7 @@ from app.model.job import Job
 from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.model.part import Contour, Part, Region
 from app.model.tool import Tool
-from app.toolpath.coverage import coverage_findings, measure
+from app.toolpath.coverage import _widened, coverage_findings, measure
 from app.toolpath.proven import uncertain
 from tests.nc.programs import Path, square
 
@@ -162,3 +164,11 @@ def test_regions_that_touch_have_a_wall_between_them() -> None:
     found = measure(path.program(*slots), one_tool())
     assert found.reachable_left_mm2 == 0
     assert found.unreachable_mm2 == pytest.approx(8 * (1 - math.pi / 4) * 9, abs=0.02)
+
+
+def test_a_path_that_crosses_itself_is_never_widened_to_more_than_its_swath(data: pathlib.Path) -> None:
+    """Its plain buffer came out at 836 mm2 where 399 mm2 is the most that a 1.2 mm cutter can sweep."""
+    points = np.load(data / "crossing_run.npy")
+    swath = shapely.union_all(_widened(points, 0.6))
+    exact = shapely.union_all([shapely.LineString(pair).buffer(0.6, quad_segs=64) for pair in pairwise(points)])
+    assert swath.area == pytest.approx(exact.area, rel=2e-3)
