@@ -12,6 +12,7 @@ from app.geometry.chain_join import Nodes, brought_together, nodes_of
 from app.geometry.chain_overlap import Overlap, covered, repeated, shared_stretches, twin_contours
 from app.geometry.chain_pieces import Piece, pieces_from
 from app.geometry.chain_trace import Step, paths
+from app.geometry.chain_twins import reach_of
 from app.model.finding import Finding
 from app.model.part import Contour, Entity
 
@@ -49,7 +50,7 @@ def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -
     pieces, nodes, overlaps = _thinned(pieces, nodes, join_tolerance)
     pieces, nodes, gaps = brought_together(pieces, nodes)
     found, branches = paths(pieces, nodes)
-    contours, doubles = _once([_contour(pieces, steps, closed) for steps, closed in found])
+    contours, doubles = _once([_contour(pieces, steps, closed) for steps, closed in found], join_tolerance)
     odd = [place for place, ends in branches if ends % 2]
     findings += [*overlap_findings(overlaps, contours, join_tolerance), *repeat_findings(doubles), *gap_findings(gaps),
                  *branch_findings(branches), *open_findings(contours), *crossings(contours, odd)]
@@ -59,7 +60,7 @@ def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -
 def _thinned(pieces: list[Piece], nodes: Nodes, join_tolerance: float) -> tuple[list[Piece], Nodes, list[Shared]]:
     """Return what is left without curves that only repeat others, and all overlaps that were found on the way."""
     reach = min(tolerances.CURVE, max(join_tolerance, tolerances.WELD))
-    repeats = repeated(pieces, nodes, max(min(join_tolerance, tolerances.JOIN), tolerances.WELD))
+    repeats = repeated(pieces, nodes, reach_of(join_tolerance))
     shared = [Shared(pieces[o.first], pieces[o.second], o) for o in repeats]
     known = {(s.first.entity, s.second.entity) for s in shared}
     pieces, nodes = _without(pieces, nodes, repeats)
@@ -82,7 +83,7 @@ def _contour(pieces: Sequence[Piece], steps: Sequence[Step], closed: bool) -> Co
                    tuple(piece.entity for piece in members), max(piece.deviation for piece in members))
 
 
-def _once(contours: list[Contour]) -> tuple[list[Contour], list[tuple[Contour, Contour]]]:
+def _once(contours: list[Contour], join_tolerance: float) -> tuple[list[Contour], list[tuple[Contour, Contour]]]:
     """Return the contours without closed ones that repeat another, and the (kept, removed) pairs."""
-    twins = twin_contours(contours, tolerances.CURVE)
+    twins = twin_contours(contours, max(reach_of(join_tolerance), tolerances.CURVE))
     return [c for k, c in enumerate(contours) if k not in twins], [(contours[j], contours[k]) for k, j in twins.items()]

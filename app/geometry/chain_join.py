@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from app import tolerances
 from app.geometry.chain_overlap import repeated
 from app.geometry.chain_pieces import Piece, length_of, with_ends
+from app.geometry.chain_twins import reach_of, twins_met
 from app.model.curves import Arc, Line, Point
 
 Nodes = NDArray[np.int64]
@@ -21,14 +22,16 @@ def nodes_of(pieces: Sequence[Piece], join_tolerance: float) -> Nodes:
 
     Ends within WELD of one another are one point. Of what is loose then, the nearest two within the tolerance are
     joined first, so that joining never swallows a detail that is already connected; a loose end without such a
-    partner is joined to the nearest point within the tolerance. A curve drawn twice does not connect its own copy.
+    partner is joined to the nearest point within the tolerance. A curve drawn twice, be it a
+    little apart, does not connect its own copy.
     """
     ends = np.array([(*p.start, *p.end) for p in pieces], dtype=np.float64).reshape(-1, 2)
-    nodes = _welded(ends)
+    nodes, reach = _welded(ends), reach_of(join_tolerance)
     nodes[np.repeat(np.array([p.is_circle for p in pieces], dtype=bool), 2)] = -1
+    nodes = twins_met(pieces, ends, nodes, reach)
     if join_tolerance > tolerances.WELD and len(pieces):
         single = np.ones(len(pieces), dtype=bool)
-        single[[overlap.second for overlap in repeated(pieces, nodes.reshape(-1, 2), tolerances.WELD)]] = False
+        single[[overlap.second for overlap in repeated(pieces, nodes.reshape(-1, 2), reach)]] = False
         _join_loose(pieces, ends, np.where(np.repeat(single, 2), nodes, -1), (nodes, join_tolerance + tolerances.WELD))
     return nodes.reshape(-1, 2)
 

@@ -52,7 +52,7 @@ def repeated(pieces: Sequence[Piece], nodes: Nodes, reach: float) -> list[Overla
     for group in groups.values():
         kept: list[int] = []
         for k in group:
-            original = next((j for j in kept if _same(pieces[j], pieces[k], reach)), None)
+            original = next((j for j in kept if same(pieces[j], pieces[k], reach)), None)
             if original is None:
                 kept.append(k)
             else:
@@ -74,20 +74,22 @@ def repeated(pieces: Sequence[Piece], nodes: Nodes, reach: float) -> list[Overla
 
 
 def _key(piece: Piece, ends: Nodes, reach: float) -> tuple[object, ...]:
-    """Return what repeats have in common for certain; circles fall into cells far wider than `reach`, see `_same`."""
+    """Return what repeats have in common for certain; circles fall into cells far wider than `reach`, see `same`."""
     if isinstance(piece.primitives[0], Circle):
         circle = piece.primitives[0]
         return "circle", *(round(v / (1000 * reach)) for v in (*circle.centre, circle.radius))
     return int(min(ends)), int(max(ends))
 
 
-def _same(a: Piece, b: Piece, reach: float) -> bool:
+def same(a: Piece, b: Piece, reach: float) -> bool:
+    """Return whether two circles, or two pieces whose ends are known to pair up, keep within `reach` of one another."""
     if a.is_circle or b.is_circle:
         p, q = a.primitives[0], b.primitives[0]
-        return (isinstance(p, Circle) and isinstance(q, Circle) and math.dist(p.centre, q.centre) <= reach
-                and abs(p.radius - q.radius) <= reach)
+        return (isinstance(p, Circle) and isinstance(q, Circle)
+                and math.dist(p.centre, q.centre) + abs(p.radius - q.radius) <= reach)
     mine, others = _marks(a), _marks(b)
-    return min(max(map(math.dist, mine, others)), max(map(math.dist, mine, others[::-1]))) <= reach
+    return min(max(map(math.dist, mine, others)), max(map(math.dist, mine, others[::-1]))) <= reach and (
+        len(a.primitives) + len(b.primitives) == 2 or _run_together(rows_of([a])[0], rows_of([b])[0], reach + tolerances.CURVE))
 
 
 def _marks(piece: Piece) -> list[Point]:
@@ -232,9 +234,13 @@ def twin_contours(contours: Sequence[Contour], reach: float) -> dict[int, int]:
     twins: dict[int, int] = {}
     for a, b in sorted(cKDTree(around).query_pairs(4 * reach)):
         kept, other = closed[a], closed[b]
-        if kept not in twins and _along(rows[kept], rows[other], reach) and _along(rows[other], rows[kept], reach):
+        if kept not in twins and _run_together(rows[kept], rows[other], reach):
             twins.setdefault(other, kept)
     return twins
+
+
+def _run_together(rows: Rows, others: Rows, reach: float) -> bool:
+    return _along(rows, others, reach) and _along(others, rows, reach)
 
 
 def _along(rows: Rows, others: Rows, reach: float) -> bool:

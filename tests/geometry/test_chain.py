@@ -163,6 +163,54 @@ def test_repeated_edge_that_is_slightly_off() -> None:
     assert shape(made) == [(True, 4)] and len(of_kind(made, FindingKind.OVERLAP)) == 1
 
 
+@pytest.mark.parametrize("off", [1e-6, 1e-4, 0.002, 0.006])
+def test_outlines_drawn_twice_a_little_apart(off: float) -> None:
+    """Rectangles and circles alike: even-odd would take the one for nothing and mill the inside of the other."""
+    edges = [*polygon(SQUARE), Circle((5, 5), 2)]
+    again = [*polygon(moved(SQUARE, off, off)), Circle((5 + off, 5), 2 + off / 2)]
+    for copy in (again, [reversed_curve(c) for c in again[::-1]]):
+        made = chained([*edges, *copy])
+        assert [c.entity_ids for c in made.contours] == [(1, 2, 3, 4), (5,)]
+        assert {f.kind for f in made.findings} == {FindingKind.OVERLAP} and not any(f.counts for f in made.findings)
+
+
+def test_outline_drawn_twice_a_little_apart_with_other_corners() -> None:
+    split = [(0.004, 0.0), (5.0, 0.0), (10.004, 0.0), (10.004, 10.0), (0.004, 10.0)]
+    made = chained([*polygon(SQUARE), *polygon(split)])
+    assert shape(made) == [(True, 4)] and "drawn twice" in made.findings[0].text and not made.findings[0].counts
+
+
+def test_part_of_an_outline_drawn_twice_a_little_apart() -> None:
+    edges = polygon(SQUARE)
+    off = polygon(moved(SQUARE, 0.002, 0.002))
+    for again in (off[:2], off[1:], off[:1], [reversed_curve(c) for c in off[:3]]):
+        made = chained([*edges, *again])
+        assert [c.entity_ids for c in made.contours] == [(1, 2, 3, 4)]
+        assert len(of_kind(made, FindingKind.OVERLAP)) == len(again) and not any(f.counts for f in made.findings)
+
+
+def test_open_chain_drawn_twice_a_little_apart_is_one() -> None:
+    made = chained([*polygon(SQUARE)[:3], *polygon(moved(SQUARE, 0.002, -0.002))[:3]])
+    assert shape(made) == [(False, 3)]
+
+
+@pytest.mark.parametrize("width", [0.012, 0.05])
+def test_walls_of_a_thin_feature_stay_two(width: float) -> None:
+    thin = [(0.0, 0.0), (10.0, 0.0), (10.0, width), (0.0, width)]
+    for join_tolerance in (0.01, 0.2):
+        made = chained(polygon(thin), join_tolerance)
+        assert shape(made) == [(True, 4)] and not made.findings
+        rings = chained([Circle((0, 0), 5), Circle((0, 0), 5 + width)], join_tolerance)
+        assert len(rings.contours) == 2 and not rings.findings
+
+
+def test_thin_tongue_of_an_outline_with_gaps_stays() -> None:
+    """Narrower than the tolerance, but what joins its walls says that they are two."""
+    points = [(0.0, 0.0), (5.0, 0.0), (5.0, -9.0), (5.008, -9.0), (5.008, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0), (0.0, 0.004)]
+    made = chained([Line(a, b) for a, b in pairwise(points)])
+    assert shape(made) == [(True, 8)]
+
+
 def test_lens_between_the_same_points_is_no_repeat() -> None:
     lens = [Line((0, 0), (10, 0)), Arc((10, 0), (0, 0), (5, -100.0), True)]
     assert shape(chained(lens, 0.2)) == [(True, 2)]
