@@ -176,7 +176,7 @@ def test_help_of_make_names_every_option() -> None:
     ("--image picture.jpg", "a picture is .svg or .png"),
     ("--nonsense 3", "--nonsense 3 is no option"),
     ("--contour 3", "no option"),
-    ("--contour-tool 200", "is too small for T1 Flat 200 mm"),
+    ("--contour-tool 200", "nothing can be cut. Region 1 at (52.339, 46.341) is too small"),
     ("--job nowhere.toml", "nowhere.toml does not exist"),
     ("other.dxf", "no second drawing"),
 ])  # fmt: skip

@@ -5,6 +5,7 @@ from __future__ import annotations
 from app.model.moves import MoveKind
 from app.model.part import Units
 from app.nc.grid import spelled
+from app.nc.motions import arc_length, straight_length
 from app.nc.post import ArcCentre, Post
 
 Position = tuple[int, int, int]
@@ -20,12 +21,15 @@ class Blocks:
     Attributes:
         lines: the text so far.
         motion_line: 1-based line of the last motion block; 0 before the first.
+        motions: kind and length, out units, of each motion block; a tool change leaves the tool where it was.
     """
 
     def __init__(self, post: Post, units: Units) -> None:
         """Begin an empty program."""
         self.lines: list[str] = []
         self.motion_line = 0
+        self.motions: list[tuple[MoveKind, float]] = []
+        self._reached: Reached = (None, None, None)
         self._post = post
         self._digits = post.digits(units)
         self._number = post.numbers.start
@@ -69,11 +73,15 @@ class Blocks:
             feed: count of the last decimal of F.
         """
         digits = self._digits
+        offset = complex(*centre) / 10**digits.I
         if self._post.arcs.centre is ArcCentre.ABSOLUTE:
             finer = 10 ** (digits.I - digits.X)
             centre = (centre[0] + (self._position[0] or 0) * finer, centre[1] + (self._position[1] or 0) * finer)
         words = {"X": spelled(end[0], digits.X), "Y": spelled(end[1], digits.Y)}
+        start = self._lengths(self._reached)
         self._write(kind, end, words | {"I": spelled(centre[0], digits.I), "J": spelled(centre[1], digits.J)}, feed)
+        length = arc_length(start, self._lengths(end), offset, kind is MoveKind.ARC_CW)
+        self.motions[-1] = (kind, length)
 
     def _write(self, kind: MoveKind, end: Reached, words: dict[str, str], feed: int | None = None) -> None:
         """Write a motion block with the axes and the feed that change, and remember what it did."""
@@ -91,6 +99,14 @@ class Blocks:
         block = (words[letter] if letter == "G" else letter + words[letter] for letter in self._post.words.order if letter in words)
         self.lines.append(self._numbered(" ".join(block)))
         self._motion, self._position, self.motion_line = motion, end, len(self.lines)
+        self.motions.append((kind, straight_length(self._lengths(self._reached), self._lengths(end))))
+        x, y, z = self._reached
+        self._reached = (x if end[0] is None else end[0], y if end[1] is None else end[1], z if end[2] is None else end[2])
+
+    def _lengths(self, at: Reached) -> tuple[float | None, float | None, float | None]:
+        """Return a position in out units."""
+        x, y, z = (None if count is None else count / 10 ** getattr(self._digits, letter) for letter, count in zip("XYZ", at, strict=True))
+        return (x, y, z)
 
     def _numbered(self, text: str) -> str:
         """Return a block with its N word, if the post wants one; LinuxCNC and Fanuc end at N99999, so it starts again there."""

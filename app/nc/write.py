@@ -18,6 +18,7 @@ from app.nc.arcs import ArcRules, written_pieces
 from app.nc.blocks import Blocks
 from app.nc.grid import spelled
 from app.nc.header import Heading, heading_lines, heading_notes, operation_words, tool_words
+from app.nc.motions import Motions
 from app.nc.post import Coolant, Post
 from app.nc.sequence import check_sequence
 from app.nc.work_moves import WorkMoves, work_moves
@@ -37,10 +38,12 @@ class NcText:
         text: ASCII, lines ended by a line feed.
         lines: (n,) 1-based line that brings the tool to the end of each move of the program; a move that is nothing
             after rounding has the line of the one before.
+        motions: what the text moves, block by block.
     """
 
     text: str
     lines: NDArray[np.int32]
+    motions: Motions
 
 
 def write_program(program: Program, job: Job, post: Post, progress: Progress = NO_PROGRESS) -> NcText:
@@ -69,8 +72,9 @@ def write_program(program: Program, job: Job, post: Post, progress: Progress = N
     moves = work_moves(program.moves, work_origin(job, box), job.out_units, post.digits(job.out_units))
     sheet = Blocks(post, job.out_units)
     heading = Heading(program, job, post, box, blend_mm(job, post), writing_tolerance(job, post))
-    lines = _Writer(job, post, sheet, moves).write(heading, progress)
-    return NcText("\n".join(sheet.lines) + "\n", np.array(lines, dtype=np.int32))
+    writer = _Writer(job, post, sheet, moves)
+    lines = writer.write(heading, progress)
+    return NcText("\n".join(sheet.lines) + "\n", np.array(lines, dtype=np.int32), writer.motions())
 
 
 def blend_mm(job: Job, post: Post) -> float:
@@ -95,6 +99,7 @@ class _Writer:
 
     def __init__(self, job: Job, post: Post, sheet: Blocks, moves: WorkMoves) -> None:
         self.job, self.post, self.sheet, self.moves = job, post, sheet, moves
+        self.done: list[int] = []
         digits, unit = post.digits(job.out_units), job.out_units.value
         self.z_scale = 10.0**digits.Z
         self.arc_rules = ArcRules(
@@ -123,9 +128,18 @@ class _Writer:
                 self.sheet.rapid_z(moves.end[i][2])
             self._move(i)
             lines.append(self.sheet.motion_line)
+            self.done.append(len(self.sheet.motions))
         self._leave_tool(len(moves) - 1)
         self._blocks(self.post.program.end)
         return lines
+
+    def motions(self) -> Motions:
+        """Return what was written; behind the last move's blocks there is only its lift."""
+        kinds, lengths = zip(*self.sheet.motions, strict=True)
+        move = np.searchsorted(self.done, np.arange(len(kinds)), side="right")
+        return Motions(
+            np.array(kinds, np.uint8), np.array(lengths) * self.job.out_units.value, np.minimum(move, len(self.moves) - 1).astype(np.int32),
+        )  # fmt: skip
 
     def _move(self, i: int) -> None:
         """Write one move."""

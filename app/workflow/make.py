@@ -14,14 +14,18 @@ from app.files.drawing import Drawing, read_drawing
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.moves import Program
+from app.nc.motions import Motions
 from app.nc.posts import load_post
 from app.nc.write import NcText, write_program
 from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
 from app.toolpath.coverage import Coverage, coverage_findings, measure
 from app.workflow.options import MakeOptions, job_with_options
-from app.workflow.report import Measured, Report, make_report, worst_first
+from app.workflow.report import Measured, Report, make_report, rings_in_words, worst_first
 from app.workflow.verdict import Gouge, RapidInMaterial, gouge, rapids_in_material
+
+NO_TEXT = NcText("", np.zeros(0, np.int32), Motions.none())
+"""Of a program without moves."""
 
 NAMED = 3
 """How many findings the one line names that says why nothing can be cut."""
@@ -121,16 +125,22 @@ def finish(program: Program, job: Job, progress: Progress = NO_PROGRESS, drawing
     """
     post = load_post(job.post)
     progress.step(0.0, "Writing NC")
-    nc = write_program(program, job, post, progress.part(0.0, 0.2)) if len(program.moves) else NcText("", np.zeros(0, np.int32))
+    nc = write_program(program, job, post, progress.part(0.0, 0.2)) if len(program.moves) else NO_TEXT
     program = replace(program, moves=replace(program.moves, line=nc.lines))
     progress.step(0.2, "Checking clearance")
     deepest, rapids = gouge(program, job), rapids_in_material(program, job)
     coverage = measure(program, job, progress.part(0.4, 0.95))
-    own = (*_gouge_findings(deepest, program), *_rapid_findings(rapids, program), *coverage_findings(coverage))
+    own = (*_gouge_findings(deepest, program), *_rapid_findings(rapids, program), *coverage_findings(coverage), *_ring_findings(program))
     findings = worst_first((*own, *program.findings, *drawing_findings))
     progress.step(1.0, "Done")
     report = make_report(Measured(program, job, nc, post, deepest, rapids, coverage, findings))
     return Made(job, program, nc, report, findings, coverage)
+
+
+def _ring_findings(program: Program) -> tuple[Finding, ...]:
+    """Return the remark that some rings are not exact lines and arcs."""
+    count = program.polyline_rings
+    return (Finding(FindingKind.TOLERANCE, f"{rings_in_words(count)}.", counts=False, amount=float(count)),) if count else ()
 
 
 def _gouge_findings(gouge: Gouge, program: Program) -> tuple[Finding, ...]:

@@ -15,6 +15,7 @@ from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program, Purpose
 from app.model.operation import Operation, PocketOperation
 from app.model.stock_box import extent
+from app.nc.motions import Motions
 from app.nc.post import Post
 from app.nc.write import NcText, blend_mm, writing_tolerance
 from app.toolpath.coverage import CHORD, STRIP, Coverage, Place
@@ -27,6 +28,9 @@ ENGINE = "exact lines and arcs; pocket rings are levels of one distance field"
 COVERAGE_METHOD = f"polygons of the emitted moves, arcs as chords within {CHORD:g} mm; strips narrower than {STRIP:g} mm are not counted"
 GOUGE_METHOD = "closed-form distance of every move below Z 0 from every wall, less tool radius and stock to leave"
 TIME_METHOD = f"lengths over feed rates, rapids at {RAPID_RATE:g} mm/min, spin-up dwells; no acceleration"
+MOVES_METHOD = ("blocks of the NC text, arcs split and flattened as they are written; where the tool is at the start nobody knows, so the "
+                "first approach is counted from the clearance position above the first XY, and after a tool change from where the "
+                "tool before was lifted to safe Z")
 
 Json = dict[str, Any]
 
@@ -75,7 +79,7 @@ class Report:
 
 def make_report(measured: Measured) -> Report:
     """Return the report of what was made and measured."""
-    program, job, moves = measured.program, measured.job, measured.program.moves
+    program, job, moves, motions = measured.program, measured.job, measured.program.moves, measured.nc.motions
     return Report({
         "gouge": _gouge(measured),
         "left": {
@@ -93,13 +97,14 @@ def make_report(measured: Measured) -> Report:
         ],
         "strokes": pocket_strokes(moves),
         "retracts": retracts(moves),
-        "length_mm": path_lengths(moves),
-        "time_s": job_time(moves, measured.post.spindle.dwell_s),
+        "length_mm": path_lengths(moves, motions),
+        "time_s": job_time(moves, motions, measured.post.spindle.dwell_s),
         "time_method": TIME_METHOD,
-        "moves": {f"G{kind.value}": int(np.sum(moves.kind == kind)) for kind in MoveKind},
+        "moves": {f"G{kind.value}": int(np.sum(motions.kind == kind)) for kind in MoveKind},
+        "moves_method": MOVES_METHOD,
         "skipped": [_finding(each) for each in _of(measured, FindingKind.REGION_TOO_SMALL, FindingKind.LEFT_OUT, FindingKind.TINY_ENTITY)],
         "open_contours": [_finding(each) for each in _of(measured, FindingKind.OPEN_CONTOUR)],
-        "engine": ENGINE,
+        "engine": "; ".join([ENGINE, *([rings_in_words(program.polyline_rings)] if program.polyline_rings else [])]),
         "polyline_rings": program.polyline_rings,
         "tolerance": _tolerance(measured),
         "findings": [_finding(each) for each in measured.findings],
@@ -159,36 +164,47 @@ def _regions(program: Program) -> list[Json]:
 
 
 def _operation(operation: Operation, index: int, measured: Measured) -> Json:
-    moves, cut = measured.program.moves, operation.cut
-    mine = moves.operation == index
+    moves, cut, motions = measured.program.moves, operation.cut, measured.nc.motions
+    mine = moves.operation[motions.move] == index
     pocket = isinstance(operation, PocketOperation)
     result: Json = {"kind": "pocket" if pocket else "contour", "tool": cut.tool, "depth_mm": cut.depth, "stepdown_mm": cut.stepdown,
                     "stock_to_leave_mm": cut.stock_to_leave, "direction": cut.direction.value, "enabled": cut.enabled,
-                    "time_s": float(np.sum(move_times(moves)[mine]))}
+                    "time_s": float(np.sum(block_times(moves, motions)[mine]))}
     if isinstance(operation, PocketOperation):
         result["stepover_mm"] = operation.stepover or measured.job.tool(cut.tool).diameter / 2
     return result
 
 
-def path_lengths(moves: Moves) -> dict[str, float]:
-    """Return lengths in mm: cut, link (links and leads), plunge, rapid. The way to the first point is not in it."""
-    length, rapid = moves.lengths(), moves.kind == MoveKind.RAPID
-    link = ~rapid & np.isin(moves.purpose, (Purpose.LINK, Purpose.LEAD))
-    plunge = ~rapid & (moves.purpose == Purpose.PLUNGE)
+def rings_in_words(count: int) -> str:
+    """Return what rings are that no lines and arcs fit, without a full stop.
+
+    Args:
+        count: how many, > 0.
+    """
+    rings = "1 ring is a fine polyline" if count == 1 else f"{count} rings are fine polylines"
+    return f"{rings} within {tolerances.LEVEL * 1000:g} um instead of lines and arcs"
+
+
+def path_lengths(moves: Moves, motions: Motions) -> dict[str, float]:
+    """Return lengths of what was written, mm: cut, link (links and leads), plunge, rapid; MOVES_METHOD tells how the first one counts."""
+    purpose, rapid = moves.purpose[motions.move], motions.kind == MoveKind.RAPID
+    link = ~rapid & np.isin(purpose, (Purpose.LINK, Purpose.LEAD))
+    plunge = ~rapid & (purpose == Purpose.PLUNGE)
     chosen = {"cut": ~rapid & ~link & ~plunge, "link": link, "plunge": plunge, "rapid": rapid}
-    return {name: float(np.sum(length[mask])) for name, mask in chosen.items()}
+    return {name: float(np.sum(motions.length[mask])) for name, mask in chosen.items()}
 
 
-def move_times(moves: Moves) -> np.ndarray:
-    """Return (n,) seconds that each move takes at its feed rate, rapids at RAPID_RATE."""
-    rate = np.where(moves.kind == MoveKind.RAPID, RAPID_RATE, np.where(moves.feed > 0, moves.feed, np.inf))
-    return np.asarray(60 * moves.lengths() / rate)
+def block_times(moves: Moves, motions: Motions) -> np.ndarray:
+    """Return (m,) seconds that each motion block takes at its move's feed rate, rapids at RAPID_RATE."""
+    feed = moves.feed[motions.move]
+    rate = np.where(motions.kind == MoveKind.RAPID, RAPID_RATE, np.where(feed > 0, feed, np.inf))
+    return np.asarray(60 * motions.length / rate)
 
 
-def job_time(moves: Moves, dwell_s: float) -> float:
+def job_time(moves: Moves, motions: Motions, dwell_s: float) -> float:
     """Return how long the program runs, s, with a spin-up dwell of `dwell_s` for every tool taken."""
     taken = int(np.sum(np.diff(moves.tool) != 0)) + 1 if len(moves) else 0
-    return float(np.sum(move_times(moves))) + taken * dwell_s
+    return float(np.sum(block_times(moves, motions))) + taken * dwell_s
 
 
 def retracts(moves: Moves) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -17,9 +18,10 @@ from app.model.operation import ContourOperation, PocketOperation
 from app.model.part import Units
 from app.model.stock_box import stock_box, work_origin
 from app.progress import Progress
-from app.workflow.make import Made, make
+from app.workflow.make import Made, finish, make
 from app.workflow.options import MakeOptions
 from tests.nc.rs274_oracle import assert_same_motion, canonical_calls
+from tests.nc.test_motions import read_kinds
 from tests.workflow.truth import assert_left_is_true
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -89,13 +91,16 @@ def test_the_numbers_of_the_report_are_those_of_the_moves(name: str) -> None:
     this = made(name)
     report, moves = this.report.data, this.program.moves
     lengths, rapid = moves.lengths(), moves.kind == MoveKind.RAPID
-    assert sum(report["length_mm"].values()) == pytest.approx(float(np.sum(lengths)))
-    assert report["length_mm"]["rapid"] == pytest.approx(float(np.sum(lengths[rapid])))
-    assert [report["moves"][f"G{k}"] for k in range(4)] == [int(np.sum(moves.kind == k)) for k in range(4)]
+    kinds = read_kinds(this.nc.text)
+    assert [report["moves"][f"G{k}"] for k in range(4)] == [kinds.count(k) for k in range(4)]
+    rounding = 2e-4 * len(kinds) ** 0.5
+    assert sum(report["length_mm"].values()) == pytest.approx(float(np.sum(lengths)), abs=rounding)
+    assert report["length_mm"]["rapid"] == pytest.approx(float(np.sum(lengths[rapid])), abs=rounding)
+    assert "first approach" in report["moves_method"]
     assert report["strokes"] == this.program.strokes
     dwells = 1.0 * len({int(tool) for tool in moves.tool}) * _dwell(this)
     cutting = float(np.sum(lengths[~rapid] / moves.feed[~rapid])) * 60
-    assert report["time_s"] == pytest.approx(cutting + dwells + 60 * report["length_mm"]["rapid"] / 5000)
+    assert report["time_s"] == pytest.approx(cutting + dwells + 60 * report["length_mm"]["rapid"] / 5000, abs=0.01)
     assert json.loads(this.report.text()) == report
     assert this.clean == (not any(finding["counts"] for finding in report["findings"]))
 
@@ -117,6 +122,26 @@ def test_fig2_is_clean_and_its_corners_are_told() -> None:
     assert [(each["kind"], each["tool"]) for each in report["operations"]] == [("pocket", 1), ("contour", 2)]
     assert report["operations"][0]["stepover_mm"] == 3.0
     assert sum(each["time_s"] for each in report["operations"]) < report["time_s"]
+
+
+def test_rings_that_are_polylines_are_told() -> None:
+    this = made("fig2.dxf")
+    assert "polylines" not in this.report.data["engine"]
+    for count, words in ((7, "7 rings are fine polylines within 1 um instead of lines and arcs."),
+                         (1, "1 ring is a fine polyline within 1 um instead of lines and arcs.")):
+        again = finish(replace(this.program, polyline_rings=count), this.job)
+        (finding,) = [each for each in again.findings if each.kind is FindingKind.TOLERANCE]
+        assert (finding.text, finding.counts, finding.amount) == (words, False, count)
+        assert again.clean
+        assert words[:-1] in again.report.data["engine"]
+
+
+def test_the_first_approach_is_among_the_rapids() -> None:
+    """Each tool's text begins with a rapid to safe Z that the program does not have."""
+    this = made("fig2.dxf")
+    program = int(np.sum(this.program.moves.kind == MoveKind.RAPID))
+    assert this.report.data["moves"]["G0"] == program + 2
+    assert this.nc.motions.length[:2].tolist() == [0.0, 0.0]
 
 
 def test_gear_tells_the_rest_that_its_pocket_tool_leaves() -> None:
