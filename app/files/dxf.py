@@ -14,7 +14,7 @@ from app.files.drawing import Drawing
 from app.files.dxf_affine import scaled, transformed
 from app.files.dxf_blocks import Sheet, Walker
 from app.files.dxf_load import load
-from app.geometry.chain_pieces import within_reach
+from app.geometry.chain_pieces import straightened, within_reach
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity, Layer, Part, Units
@@ -97,13 +97,14 @@ def _entities(
     nothing = [None if p is None else to_mm.point(p) for p in sheet.without_length]
     for curve, layer in sheet.curves:
         drawn = transformed(curve, to_mm) if factor != 1.0 else curve
+        drawn = drawn if drawn is None else straightened(drawn)
         if drawn is None or (within_reach(drawn) and not _has_length(drawn)):
             nothing.append(None if drawn is None else drawn.start)
             continue
         if not within_reach(drawn):
             left_out["curve beyond 1 km or without a place"] += 1
             continue
-        entities.append(Entity(len(entities) + 1, _straightened(drawn), spelling.get(layer.casefold(), layer)))
+        entities.append(Entity(len(entities) + 1, drawn, spelling.get(layer.casefold(), layer)))
     return tuple(entities), nothing
 
 
@@ -117,13 +118,6 @@ def _has_length(curve: Curve) -> bool:
         return math.hypot(*curve.major) * (curve.end_parameter - curve.start_parameter) >= tolerances.WELD
     first = curve.control_points[0]
     return max(math.dist(first, p) for p in curve.control_points) >= tolerances.WELD
-
-
-def _straightened(curve: Curve) -> Curve:
-    """Return an arc that rises less than WELD over its chord as a line: its centre is too far away to be exact."""
-    if isinstance(curve, Arc) and abs(curve.sweep) < 1e-3 and curve.radius * curve.sweep**2 / 8 < tolerances.WELD:
-        return Line(curve.start, curve.end)
-    return curve
 
 
 def _layers(document: Any) -> tuple[Layer, ...]:

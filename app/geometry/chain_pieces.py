@@ -6,9 +6,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from app import tolerances
 from app.errors import GeometryError
 from app.fit.arcs import lines_and_arcs
+from app.geometry.primitives import boxes, curve_rows
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Primitive, Spline, reversed_curve
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity
@@ -19,7 +22,8 @@ _AMPLIFIED = 2.0
 
 FARTHEST = 1e6
 """Coordinates beyond 1 km, mm, are no part of a workpiece; below, a double keeps WELD with room to spare."""
-_FARTHEST_CENTRE = 1e9
+_FLAT = 1e-4
+"""An arc that rises less than this over its chord, mm, is a line: its centre is too far away to be exact."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,19 +91,35 @@ def pieces_from(entities: Sequence[Entity]) -> tuple[list[Piece], list[Finding]]
 
 
 def within_reach(curve: Curve) -> bool:
-    """Return whether all coordinates are numbers and none is beyond FARTHEST (of centres of arcs, 1e9 mm)."""
+    """Return whether all coordinates are numbers and none on the curve is beyond FARTHEST."""
     if isinstance(curve, Spline):
         return all(abs(v) <= FARTHEST for point in curve.control_points for v in point)
     if isinstance(curve, Line):
         return all(abs(v) <= FARTHEST for v in (*curve.start, *curve.end))
     if isinstance(curve, Arc):
-        return all(abs(v) <= FARTHEST for v in (*curve.start, *curve.end)) and all(abs(v) <= _FARTHEST_CENTRE for v in curve.centre)
+        return _arc_within_reach(curve)
     size = curve.radius if isinstance(curve, Circle) else math.hypot(*curve.major)
     return all(abs(v) + size <= FARTHEST for v in curve.centre)
 
 
+def _arc_within_reach(arc: Arc) -> bool:
+    if not all(abs(v) <= FARTHEST for v in (*arc.start, *arc.end)) or not all(map(math.isfinite, arc.centre)):
+        return False
+    if all(abs(v) + arc.radius <= FARTHEST for v in arc.centre):
+        return True
+    return bool((np.abs(boxes(np.array(curve_rows(arc)))) <= FARTHEST).all())
+
+
+def straightened(curve: Curve) -> Curve:
+    """Return an arc that rises less than 0.1 um over its chord as a line, any other curve as it is."""
+    if not isinstance(curve, Arc) or curve.start == curve.end:
+        return curve
+    rise = curve.radius * (2 * math.sin(curve.sweep / 4) ** 2)
+    return Line(curve.start, curve.end) if abs(curve.sweep) < 1.0 and rise < _FLAT else curve
+
+
 def _primitives(entity: Entity) -> tuple[tuple[Primitive, ...], float]:
-    curve = entity.curve
+    curve = straightened(entity.curve)
     if not within_reach(curve):
         raise GeometryError("it has a coordinate that is not a number or beyond 1 km; delete it or draw it again.")
     if isinstance(curve, Ellipse | Spline):
@@ -107,7 +127,7 @@ def _primitives(entity: Entity) -> tuple[tuple[Primitive, ...], float]:
         return made.primitives, made.deviation
     if length_of(curve) < tolerances.WELD:
         return (), 0.0
-    return (curve,), 0.0
+    return (curve,), 0.0 if curve is entity.curve else _FLAT
 
 
 def with_ends(piece: Piece, start: Point, end: Point) -> Piece:

@@ -278,3 +278,20 @@ def test_curves_on_layers_that_are_off_or_frozen_are_named() -> None:
 def test_layers_that_were_asked_for_or_are_empty_are_not_named() -> None:
     asked = read_dxf(with_layers_off("OFF", "FRZ"), layers=("OFF",))
     assert not [f for f in (*asked.findings, *read_dxf(with_layers_off()).findings) if "switched off" in f.text]
+
+
+@pytest.mark.parametrize("bulge", [1e-9, 2e-9, 1e-8, -1e-7, 3e-6])
+def test_bulge_too_flat_to_see_is_a_line(bulge: float) -> None:
+    points = [(0, 0, bulge), (60, 0, 0), (60, 40, 0), (0, 40, 0)]
+    drawing = read(lambda space: space.add_lwpolyline(points, format="xyb", close=True))
+    assert drawing.part.entities[0].curve == Line((0, 0), (60, 0)) and len(drawing.part.entities) == 4
+    assert not drawing.findings
+
+
+def test_flat_arc_is_a_line_and_one_that_is_not_stays() -> None:
+    def draw(space: Any) -> None:
+        space.add_arc((0, -2e6), 2e6, 90 - 5e-4, 90)
+        space.add_arc((0, -2e6), 2e6, 90 - 2e-3, 90)
+
+    flat, arc = curves(draw)
+    assert isinstance(flat, Line) and isinstance(arc, Arc) and arc.radius == pytest.approx(2e6)

@@ -7,6 +7,7 @@ from itertools import pairwise
 import pytest
 
 from app.geometry.chain import Chaining, chain
+from app.geometry.chain_pieces import within_reach
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline, reversed_curve
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity
@@ -298,3 +299,17 @@ def test_many_faults_are_counted_not_listed() -> None:
     made = chained([Line((0, 3.0 * k), (10, 3.0 * k)) for k in range(300)])
     found = of_kind(made, FindingKind.OPEN_CONTOUR)
     assert len(found) == 21 and "280 more" in found[-1].text and found[-1].counts
+
+
+def test_flat_arc_with_a_far_centre_closes_its_outline() -> None:
+    edges = polygon(SQUARE)
+    made = chained([Arc((0, 0), (10, 0), (5, 2.5e9)), *edges[1:]])
+    assert made.contours[0].closed and not made.findings and made.contours[0].primitives[0] == edges[0]
+    assert made.contours[0].deviation == pytest.approx(1e-4)
+
+
+def test_arc_is_as_far_away_as_its_points_not_its_centre() -> None:
+    rising = Arc((0, 0), (2e5, 0), (1e5, math.sqrt(2e9**2 - 1e10)))
+    assert within_reach(rising)
+    left, right = (-1e5, 9.5e5), (1e5, 9.5e5)
+    assert within_reach(Arc(left, right, (0, 9.5e5))) and not within_reach(Arc(right, left, (0, 9.5e5)))
