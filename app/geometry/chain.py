@@ -12,6 +12,7 @@ from app.geometry.chain_join import Nodes, brought_together, nodes_of
 from app.geometry.chain_overlap import Overlap, covered, repeated, shared_stretches, twin_contours
 from app.geometry.chain_pieces import Piece, pieces_from
 from app.geometry.chain_trace import Step, paths
+from app.geometry.chain_trim import trimmed
 from app.geometry.chain_twins import reach_of
 from app.model.finding import Finding
 from app.model.part import Contour, Entity
@@ -34,7 +35,8 @@ def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -
     """Return the contours that some curves form.
 
     Ellipses and splines become lines and arcs within 1 um. Curves drawn twice, and curves that lie wholly on another,
-    are removed unless an outline needs them. Ends nearer than the join tolerance are moved to meet exactly; arcs stay
+    are removed unless an outline needs them; drawn twice means within the join tolerance all along, of which at most
+    the default counts here. Ends nearer than the join tolerance are moved to meet exactly; arcs stay
     true arcs. Where three or more ends meet, loops are closed first, then the smallest turn wins.
 
     Args:
@@ -43,7 +45,8 @@ def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -
 
     Returns:
         Closed contours end exactly where they begin, and every primitive begins exactly where the one before ends.
-        Overlaps that are longer than the tolerance are left as they are and reported.
+        Overlaps that are longer than the tolerance are left as they are and reported, but for arcs of one circle whose
+        loose ends lie on one another: these are cut to meet.
     """
     pieces, findings = pieces_from(entities)
     nodes = nodes_of(pieces, join_tolerance)
@@ -67,7 +70,9 @@ def _thinned(pieces: list[Piece], nodes: Nodes, join_tolerance: float) -> tuple[
     stretches = shared_stretches(pieces, reach)
     new = [o for o in stretches if (pieces[o.first].entity, pieces[o.second].entity) not in known]
     overlaps = covered(pieces, nodes, new, reach)
-    shared += [Shared(pieces[o.first], pieces[o.second], o) for o in overlaps]
+    drawn = pieces
+    pieces, nodes, overlaps = trimmed(pieces, nodes, overlaps)
+    shared += [Shared(drawn[o.first], drawn[o.second], o) for o in overlaps]
     return *_without(pieces, nodes, overlaps), shared
 
 

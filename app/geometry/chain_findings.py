@@ -63,6 +63,8 @@ def overlap_findings(shared: Iterable[Shared], contours: Sequence[Contour], join
         counts = False
         if overlap.removed:
             what = f"; {_noun(b.primitives[0])} {b.entity} adds nothing and is left out."
+        elif overlap.trimmed:
+            what = "; one was cut to where the other ends."
         elif one is None or other is None:
             continue
         elif one != other and contours[one].closed and contours[other].closed:

@@ -29,6 +29,7 @@ class Overlap:
         length: of what they share, mm.
         start, end: ends of (the first stretch of) what they share, mm.
         removed: the second one was left out, as the first covers it.
+        trimmed: one was cut to begin where the other ends.
     """
 
     first: int
@@ -37,6 +38,7 @@ class Overlap:
     start: Point
     end: Point
     removed: bool = False
+    trimmed: bool = False
 
 
 def repeated(pieces: Sequence[Piece], nodes: Nodes, reach: float) -> list[Overlap]:

@@ -168,7 +168,7 @@ def _moved(primitive: Primitive, start: Point, end: Point) -> tuple[list[Primiti
     if isinstance(primitive, Line):
         return ([Line(start, end)] if start != end else []), gap
     if isinstance(primitive, Arc) and start != end:
-        arc, off = min(((made, _off(made, primitive)) for made in _refitted(primitive, start, end)), key=lambda choice: choice[1])
+        arc, off = min(((made, off_circle(made, primitive)) for made in _refitted(primitive, start, end)), key=lambda choice: choice[1])
         if off <= _AMPLIFIED * gap:
             return [arc], max(off, gap)
     bridges: list[Primitive] = [primitive]
@@ -188,7 +188,7 @@ def _refitted(arc: Arc, start: Point, end: Point) -> list[Arc]:
     return [Arc(start, end, centre, arc.ccw) for centre in (equally_far(start, end, arc.centre), turned)]
 
 
-def _off(arc: Arc, old: Arc) -> float:
+def off_circle(arc: Arc, old: Arc) -> float:
     """Return how far an arc leaves the circle of the old one, mm; inf when it runs the other way round."""
     if abs(arc.sweep - old.sweep) > math.pi:
         return math.inf

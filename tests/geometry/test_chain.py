@@ -1,13 +1,13 @@
 """Chaining: loose, unordered, reversed, repeated and touching curves become contours, and faults are located."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 import pytest
 
 from app.geometry.chain import Chaining, chain
-from app.geometry.chain_pieces import within_reach
+from app.geometry.chain_pieces import equally_far, within_reach
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline, reversed_curve
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity
@@ -313,3 +313,25 @@ def test_arc_is_as_far_away_as_its_points_not_its_centre() -> None:
     assert within_reach(rising)
     left, right = (-1e5, 9.5e5), (1e5, 9.5e5)
     assert within_reach(Arc(left, right, (0, 9.5e5))) and not within_reach(Arc(right, left, (0, 9.5e5)))
+
+
+def bow(first: float, last: float, radius: float = 30.0) -> Arc:
+    start, end = ((radius * math.cos(math.radians(a)), radius * math.sin(math.radians(a))) for a in (first, last))
+    return Arc(start, end, equally_far(start, end, (0.0, 0.0)))
+
+
+@pytest.mark.parametrize("turn", [lambda c: c, reversed_curve], ids=["same", "reversed"])
+def test_arcs_of_one_circle_that_overlap_at_loose_ends_become_one_outline(turn: Callable[[Curve], Curve]) -> None:
+    for a, b in ((bow(0, 200), bow(180, 360)), (bow(0, 200), bow(180, 380)), (bow(180, 360), bow(0, 200))):
+        made = chained([a, turn(b)])
+        assert shape(made) == [(True, 2)] and made.contours[0].deviation < 1e-9
+        assert sum(abs(p.sweep) for p in made.contours[0].primitives if isinstance(p, Arc)) == pytest.approx(math.tau)
+        (found,) = made.findings
+        assert found.kind is FindingKind.OVERLAP and not found.counts and "cut to where the other ends" in found.text
+
+
+def test_overlapping_arcs_with_another_end_there_are_not_cut() -> None:
+    made = chained([bow(0, 200), bow(180, 360), Line(bow(0, 200).end, (0, 0))])
+    assert any(f.counts and f.kind is FindingKind.OVERLAP for f in made.findings)
+    made = chained([bow(0, 200), bow(180, 360, 30.01)], 0.001)
+    assert not made.contours[0].closed
