@@ -9,10 +9,10 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from app.errors import HitofudeError
-from app.model.job import Job, OriginXY, OriginZ
+from app.model.job import LARGEST_JOIN, Job, OriginXY, OriginZ
 from app.model.operation import Direction, Operation, Order, PocketOperation
 from app.model.part import Units
-from app.model.tool import Tool, ToolKind
+from app.model.tool import LEAST_RATE, Tool, ToolKind
 from app.ui.figures import counted
 from app.ui.icons import IconButton
 from app.ui.labels import muted
@@ -78,7 +78,7 @@ class JobForm(Form):
             Spec("Safe Z", low=0.001, high=10_000, tip="Clearance height above the stock's top; rapids in the plane go there."),
             lambda job, v: replace(job, safe_z=v, retract_z=min(job.retract_z, v)))
         self.join = self.add_number(
-            Spec("Join tolerance", low=0, high=100, tip="Loose ends of the drawing nearer than this are joined."),
+            Spec("Join tolerance", low=0, high=LARGEST_JOIN, tip="Loose ends of the drawing nearer than this are joined."),
             lambda job, v: replace(job, join_tolerance=v))
         self.order = ChoiceField("Cut first", [(Order.POCKET_FIRST, "Pocket"), (Order.PATENT_1986, "Contour (1986)")])
         self.add_choice("Order", self.order, lambda job, v: in_cutting_order(replace(job, order=Order(v))))
@@ -108,8 +108,8 @@ class ToolForm(Form):
         self.add_choice("Kind", self.kind, lambda job, v: self._edit(job, lambda tool: replace(tool, kind=ToolKind(v))))
         self.diameter = self._add(Spec("Diameter", low=0.001, high=1000), lambda tool, v: replace(tool, diameter=v))
         self.speed = self._add(Spec("Speed", "rpm", 1, 200_000, 0, False), lambda tool, v: replace(tool, spindle_speed=v))
-        self.feed = self._add(Spec("Feed", "mm/min", 0.1, 100_000, 0, False), lambda tool, v: replace(tool, feed_rate=v))
-        self.plunge = self._add(Spec("Plunge", "mm/min", 0.1, 100_000, 0, False), lambda tool, v: replace(tool, plunge_rate=v))
+        self.feed = self._add(Spec("Feed", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, feed_rate=v))
+        self.plunge = self._add(Spec("Plunge", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, plunge_rate=v))
 
     def _add(self, spec: Spec, edit: Callable[[Tool, float], Tool]) -> NumberField:
         return self.add_number(spec, lambda job, v: self._edit(job, lambda tool: edit(tool, v)))
