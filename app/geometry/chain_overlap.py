@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from app import tolerances
 from app.geometry.chain_pieces import Piece, length_of
+from app.geometry.near import near
 from app.geometry.primitives import CX, TURN, X0, X1, R, Rows, boxes, contour_rows, curve_rows, points_at, sweeps
 from app.geometry.primitives import lengths as row_lengths
 from app.model.curves import Circle, Point
@@ -148,7 +149,7 @@ def near_pairs(rows: Rows, reach: float) -> tuple[NDArray[np.int64], NDArray[np.
     split, owner = _quarters(rows)
     around = boxes(split)
     wide = shapely.box(around[:, 0] - reach, around[:, 1] - reach, around[:, 2] + reach, around[:, 3] + reach)
-    a, b = shapely.STRtree(wide).query(wide)
+    a, b = near(shapely.STRtree(wide), wide)
     i, j = owner[a], owner[b]
     codes = np.unique(i[i < j] * len(rows) + j[i < j])
     return codes // len(rows), codes % len(rows)

@@ -16,6 +16,7 @@ import shapely
 from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
+from app.geometry.near import near
 from app.geometry.primitives import Rows
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
@@ -169,8 +170,8 @@ class _Path:
     def swept_near(self, tree: shapely.STRtree) -> Shape:
         """Return the area that is covered by those moves that come near some boxes."""
         rough = self.radius / 20  # who is near is asked with few chords, and with as much more reach
-        near = np.unique(tree.query(lines(self.rows, rough), predicate="dwithin", distance=self.radius + rough + STRIP)[0])
-        runs = _runs(self.rows[near], self._chosen[near])
+        moves = np.unique(near(tree, lines(self.rows, rough), self.radius + rough + STRIP)[0])
+        runs = _runs(self.rows[moves], self._chosen[moves])
         return shapely.union_all([shape for points in runs for shape in _widened(points, self.radius)])
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from app.geometry.near import near
 from app.geometry.primitives import contour_rows
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program
@@ -92,7 +93,7 @@ def gouge(program: Program, job: Job) -> Gouge:
 def _depths(rows: Floats, need: Floats, walls: Floats) -> tuple[Floats, Floats]:
     """Return (n,) how far each move comes nearer to a wall than it may (<= 0: it does not), and where, (n, 2)."""
     tree = shapely.STRtree(lines(walls, _CHORD))
-    move, wall = tree.query(lines(rows, _CHORD), predicate="dwithin", distance=need + 4 * _CHORD)
+    move, wall = near(tree, lines(rows, _CHORD), need + 4 * _CHORD)
     depth, places = np.full(len(rows), -np.inf), rows[:, 2:4].copy()
     distance, points = curve_distance(rows[move], walls[wall])
     short = need[move] - distance
