@@ -15,6 +15,9 @@ from PySide6.QtCore import QObject, Qt, Signal, Slot
 from app.errors import Cancelled, HitofudeError
 from app.progress import Progress
 
+_HEAD_START_S = 0.04
+"""Seconds in which the window shows that it computes, before the job competes with it for the interpreter."""
+
 _TOLD_EVERY_S = 0.04
 SWITCH_INTERVAL_S = 0.0005
 """Python threads change hands this often while a job runs: keeps painting quick (PLATFORM, Threads)."""
@@ -83,6 +86,8 @@ class _Runner(threading.Thread):
     def run(self) -> None:
         """Run the function and answer; nothing may escape from here."""
         work = self._work
+        if work.cancelled.wait(_HEAD_START_S):
+            return
         value, error = None, None
         try:
             with _NO_COLLECTOR:

@@ -74,9 +74,10 @@ def test_cancel_answers_within_0_2_s_even_when_the_job_cannot_stop(qtbot, worker
 
 
 def test_job_that_listens_stops(qtbot, worker):
-    stopped = threading.Event()
+    started, stopped = threading.Event(), threading.Event()
 
     def work(progress: Progress) -> object:
+        started.set()
         try:
             while True:
                 progress.step(0.5)
@@ -85,9 +86,16 @@ def test_job_that_listens_stops(qtbot, worker):
             stopped.set()
 
     worker.start(work, 1)
-    qtbot.wait(30)
+    assert started.wait(1)
     worker.cancel()
     assert stopped.wait(0.2)
+
+
+def test_job_that_is_cancelled_at_once_never_starts(qtbot, worker):
+    started = threading.Event()
+    worker.start(lambda progress: started.set(), 1)
+    worker.cancel()
+    assert not started.wait(0.2)
 
 
 def test_newer_job_replaces_the_older(qtbot, worker):
