@@ -17,7 +17,7 @@ END = 8
 
 
 @kernel("void(uint8[:, ::1], uint8[::1], int64, float64)")
-def _cross(plane, left, row, u):  # type: ignore[no-untyped-def]
+def _cross(plane, left, row, u):
     """Note one crossing of a row's centre line: odd counts are code 2, even ones code 3 (R)."""
     if u < 0.0:
         left[row] ^= 1
@@ -27,7 +27,7 @@ def _cross(plane, left, row, u):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(uint8[:, ::1], float64, float64)")
-def _touch(plane, u, v):  # type: ignore[no-untyped-def]
+def _touch(plane, u, v):
     """Draw a contour pixel that has no crossing (yet): zero is even."""
     if 0.0 <= u < plane.shape[1] and 0.0 <= v < plane.shape[0]:
         r, c = int(v), int(u)
@@ -36,7 +36,7 @@ def _touch(plane, u, v):  # type: ignore[no-untyped-def]
 
 
 @kernel("UniTuple(int64, 2)(float64, float64, int64)")
-def _centre_lines(a, b, count):  # type: ignore[no-untyped-def]
+def _centre_lines(a, b, count):
     """Return the range [first, stop) of centre lines i + 0.5 with min < i + 0.5 <= max, within the picture."""
     low = math.floor(min(max(min(a, b), -1.0), count + 1.0) - 0.5) + 1
     high = math.floor(min(max(max(a, b), -1.0), count + 1.0) - 0.5) + 1
@@ -44,7 +44,7 @@ def _centre_lines(a, b, count):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(uint8[:, ::1], uint8[::1], float64, float64, float64, float64)")
-def _draw_line(plane, left, u0, v0, u1, v1):  # type: ignore[no-untyped-def]
+def _draw_line(plane, left, u0, v0, u1, v1):
     first, stop = _centre_lines(v0, v1, plane.shape[0])
     for j in range(first, stop):
         u = u0 + (j + 0.5 - v0) / (v1 - v0) * (u1 - u0)
@@ -56,7 +56,7 @@ def _draw_line(plane, left, u0, v0, u1, v1):  # type: ignore[no-untyped-def]
 
 
 @kernel("float64(float64, float64, float64, float64, float64)")
-def _other(offset, r, centre, a, b):  # type: ignore[no-untyped-def]
+def _other(offset, r, centre, a, b):
     """Return the coordinate of an arc's monotone piece from a to b at `offset` from the centre along the other axis."""
     half = math.sqrt(max(r * r - offset * offset, 0.0))
     value = centre + half if (a - centre) + (b - centre) > 0.0 else centre - half
@@ -64,7 +64,7 @@ def _other(offset, r, centre, a, b):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(uint8[:, ::1], uint8[::1], float64[::1], float64[::1], float64[::1])")
-def _draw_piece(plane, left, circle, a, b):  # type: ignore[no-untyped-def]
+def _draw_piece(plane, left, circle, a, b):
     """Draw a piece of an arc that lies in one quadrant of its circle (cu, cv, r)."""
     cu, cv, r = circle[0], circle[1], circle[2]
     first, stop = _centre_lines(a[1], b[1], plane.shape[0])
@@ -76,7 +76,7 @@ def _draw_piece(plane, left, circle, a, b):  # type: ignore[no-untyped-def]
 
 
 @kernel("int64(float64[::1], float64[:, ::1])")
-def _quadrant_ends(row, ends):  # type: ignore[no-untyped-def]
+def _quadrant_ends(row, ends):
     """Write start, changes of quadrant and end of an arc into ends (6, 2), in its direction; return how many there are."""
     cu, cv, r, turn = row[4], row[5], row[6], row[7]
     quarter = math.pi / 2
@@ -96,7 +96,7 @@ def _quadrant_ends(row, ends):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(float64[:, ::1], uint8[:, ::1], uint8[::1])")
-def draw(rows, plane, left):  # type: ignore[no-untyped-def]
+def draw(rows, plane, left):
     """Draw closed contours (n, 8) into an empty plane as codes 2 and 3.
 
     A line or arc crosses the centre line of every row with min(v) < row + 0.5 <= max(v), which is the half-open rule
@@ -121,7 +121,7 @@ def draw(rows, plane, left):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(uint8[:, ::1], uint64[:, ::1], uint8[::1])")
-def scan(plane, words, left):  # type: ignore[no-untyped-def]
+def scan(plane, words, left):
     """Steps 207 and 208: count the 2s along every row; an empty pixel after an odd number of them gets code 4 (I).
 
     Args:
@@ -145,7 +145,7 @@ def scan(plane, words, left):  # type: ignore[no-untyped-def]
 
 
 @kernel("int64(uint8[:, ::1], int64, int64, int64)")
-def _next_direction(plane, r, c, first):  # type: ignore[no-untyped-def]
+def _next_direction(plane, r, c, first):
     """Return the first of the eight directions, counter-clockwise from `first`, with a drawn pixel, or -1."""
     for k in range(8):
         d = (first + k) % 8
@@ -157,7 +157,7 @@ def _next_direction(plane, r, c, first):  # type: ignore[no-untyped-def]
 
 
 @kernel("int64(uint8[:, ::1], int64, int64, uint8[::1])")
-def _trace_one(plane, r, c, chain):  # type: ignore[no-untyped-def]
+def _trace_one(plane, r, c, chain):
     """Trace the border to whose left pixel (r, c) lies; mark it 2; return how many directions were written, END included."""
     plane[r, c] = 2
     first = _next_direction(plane, r, c, 4)
@@ -176,7 +176,7 @@ def _trace_one(plane, r, c, chain):  # type: ignore[no-untyped-def]
 
 
 @kernel("int64(uint8[:, ::1], int64[:, ::1], uint8[::1])")
-def trace(plane, starts, chain):  # type: ignore[no-untyped-def]
+def trace(plane, starts, chain):
     """Steps 202 and 203: trace all borders of the drawn pixels and mark them 2.
 
     Start pixels are found in raster order: a 1 whose left neighbour is 0. From a traced pixel the search begins two

@@ -17,7 +17,7 @@ INF = math.inf
 
 
 @kernel("float64(float64[:, ::1], int64, float64, float64)")
-def point_distance(rows, j, x, y):  # type: ignore[no-untyped-def]
+def point_distance(rows, j, x, y):
     """Return the distance of a point from row j, mm."""
     ax, ay, bx, by = rows[j, 0], rows[j, 1], rows[j, 2], rows[j, 3]
     turn = rows[j, 7]
@@ -36,7 +36,7 @@ def point_distance(rows, j, x, y):  # type: ignore[no-untyped-def]
 
 
 @kernel("float64(float64[:, ::1], int64, float64, float64)")
-def box_distance(nodes, k, x, y):  # type: ignore[no-untyped-def]
+def box_distance(nodes, k, x, y):
     """Return the distance of a point from the box of node k, mm (0 inside)."""
     dx = max(nodes[k, 0] - x, x - nodes[k, 2], 0.0)
     dy = max(nodes[k, 1] - y, y - nodes[k, 3], 0.0)
@@ -44,7 +44,7 @@ def box_distance(nodes, k, x, y):  # type: ignore[no-untyped-def]
 
 
 @kernel("int64(int64)")
-def _spread(v):  # type: ignore[no-untyped-def]
+def _spread(v):
     v = (v | (v << 8)) & 0x00FF00FF
     v = (v | (v << 4)) & 0x0F0F0F0F
     v = (v | (v << 2)) & 0x33333333
@@ -52,7 +52,7 @@ def _spread(v):  # type: ignore[no-untyped-def]
 
 
 @kernel("Tuple((int64[::1], float64[:, ::1]))(float64[:, ::1])")
-def build_tree(boxes):  # type: ignore[no-untyped-def]
+def build_tree(boxes):
     """Return (order of the rows, boxes of the nodes) for boxes (n, 4); n > 0."""
     n = len(boxes)
     x0, y0 = boxes[:, 0].min(), boxes[:, 1].min()
@@ -81,7 +81,7 @@ def build_tree(boxes):  # type: ignore[no-untyped-def]
 
 
 @kernel("int64(int64[::1], float64[:, ::1], float64[:, ::1], float64[::1], int64[::1])")
-def query_box(order, nodes, boxes, box, found):  # type: ignore[no-untyped-def]
+def query_box(order, nodes, boxes, box, found):
     """Write into `found` (room for every row) the rows whose boxes meet `box`; return how many."""
     leaves, count = (len(nodes) + 1) // 2, 0
     stack = np.empty(64, np.int64)
@@ -105,7 +105,7 @@ def query_box(order, nodes, boxes, box, found):  # type: ignore[no-untyped-def]
 
 
 @kernel("Tuple((float64, int64))(float64[:, ::1], int64[::1], float64[:, ::1], float64, float64, float64)")
-def nearest(rows, order, nodes, x, y, limit):  # type: ignore[no-untyped-def]
+def nearest(rows, order, nodes, x, y, limit):
     """Return (distance, row) of the row nearest to a point; (limit, -1) when none is nearer than `limit`."""
     leaves = (len(nodes) + 1) // 2
     best, row = limit, -1
@@ -132,7 +132,7 @@ def nearest(rows, order, nodes, x, y, limit):  # type: ignore[no-untyped-def]
 
 
 @kernel("boolean(float64[:, ::1], int64[::1], float64[:, ::1], float64, float64, float64)")
-def any_nearer(rows, order, nodes, x, y, limit):  # type: ignore[no-untyped-def]
+def any_nearer(rows, order, nodes, x, y, limit):
     """Return whether some row is nearer to a point than `limit`; quicker than `nearest`, as any one will do."""
     leaves = (len(nodes) + 1) // 2
     stack = np.empty(64, np.int64)
@@ -154,14 +154,14 @@ def any_nearer(rows, order, nodes, x, y, limit):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64[::1], int64[::1])")
-def nearest_many(rows, order, nodes, points, limit, distances, found):  # type: ignore[no-untyped-def]
+def nearest_many(rows, order, nodes, points, limit, distances, found):
     """Write the distance and the row nearest to each point (m, 2)."""
     for k in range(len(points)):
         distances[k], found[k] = nearest(rows, order, nodes, points[k, 0], points[k, 1], limit)
 
 
 @kernel("int64(float64[:, ::1], float64, float64)")
-def crossings(rows, x, y):  # type: ignore[no-untyped-def]
+def crossings(rows, x, y):
     """Return how often the rows cross the ray from a point towards -X (even-odd rule, half open in y).
 
     A row sweeps less than pi, so it has at most one y extremum; on a piece without one the circle's right side
@@ -190,7 +190,7 @@ def crossings(rows, x, y):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(float64[:, ::1], float64[:, ::1], boolean[::1])")
-def inside_many(rows, points, inside):  # type: ignore[no-untyped-def]
+def inside_many(rows, points, inside):
     """Write for each point (m, 2) whether it is inside by the even-odd rule."""
     for k in range(len(points)):
         inside[k] = crossings(rows, points[k, 0], points[k, 1]) % 2 == 1

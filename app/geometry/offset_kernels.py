@@ -20,7 +20,7 @@ SHORTEST = 1e-7  # mm; pieces below this are bridged by the stitching tolerance
 
 
 @kernel("void(float64[:, ::1], int64[::1], float64[:, ::1])")
-def vertex_arcs(rows, previous, vertices):  # type: ignore[no-untyped-def]
+def vertex_arcs(rows, previous, vertices):
     """Write (start angle, sweep <= 0) of the arc about the start of each row; sweep 0 where the boundary turns left."""
     for i in range(len(rows)):
         k = previous[i]
@@ -43,7 +43,7 @@ def vertex_arcs(rows, previous, vertices):  # type: ignore[no-untyped-def]
 
 
 @kernel("boolean(float64[:, ::1], float64[:, ::1], int64, float64, float64[::1])")
-def element(rows, vertices, e, level, out):  # type: ignore[no-untyped-def]
+def element(rows, vertices, e, level, out):
     """Write element e at a level into out; False where it does not exist (an arc shrunk to nothing).
 
     out: a line is (0, ax, ay, bx, by); an arc (1, cx, cy, radius, start angle, sweep).
@@ -70,7 +70,7 @@ def element(rows, vertices, e, level, out):  # type: ignore[no-untyped-def]
 
 
 @kernel("UniTuple(float64, 2)(float64[::1], float64)")
-def place(shape, u):  # type: ignore[no-untyped-def]
+def place(shape, u):
     """Return the point at fraction u of an element."""
     if shape[0] == 0.0:
         return shape[1] + u * (shape[3] - shape[1]), shape[2] + u * (shape[4] - shape[2])
@@ -79,7 +79,7 @@ def place(shape, u):  # type: ignore[no-untyped-def]
 
 
 @kernel("int64(float64[::1], float64, float64, float64[::1], int64)")
-def _cut_angles(shape, middle, half, cuts, count):  # type: ignore[no-untyped-def]
+def _cut_angles(shape, middle, half, cuts, count):
     """Append the fractions of an arc element at the angles middle - half and middle + half."""
     for angle in (middle - half, middle + half):
         ahead = (angle - shape[4]) if shape[5] > 0.0 else (shape[4] - angle)
@@ -89,7 +89,7 @@ def _cut_angles(shape, middle, half, cuts, count):  # type: ignore[no-untyped-de
 
 
 @kernel("int64(float64[::1], float64, float64, float64, float64[::1], int64)")
-def _cut_circle(shape, cx, cy, r, cuts, count):  # type: ignore[no-untyped-def]
+def _cut_circle(shape, cx, cy, r, cuts, count):
     """Append the fractions at which an element crosses a circle."""
     if shape[0] == 0.0:
         dx, dy = shape[3] - shape[1], shape[4] - shape[2]
@@ -113,7 +113,7 @@ def _cut_circle(shape, cx, cy, r, cuts, count):  # type: ignore[no-untyped-def]
 
 
 @kernel("int64(float64[::1], float64[:, ::1], int64, float64, float64[::1], int64)")
-def _cut_lines(shape, rows, j, level, cuts, count):  # type: ignore[no-untyped-def]
+def _cut_lines(shape, rows, j, level, cuts, count):
     """Append the fractions at which an element crosses the two parallels of line j at a level."""
     ux, uy = rows[j, 2] - rows[j, 0], rows[j, 3] - rows[j, 1]
     length = math.hypot(ux, uy)
@@ -133,7 +133,7 @@ def _cut_lines(shape, rows, j, level, cuts, count):  # type: ignore[no-untyped-d
 
 
 @kernel("int64(float64[::1], float64[:, ::1], int64, float64, float64, float64, float64[::1])")
-def cut(shape, rows, j, level, u0, u1, cuts):  # type: ignore[no-untyped-def]
+def cut(shape, rows, j, level, u0, u1, cuts):
     """Write u0, the sorted fractions where row j's distance passes the level, u1 into cuts; return how many."""
     cuts[0] = u0
     count = 1
@@ -160,7 +160,7 @@ def cut(shape, rows, j, level, u0, u1, cuts):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(float64[::1], float64, float64, float64, float64[::1])")
-def _reach(shape, u0, u1, level, box):  # type: ignore[no-untyped-def]
+def _reach(shape, u0, u1, level, box):
     """Write the box of an element's piece, widened by the level."""
     x0, y0 = place(shape, u0)
     x1, y1 = place(shape, u1)
@@ -172,7 +172,7 @@ def _reach(shape, u0, u1, level, box):  # type: ignore[no-untyped-def]
 
 
 @kernel("Tuple((float64[:, ::1], int64))(float64[:, ::1], int64, float64, float64)")
-def _push(blocked, count, u0, u1):  # type: ignore[no-untyped-def]
+def _push(blocked, count, u0, u1):
     if count == len(blocked):
         larger = np.empty((2 * count, 2))
         larger[:count] = blocked
@@ -182,7 +182,7 @@ def _push(blocked, count, u0, u1):  # type: ignore[no-untyped-def]
 
 
 @kernel("int64(float64[::1], float64[:, ::1], int64[::1], int64, float64[::1])")
-def _undecided(shape, rows, near, count, limits):  # type: ignore[no-untyped-def]
+def _undecided(shape, rows, near, count, limits):
     """Keep in `near` the rows whose distance from the piece's middle lets them come within the level; return how many."""
     x, y = place(shape, (limits[2] + limits[3]) / 2)
     reach = limits[5] * (limits[3] - limits[2]) / 2
@@ -195,7 +195,7 @@ def _undecided(shape, rows, near, count, limits):  # type: ignore[no-untyped-def
 
 
 @kernel("Tuple((float64[:, ::1], int64))(float64[::1], float64[:, ::1], int64[::1], int64, float64[::1])")
-def blocked_parts(shape, rows, near, count, limits):  # type: ignore[no-untyped-def]
+def blocked_parts(shape, rows, near, count, limits):
     """Return the parts (m, 2) of an element's piece to which a near row comes nearer than the level.
 
     limits: level, slack, u0, u1, shortest piece as a fraction, length of the whole element.
@@ -217,7 +217,7 @@ def blocked_parts(shape, rows, near, count, limits):  # type: ignore[no-untyped-
 
 
 @kernel("int64(float64[:, ::1], int64, int64, float64[::1], float64[:, ::1], int64)")
-def _keep_rest(blocked, blocks, e, limits, pieces, count):  # type: ignore[no-untyped-def]
+def _keep_rest(blocked, blocks, e, limits, pieces, count):
     """Append what is left of [u0, u1] after taking the blocked parts out; return the new count."""
     at, shortest = limits[2], limits[4]
     for k in np.argsort(blocked[:blocks, 0]):
@@ -235,7 +235,7 @@ _TREE = "int64[::1], float64[:, ::1], float64[:, ::1]"
 
 
 @kernel(f"int64(float64[:, ::1], float64[:, ::1], {_TREE}, float64[:, ::1], float64[::1], float64[:, ::1])")
-def trim(rows, vertices, order, nodes, boxes, active, level_slack, pieces):  # type: ignore[no-untyped-def]
+def trim(rows, vertices, order, nodes, boxes, active, level_slack, pieces):
     """Write the pieces (element, u0, u1) of a level that no row comes nearer to; return how many.
 
     Args:
@@ -271,7 +271,7 @@ def trim(rows, vertices, order, nodes, boxes, active, level_slack, pieces):  # t
 
 
 @kernel("void(float64[:, ::1], float64[:, ::1], float64[:, ::1], float64, float64[:, ::1])")
-def piece_rows(rows, vertices, pieces, level, out):  # type: ignore[no-untyped-def]
+def piece_rows(rows, vertices, pieces, level, out):
     """Write each piece (m, 3) at a level as a row (m, 8)."""
     shape = np.empty(6)
     for k in range(len(pieces)):

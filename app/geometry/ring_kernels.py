@@ -11,7 +11,7 @@ from app.jit import kernel
 
 
 @kernel("void(float64[:, ::1], int64[::1], float64, int64[::1])")
-def follow(rows, by_x, tolerance, following):  # type: ignore[no-untyped-def]
+def follow(rows, by_x, tolerance, following):
     """Write for each row the row that starts nearest to its end, each used once; -1 where none is within tolerance.
 
     by_x: rows in order of their start's x. Nearest pairs are matched first.
@@ -42,7 +42,7 @@ def follow(rows, by_x, tolerance, following):  # type: ignore[no-untyped-def]
 
 
 @kernel("int64(float64[:, ::1], int64[::1], float64[:, ::1], int64[::1], int64[::1])")
-def assemble(rows, following, out, order, starts):  # type: ignore[no-untyped-def]
+def assemble(rows, following, out, order, starts):
     """Write the rows ring after ring, each beginning exactly where the one before ends; return how many rings there are.
 
     Args:
@@ -72,7 +72,7 @@ def assemble(rows, following, out, order, starts):  # type: ignore[no-untyped-de
 
 
 @kernel("float64(float64[:, ::1], int64)")
-def _sweep(rows, i):  # type: ignore[no-untyped-def]
+def _sweep(rows, i):
     """Return the signed sweep of row i, in (-2 pi, 2 pi)."""
     if rows[i, 7] == 0.0:
         return 0.0
@@ -82,7 +82,7 @@ def _sweep(rows, i):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(float64[:, ::1], int64[::1], int64, float64[:, ::1])")
-def sums(rows, starts, rings, out):  # type: ignore[no-untyped-def]
+def sums(rows, starts, rings, out):
     """Write (signed area, length) of each ring (rings, 2): Green's theorem, exact for arcs."""
     for k in range(rings):
         area = length = 0.0
@@ -96,7 +96,7 @@ def sums(rows, starts, rings, out):  # type: ignore[no-untyped-def]
 
 
 @kernel("float64(float64[:, ::1], float64[:, ::1], int64[::1], float64[:, ::1], float64, float64)")
-def worst_error(rows, drawing, order, nodes, distance, limit):  # type: ignore[no-untyped-def]
+def worst_error(rows, drawing, order, nodes, distance, limit):
     """Return the largest |measured - distance| over all joints and middles of rows, mm; stops at the first above `limit`.
 
     Args:
