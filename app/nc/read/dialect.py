@@ -1,0 +1,66 @@
+"""In what the controls' languages differ, as far as reading goes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+
+class Dialect(Enum):
+    """The control's language."""
+
+    LINUXCNC = "linuxcnc"
+    GRBL = "grbl"
+    FANUC = "fanuc"
+    HAAS = "haas"
+    MACH3 = "mach3"
+
+
+@dataclass(frozen=True, slots=True)
+class Habits:
+    """What a dialect does its own way.
+
+    Attributes:
+        title: the control's name for people.
+        semicolon_comments: a semicolon begins a comment that runs to the end of the line.
+        ngc_flow: O words with sub, if, while, repeat; named parameters.
+        fanuc_flow: O words are program numbers; IF [...] GOTO n, WHILE [...] DO m, M98 P calls.
+        least_mm, least_inch: what a length without a decimal point counts in; 1 = the unit itself.
+        dwell_unit_s: what P of G4 counts in, s, where it has no decimal point. dwell_unit_with_point_s: where it has one.
+        length_from_tool: G43 without H takes the length of the tool in the spindle.
+        tool_changes: M6 is known. splines: "G5" (LinuxCNC), "G6.2" (Fanuc) or "".
+        missing: G words that other dialects have and this one refuses.
+    """
+
+    title: str
+    semicolon_comments: bool = True
+    ngc_flow: bool = True
+    fanuc_flow: bool = False
+    least_mm: float = 1.0
+    least_inch: float = 1.0
+    dwell_unit_s: float = 1.0
+    dwell_unit_with_point_s: float = 1.0
+    length_from_tool: bool = True
+    tool_changes: bool = True
+    splines: str = "G5"
+    missing: frozenset[str] = frozenset()
+
+
+_GRBL_LACKS = frozenset({
+    "G5", "G5.1", "G5.2", "G5.3", "G41", "G42", "G43", "G52", "G59.1", "G59.2", "G59.3", "G61.1", "G64", "G73", "G81", "G82", "G83", "G84",
+    "G85", "G86", "G87", "G88", "G89", "G90.1", "G95", "G96", "G97", "G98", "G99", "M6", "M98", "M99",
+})  # fmt: skip
+
+HABITS: dict[Dialect, Habits] = {
+    Dialect.LINUXCNC: Habits("LinuxCNC"),
+    Dialect.GRBL: Habits("grbl", ngc_flow=False, tool_changes=False, splines="", missing=_GRBL_LACKS),
+    Dialect.FANUC: Habits(
+        "Fanuc", semicolon_comments=False, ngc_flow=False, fanuc_flow=True, least_mm=0.001, least_inch=0.0001, dwell_unit_s=0.001,
+        length_from_tool=False, splines="G6.2",
+    ),
+    Dialect.HAAS: Habits(
+        "Haas", semicolon_comments=False, ngc_flow=False, fanuc_flow=True, least_mm=0.001, least_inch=0.0001, dwell_unit_s=0.001,
+        length_from_tool=False, splines="",
+    ),
+    Dialect.MACH3: Habits("Mach3", length_from_tool=False, splines="", ngc_flow=False, fanuc_flow=True),
+}  # fmt: skip

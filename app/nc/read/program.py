@@ -1,0 +1,178 @@
+"""What reading an NC program gives: its motions, what happens between them, and what is wrong with the text."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from app.model.motion import Motions, Plane
+from app.model.part import Units
+
+
+class FeedMode(Enum):
+    """What an F word means."""
+
+    PER_MINUTE = "G94"
+    INVERSE_TIME = "G93"
+    PER_REVOLUTION = "G95"
+
+
+@dataclass(frozen=True, slots=True)
+class ModalState:
+    """What is in force while a motion is done, but for its own G word and feed.
+
+    Attributes:
+        units, plane: of the words to come.
+        absolute: G90 rather than G91. arc_absolute: G90.1 rather than G91.1.
+        feed_mode: what F means.
+        tool: T number in the spindle, 0 = none yet. length_offset: H number of G43, 0 = G49.
+        speed: rpm, >= 0; under G96 the surface speed in m/min. constant_surface: G96 rather than G97.
+        spindle: -1 counter-clockwise (M4), 0 off (M5), 1 clockwise (M3).
+        flood, mist: coolant.
+        work_offset: "G54" ... "G59.3", or "G54.1 P12".
+        shift: what is added to program coordinates, mm: work offset, G52, G92. rotation: of G10 L2 R, radians.
+        path: "G61", "G61.1", "G64", with P and Q as the program says.
+        path_tolerance: P of G64, mm; None where none is given, 0 for G61.
+        retract_to_r: G99 rather than G98.
+    """
+
+    units: Units = Units.MM
+    plane: Plane = Plane.XY
+    absolute: bool = True
+    arc_absolute: bool = False
+    feed_mode: FeedMode = FeedMode.PER_MINUTE
+    tool: int = 0
+    length_offset: int = 0
+    speed: float = 0.0
+    constant_surface: bool = False
+    spindle: int = 0
+    flood: bool = False
+    mist: bool = False
+    work_offset: str = "G54"
+    shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    rotation: float = 0.0
+    path: str = "G64"
+    path_tolerance: float | None = None
+    retract_to_r: bool = False
+
+
+class EventKind(Enum):
+    """What a control does between motions."""
+
+    DWELL = "dwell"
+    TOOL_CHANGE = "tool change"
+    STOP = "stop"
+    OPTIONAL_STOP = "optional stop"
+    END = "end"
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something that happens before a motion.
+
+    Attributes:
+        before: index of the motion that comes next; the number of motions at the end.
+        line: 1-based line of the text.
+        value: seconds of a dwell, T number of a tool change; 0 for others.
+    """
+
+    kind: EventKind
+    before: int
+    line: int
+    value: float = 0.0
+
+
+class Severity(Enum):
+    """How bad a problem is."""
+
+    ERROR = "error"
+    WARNING = "warning"
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """Something in the text that the control would refuse, or that the reader cannot follow.
+
+    Attributes:
+        line, column: 1-based; column counts characters, 0 = the whole line.
+        word: the word as it is written, or "".
+        text: a sentence: what is wrong, what was expected.
+        severity: an error ended the reading there; after a warning it went on.
+    """
+
+    line: int
+    column: int
+    word: str
+    text: str
+    severity: Severity = Severity.ERROR
+
+    def told(self, file: str) -> str:
+        """Return the problem with its place: "part.ngc:12:7: G41: ...".
+
+        Args:
+            file: name of the program.
+        """
+        place = f"{file}:{self.line}:{self.column}" if self.column else f"{file}:{self.line}"
+        return f"{place}: {self.word + ': ' if self.word else ''}{self.text}"
+
+
+@dataclass(frozen=True, slots=True)
+class ToolNote:
+    """A tool as the program's comments tell of it.
+
+    Attributes:
+        number: T number, 0 where the comment names none and no T word was near.
+        kind: "flat", "ball", "bull", "v", "drill", or "" where it is not told.
+        diameter, corner_radius: mm, 0 = not told. angle: full angle of the tip, radians, 0 = not told.
+        line: 1-based line of the comment.
+    """
+
+    number: int
+    kind: str = ""
+    diameter: float = 0.0
+    corner_radius: float = 0.0
+    angle: float = 0.0
+    line: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class StockNote:
+    """The stock as the program's comments tell of it.
+
+    Attributes:
+        low, high: corners of the box, mm, program coordinates; NaN where a coordinate is not told.
+        size: x, y, z of the box, mm; NaN where it is not told.
+        line: 1-based line of the comment.
+    """
+
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+    size: tuple[float, float, float]
+    line: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class NcProgram:
+    """A program as the control would run it, up to its end or to the first error.
+
+    Attributes:
+        motions: in the order of doing, loops and subroutines unrolled.
+        states: what `Motions.state` counts in; never empty.
+        events: in order.
+        problems: in the order of the text's running; at most one error, the last one.
+        tools, stock: what comments say.
+        line_count: lines of the text.
+    """
+
+    motions: Motions
+    states: tuple[ModalState, ...] = (ModalState(),)
+    events: tuple[Event, ...] = ()
+    problems: tuple[Problem, ...] = ()
+    tools: tuple[ToolNote, ...] = ()
+    stock: StockNote | None = None
+    line_count: int = 0
+
+    @property
+    def error(self) -> Problem | None:
+        """The error that ended the reading, if there was one."""
+        return next((problem for problem in self.problems if problem.severity is Severity.ERROR), None)
