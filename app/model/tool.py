@@ -1,14 +1,22 @@
-"""Cutting tools."""
+"""Cutting tools: the shape of the cutter, how it is held, how fast it runs."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from enum import Enum
+from itertools import pairwise
 
 from app.errors import ParameterError
 
 LEAST_RATE = 1.0
 """mm/min; a slower feed would be rounded away in the digits of F."""
+
+MOST_LENGTH = 1e4
+"""mm; no tool, shank or holder is longer or wider."""
+
+HolderPoint = tuple[float, float]
+"""Height above the holder's lower face and radius there, mm."""
 
 
 class ToolKind(Enum):
@@ -19,20 +27,75 @@ class ToolKind(Enum):
     BULL = "bull"
     V = "v"
     DRILL = "drill"
+    TAPER = "taper"
+
+
+_SHAPE_OF_KIND: dict[ToolKind, frozenset[str]] = {
+    ToolKind.FLAT: frozenset(),
+    ToolKind.BALL: frozenset(),
+    ToolKind.BULL: frozenset({"corner_radius"}),
+    ToolKind.V: frozenset({"tip_angle", "tip_diameter"}),
+    ToolKind.DRILL: frozenset({"tip_angle"}),
+    ToolKind.TAPER: frozenset({"tip_angle", "tip_diameter"}),
+}
+_RATES = (("spindle_speed", "rpm"), ("feed_rate", "mm/min"), ("plunge_rate", "mm/min"))
+_LENGTHS = ("corner_radius", "tip_diameter", "flute_length", "overall_length", "stick_out", "shank_diameter")
+_NOT_ABOVE = (("flute_length", "overall_length"), ("stick_out", "overall_length"))
+
+
+def shape_keys(kind: ToolKind) -> frozenset[str]:
+    """Return which of corner_radius, tip_diameter and tip_angle tools of a kind have beside their diameter."""
+    return _SHAPE_OF_KIND[kind]
+
+
+@dataclass(frozen=True, slots=True)
+class FeedRow:
+    """How fast a tool cuts one material.
+
+    Attributes:
+        material: name for people, such as "aluminium"; not empty.
+        surface_speed: of the cutting edge at the full diameter, m/min, in (0, 10,000).
+        feed_per_tooth: chip load, mm, in (0, 100).
+        plunge_share: feed straight down as a part of the feed, in (0, 1]; a drill's is 1.
+    """
+
+    material: str
+    surface_speed: float
+    feed_per_tooth: float
+    plunge_share: float = 0.3
+
+    def __post_init__(self) -> None:
+        if not self.material.strip():
+            raise ParameterError("A row of feeds names no material; name one, such as aluminium.")
+        for name, unit, most in (("surface_speed", " m/min", 1e4), ("feed_per_tooth", " mm", 100.0), ("plunge_share", "", 1.0)):
+            value = getattr(self, name)
+            if not 0 < value <= most:
+                raise ParameterError(f"{_said(name).capitalize()} for {self.material} is {value:g}{unit}; "
+                                     f"it must be greater than 0 and not more than {most:g}{unit}.")
 
 
 @dataclass(frozen=True, slots=True)
 class Tool:
-    """A cutter.
+    """A cutter. A length or an angle of 0 is not known.
 
     Attributes:
         number: T word, 1 … 9999.
-        diameter: cutting diameter, mm, in (0, 1e6).
+        diameter: cutting diameter, the largest one of a tapered tool, mm, in (0, 1e6).
         kind: shape of its end.
         name: remark for lists and NC comments, or "".
         flutes: cutting edges, >= 1.
         spindle_speed: rpm, in (0, 1e6).
         feed_rate, plunge_rate: mm/min, in [1, 1e6).
+        corner_radius: of a bull-nose mill, mm, less than half the diameter.
+        tip_diameter: of the flat at the point of a V tool, or of the ball at the tip of a tapered mill, mm, less than the diameter.
+        tip_angle: full angle of the point (V, drill) or of the cone (tapered mill), radians, in [0, pi).
+        flute_length, overall_length: from the tip up, mm.
+        stick_out: from the tip to the holder's lower face, mm.
+        shank_diameter: mm.
+        holder: outline from the lower face up, heights from 0 and not falling; straight between its points, so frustums.
+        length_offset: what G43 takes off along Z, mm: the control's tool table.
+        feeds: by material.
+        remark: anything else worth knowing, or "".
     """
 
     number: int
@@ -43,16 +106,74 @@ class Tool:
     spindle_speed: float = 12000.0
     feed_rate: float = 600.0
     plunge_rate: float = 200.0
+    corner_radius: float = 0.0
+    tip_diameter: float = 0.0
+    tip_angle: float = 0.0
+    flute_length: float = 0.0
+    overall_length: float = 0.0
+    stick_out: float = 0.0
+    shank_diameter: float = 0.0
+    holder: tuple[HolderPoint, ...] = ()
+    length_offset: float = 0.0
+    feeds: tuple[FeedRow, ...] = ()
+    remark: str = ""
 
     def __post_init__(self) -> None:
         if not 1 <= self.number <= 9999:
             raise ParameterError(f"Tool number {self.number} is out of range; use 1 to 9999.")
-        for name, unit in (("diameter", "mm"), ("spindle_speed", "rpm"), ("feed_rate", "mm/min"), ("plunge_rate", "mm/min")):
+        for name, unit in (("diameter", "mm"), *_RATES):
             value, rate = getattr(self, name), unit == "mm/min"
             if not 0 < value < 1e6 or (rate and value < LEAST_RATE):
                 least = f"{LEAST_RATE:g} {unit} or more" if rate else f"greater than 0 {unit}"
-                raise ParameterError(f"T{self.number}: {name.replace('_', ' ')} is {value:g} {unit}; "
-                                     f"it must be {least} and less than 1000000 {unit}.")
+                raise ParameterError(f"T{self.number}: {_said(name)} is {value:g} {unit}; it must be {least} and less than 1000000 {unit}.")
+        if not 1 <= self.flutes <= 100:
+            raise ParameterError(f"T{self.number}: flutes is {self.flutes}; it must be 1 to 100.")
+        self._check_lengths()
+        self._check_shape()
+        self._check_holder()
+        self._check_feeds()
+
+    def _check_lengths(self) -> None:
+        for name in _LENGTHS:
+            if not 0 <= getattr(self, name) < MOST_LENGTH:
+                raise self._wrong(name, f"it must be 0 (not known) or more and less than {MOST_LENGTH:g} mm")
+        if not abs(self.length_offset) < MOST_LENGTH:
+            raise self._wrong("length_offset", f"it must be between -{MOST_LENGTH:g} and {MOST_LENGTH:g} mm")
+        for name, above in _NOT_ABOVE:
+            most = getattr(self, above)
+            if most and getattr(self, name) > most:
+                raise self._wrong(name, f"it must not be more than the {_said(above)}, {most:g} mm")
+
+    def _check_shape(self) -> None:
+        for name in sorted({"corner_radius", "tip_diameter", "tip_angle"} - shape_keys(self.kind)):
+            if getattr(self, name):
+                raise ParameterError(f"T{self.number}: a tool of kind {self.kind.value} has no {_said(name)}; "
+                                     "take it out or choose another kind.")
+        if self.corner_radius >= self.radius:
+            raise self._wrong("corner_radius", f"it must be less than half the diameter, {self.radius:g} mm")
+        if self.tip_diameter >= self.diameter:
+            raise self._wrong("tip_diameter", f"it must be less than the diameter, {self.diameter:g} mm")
+        if not 0 <= self.tip_angle < math.pi:
+            raise ParameterError(f"T{self.number}: tip angle is {math.degrees(self.tip_angle):g} degrees; "
+                                 "it must be less than 180, or 0 (not known).")
+
+    def _check_holder(self) -> None:
+        heights = [height for height, _ in self.holder]
+        if heights and (heights[0] != 0 or any(above < below for below, above in pairwise(heights))):
+            raise ParameterError(f"T{self.number}: the holder's heights are {', '.join(f'{h:g}' for h in heights)} mm; "
+                                 "they must begin with 0 and not fall.")
+        if len(heights) == 1 or not all(height < MOST_LENGTH and 0 <= radius < MOST_LENGTH for height, radius in self.holder):
+            raise ParameterError(f"T{self.number}: the holder must have two points or more, "
+                                 f"each a height and a radius from 0 to {MOST_LENGTH:g} mm.")
+
+    def _check_feeds(self) -> None:
+        names = [row.material.casefold() for row in self.feeds]
+        for row in self.feeds:
+            if names.count(row.material.casefold()) > 1:
+                raise ParameterError(f"T{self.number}: feeds for {row.material} are given twice; keep one row.")
+
+    def _wrong(self, name: str, rule: str) -> ParameterError:
+        return ParameterError(f"T{self.number}: {_said(name)} is {getattr(self, name):g} mm; {rule}.")
 
     @property
     def radius(self) -> float:
@@ -63,3 +184,27 @@ class Tool:
     def label(self) -> str:
         """A short name for lists, such as "Flat 6 mm"."""
         return self.name or f"{self.kind.value.capitalize()} {self.diameter:g} mm"
+
+    def as_kind(self, kind: ToolKind) -> Tool:
+        """Return the tool with another end, without what tools of that kind do not have."""
+        keys = shape_keys(kind)
+        return replace(self, kind=kind, corner_radius=self.corner_radius if "corner_radius" in keys else 0.0,
+                       tip_diameter=self.tip_diameter if "tip_diameter" in keys else 0.0,
+                       tip_angle=self.tip_angle if "tip_angle" in keys else 0.0)
+
+    def in_material(self, row: FeedRow, most_rpm: float = 24000.0) -> Tool:
+        """Return the tool with the speed and the feeds that a row asks for.
+
+        Args:
+            row: surface speed and chip load.
+            most_rpm: the fastest that the spindle turns, > 0; where the row asks for more the chip load is kept, so the
+                feeds fall with the speed.
+        """
+        speed = min(1000 * row.surface_speed / (math.pi * self.diameter), most_rpm)
+        feed = max(speed * self.flutes * row.feed_per_tooth, LEAST_RATE)
+        return replace(self, spindle_speed=speed, feed_rate=feed, plunge_rate=max(feed * row.plunge_share, LEAST_RATE))
+
+
+def _said(name: str) -> str:
+    """Return a field's name in words."""
+    return name.replace("_", " ")
