@@ -1,0 +1,158 @@
+"""The curves that motions run along: sweeps, lengths, directions and extent, in closed form but for splines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.model.motion import Floats, MotionKind, Motions, Nurbs, Plane
+
+SPLINE_PIECES = 256
+"""Chords that stand for a spline where its length is asked for."""
+
+AXES = np.array([plane.axes for plane in Plane])
+
+
+@dataclass(frozen=True, eq=False)
+class ArcPaths:
+    """The arcs among some motions, m of them, each in the axes of its own plane.
+
+    The point at a fraction t of an arc is at angle + t sweep round the centre, at the radius start_radius +
+    t (end_radius - start_radius), and t rise along the normal.
+
+    Attributes:
+        rows: (m,) index of each among the motions.
+        axes: (m, 3) columns of the plane's first axis, second axis and normal.
+        centre: (m, 2) mm.
+        angle: (m,) of the start as seen from the centre, radians.
+        sweep: (m,) radians, counter-clockwise positive as seen from the positive end of the normal; whole turns count.
+        start_radius, end_radius: (m,) mm.
+        height: (m,) of the start along the normal, mm. rise: (m,) to the end's.
+    """
+
+    rows: NDArray[np.intp]
+    axes: NDArray[np.intp]
+    centre: Floats
+    angle: Floats
+    sweep: Floats
+    start_radius: Floats
+    end_radius: Floats
+    height: Floats
+    rise: Floats
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def points(self, fractions: Floats) -> Floats:
+        """Return (m, k, 3) points of every arc at k fractions in [0, 1]."""
+        angle = self.angle[:, None] + self.sweep[:, None] * fractions
+        radius = self.start_radius[:, None] + (self.end_radius - self.start_radius)[:, None] * fractions
+        own = np.stack([
+            self.centre[:, :1] + radius * np.cos(angle), self.centre[:, 1:] + radius * np.sin(angle),
+            self.height[:, None] + self.rise[:, None] * fractions,
+        ], axis=2)  # fmt: skip
+        points = np.empty_like(own)
+        np.put_along_axis(points, np.broadcast_to(self.axes[:, None], own.shape), own, axis=2)
+        return points
+
+    def lengths(self) -> Floats:
+        """Return (m,) lengths, mm; a spiral counts with its mean radius, which is right to (change of radius)^2 / (24 length)."""
+        mean = (self.start_radius + self.end_radius) / 2
+        return np.hypot(np.hypot(mean * self.sweep, self.end_radius - self.start_radius), self.rise)
+
+
+def arc_paths(motions: Motions) -> ArcPaths:
+    """Return the arcs among motions."""
+    rows = np.flatnonzero((motions.kind == MotionKind.ARC_CW) | (motions.kind == MotionKind.ARC_CCW))
+    axes = AXES[motions.plane[rows]]
+    start, end, centre = (points[rows[:, None], axes] for points in (motions.start, motions.end, motions.centre))
+    first, last = start[:, :2] - centre[:, :2], end[:, :2] - centre[:, :2]
+    angle = np.arctan2(first[:, 1], first[:, 0])
+    sense = np.where(motions.kind[rows] == MotionKind.ARC_CCW, 1.0, -1.0)
+    turn = (np.arctan2(last[:, 1], last[:, 0]) - angle) * sense % (2 * np.pi)
+    whole = (start[:, 0] == end[:, 0]) & (start[:, 1] == end[:, 1])
+    turn = np.where(whole, 2 * np.pi, turn) + 2 * np.pi * (np.maximum(motions.turns[rows], 1) - 1)
+    return ArcPaths(
+        rows=rows, axes=axes, centre=centre[:, :2], angle=angle, sweep=turn * sense,
+        start_radius=_sizes(first), end_radius=_sizes(last), height=start[:, 2], rise=end[:, 2] - start[:, 2],
+    )  # fmt: skip
+
+
+def spline_points(spline: Nurbs, count: int = SPLINE_PIECES + 1) -> Floats:
+    """Return (count, 3) points of a spline, evenly spread over its parameter, its ends among them."""
+    from scipy.interpolate import BSpline
+
+    at = np.linspace(spline.knots[spline.degree], spline.knots[-spline.degree - 1], count)
+    weighted = np.column_stack([spline.points * spline.weights[:, None], spline.weights])
+    points = BSpline(spline.knots, weighted, spline.degree)(at)
+    return np.asarray(points[:, :3] / points[:, 3:])
+
+
+def lengths(motions: Motions, arcs: ArcPaths | None = None) -> Floats:
+    """Return (n,) length of each motion, mm; splines by chords.
+
+    Args:
+        motions: n motions.
+        arcs: those among them, where the caller has them already.
+    """
+    long = _sizes(motions.end - motions.start)
+    arcs = arc_paths(motions) if arcs is None else arcs
+    long[arcs.rows] = arcs.lengths()
+    for row, spline in motions.splines.items():
+        long[row] = np.sum(np.linalg.norm(np.diff(spline_points(spline), axis=0), axis=1))
+    return long
+
+
+def directions(motions: Motions, arcs: ArcPaths) -> tuple[Floats, Floats]:
+    """Return the unit vectors (n, 3) in which each motion sets out and arrives; 0 where it has no length.
+
+    Args:
+        motions: n motions.
+        arcs: those among them.
+    """
+    out = motions.end - motions.start
+    into = out.copy()
+    out[arcs.rows], into[arcs.rows] = (_tangents(arcs, fraction) for fraction in (0.0, 1.0))
+    for row, spline in motions.splines.items():
+        points = spline_points(spline)
+        out[row], into[row] = points[1] - points[0], points[-1] - points[-2]
+    return _units(out), _units(into)
+
+
+def _tangents(arcs: ArcPaths, fraction: float) -> Floats:
+    """Return (m, 3) how arcs move at a fraction, mm a sweep."""
+    angle = arcs.angle + arcs.sweep * fraction
+    radius = arcs.start_radius + (arcs.end_radius - arcs.start_radius) * fraction
+    grow, turn = arcs.end_radius - arcs.start_radius, radius * arcs.sweep
+    own = np.column_stack([grow * np.cos(angle) - turn * np.sin(angle), grow * np.sin(angle) + turn * np.cos(angle), arcs.rise])
+    moved = np.empty_like(own)
+    np.put_along_axis(moved, arcs.axes, own, axis=1)
+    return moved
+
+
+def _units(vectors: Floats) -> Floats:
+    size = _sizes(vectors)
+    return vectors / np.where(size > 0, size, 1.0)[:, None]
+
+
+def _sizes(vectors: Floats) -> Floats:
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", vectors, vectors)))
+
+
+def reach(motions: Motions) -> tuple[Floats, Floats]:
+    """Return the lowest and the highest coordinates (n, 3) of each motion, mm: arcs exactly, splines by their control points."""
+    low, high = np.minimum(motions.start, motions.end), np.maximum(motions.start, motions.end)
+    arcs = arc_paths(motions)
+    radius = np.maximum(arcs.start_radius, arcs.end_radius)
+    first, span = np.minimum(arcs.angle, arcs.angle + arcs.sweep), np.abs(arcs.sweep)
+    for axis, quarter, sign in ((0, 0.0, 1), (1, 0.5, 1), (0, 1.0, -1), (1, 1.5, -1)):
+        passed = (np.pi * quarter - first) % (2 * np.pi) <= span
+        rows, column = arcs.rows[passed], arcs.axes[passed, axis]
+        edge = arcs.centre[passed, axis] + sign * radius[passed]
+        side = high if sign > 0 else low
+        side[rows, column] = np.maximum(side[rows, column], edge) if sign > 0 else np.minimum(side[rows, column], edge)
+    for row, spline in motions.splines.items():
+        low[row], high[row] = spline.points.min(axis=0), spline.points.max(axis=0)
+    return low, high

@@ -1,0 +1,171 @@
+"""Data files into dataclasses and back: a TOML table is a dataclass, a key is a field, and an error names file, line and key."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+import types
+import typing
+from collections.abc import Mapping
+from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
+from enum import Enum
+from typing import Any, TypeVar
+
+from app.errors import HitofudeError, InputError
+
+Kind = TypeVar("Kind")
+Range = tuple[float, float]
+
+EXPECTED = {str: "a text", bool: "true or false", int: "a whole number", float: "a number", tuple[str, ...]: "a list of texts"}
+
+
+@dataclass(frozen=True)
+class _Place:
+    """Where in a file a table is: the file's name, its lines, and the tables down to here."""
+
+    file: str
+    lines: tuple[str, ...]
+    tables: tuple[str, ...] = ()
+
+    def inside(self, key: str) -> _Place:
+        """Return the place of a table in this one."""
+        return _Place(self.file, self.lines, (*self.tables, key))
+
+    def error(self, key: str, text: str) -> InputError:
+        """Return an error that names a key: "mill.toml:7: x.rapid is ..."."""
+        return InputError(f"{self.file}:{self._line(key)}: {'.'.join((*self.tables, key))} {text}")
+
+    def _line(self, key: str) -> int:
+        """Return the 1-based line of a key; where it is missing, that of its table, or 1."""
+        table, found = "", 1
+        for number, line in enumerate(self.lines, 1):
+            if header := re.match(r"\s*\[\s*([\w.\"'-]+)\s*\]", line):
+                table = header[1]
+                found = number if table == ".".join(self.tables) else found
+                if table == ".".join((*self.tables, key)):
+                    return number
+            elif table == ".".join(self.tables) and re.match(rf"\s*[\"']?{re.escape(key)}[\"']?\s*=", line):
+                return number
+        return found
+
+
+def read_tables(kind: type[Kind], file: str, data: bytes, ranges: Mapping[str, Range]) -> Kind:
+    """Return the dataclass that a TOML text describes; fields with a default may be left out.
+
+    Args:
+        kind: a dataclass whose fields are texts, flags, numbers, Enums by their value, tuples of texts or of so many
+            numbers, dataclasses, or one of these or None.
+        file: the file's name, for errors.
+        data: its bytes, UTF-8.
+        ranges: least and greatest number by dotted key; a table's name stands for all its numbers; others are free.
+
+    Raises:
+        InputError: the text is no TOML, or a key is missing, unknown, of the wrong kind or out of its range.
+    """
+    try:
+        text = data.decode("utf-8-sig")
+        tree = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise InputError(f"{file}: this is no TOML file ({error}); correct it.") from error
+    made: Kind = _table(kind, tree, _Place(file, tuple(text.splitlines())), ranges)
+    return made
+
+
+def _table(kind: Any, data: dict[str, Any], place: _Place, ranges: Mapping[str, Range]) -> Any:
+    """Make a dataclass of a table, key by key."""
+    hints = typing.get_type_hints(kind)
+    for key in data:
+        if key not in hints:
+            raise place.error(key, f"is not known; expected are {', '.join(hints)}.")
+    for each in fields(kind):
+        if each.name not in data and _required(each):
+            raise place.error(each.name, f"is missing; add {_expected(hints[each.name])}.")
+    values = {key: _value(hints[key], value, (place, key), ranges) for key, value in data.items()}
+    try:
+        return kind(**values)
+    except InputError:
+        raise
+    except HitofudeError as error:
+        raise InputError(f"{'.'.join((place.file, *place.tables))}: {error}") from error
+
+
+def _required(each: Field[Any]) -> bool:
+    return each.default is MISSING and each.default_factory is MISSING
+
+
+def _value(kind: Any, value: Any, at: tuple[_Place, str], ranges: Mapping[str, Range]) -> Any:
+    """Return a TOML value as what its field holds."""
+    place, key = at
+    if isinstance(kind, types.UnionType):
+        return _value(next(part for part in typing.get_args(kind) if part is not types.NoneType), value, at, ranges)
+    if is_dataclass(kind) and isinstance(value, dict):
+        return _table(kind, value, place.inside(key), ranges)
+    if isinstance(kind, type) and issubclass(kind, Enum) and value in [choice.value for choice in kind]:
+        return kind(value)
+    if typing.get_origin(kind) is tuple and isinstance(value, list) and _alike(typing.get_args(kind), value):
+        return tuple(item if isinstance(item, str) else float(_in_range(item, at, ranges)) for item in value)
+    if kind in (int, float) and type(value) in (int, kind):
+        return kind(_in_range(value, at, ranges))
+    if kind in (str, bool) and isinstance(value, kind):
+        return value
+    raise place.error(key, f"is {value!r}; expected is {_expected(kind)}.")
+
+
+def _alike(parts: tuple[Any, ...], values: list[Any]) -> bool:
+    """Tell whether the values are those of a tuple type: texts, or so many numbers."""
+    if parts == (str, ...):
+        return all(isinstance(value, str) for value in values)
+    return len(parts) == len(values) and all(type(value) in (int, float) for value in values)
+
+
+def _in_range(value: float, at: tuple[_Place, str], ranges: Mapping[str, Range]) -> float:
+    """Return a number if it is in the range of its key, or of the first table above it that has one."""
+    place, key = at
+    path = (*place.tables, key)
+    found = [name for end in range(len(path), 0, -1) if (name := ".".join(path[:end])) in ranges]
+    low, high = ranges[found[0]] if found else (float("-inf"), float("inf"))
+    if not low <= value <= high:
+        raise place.error(key, f"is {value:g}; expected is a number from {low:g} to {high:g}.")
+    return value
+
+
+def _expected(kind: Any) -> str:
+    """Return what a key of this type holds, in words."""
+    if isinstance(kind, types.UnionType):
+        return _expected(next(part for part in typing.get_args(kind) if part is not types.NoneType))
+    if is_dataclass(kind):
+        return f"a table with {', '.join(each.name for each in fields(kind))}"
+    if isinstance(kind, type) and issubclass(kind, Enum):
+        return " or ".join(repr(choice.value) for choice in kind)
+    return EXPECTED.get(kind) or f"a list of {len(typing.get_args(kind))} numbers"
+
+
+def write_tables(value: Any) -> str:
+    """Return a dataclass as the TOML text that `read_tables` makes it of; what is None is left out."""
+    return "\n".join(_lines(value, "")) + "\n"
+
+
+def _lines(value: Any, table: str) -> list[str]:
+    plain, tables = [], []
+    for each in fields(value):
+        item = getattr(value, each.name)
+        if is_dataclass(item):
+            path = f"{table}.{each.name}" if table else each.name
+            tables += ["", f"[{path}]", *_lines(item, path)]
+        elif item is not None:
+            plain.append(f"{each.name} = {_spelled(item)}")
+    return plain + tables
+
+
+def _spelled(item: Any) -> str:
+    """Return a value as TOML spells it."""
+    if isinstance(item, Enum):
+        return _spelled(item.value)
+    if isinstance(item, bool):
+        return "true" if item else "false"
+    if isinstance(item, str):
+        escaped = "".join(f"\\u{ord(c):04X}" if ord(c) < 32 or ord(c) == 127 or c in '"\\' else c for c in item)
+        return f'"{escaped}"'
+    if isinstance(item, tuple):
+        return f"[{', '.join(_spelled(part) for part in item)}]"
+    return repr(item)

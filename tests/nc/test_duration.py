@@ -1,0 +1,193 @@
+"""The time estimate against closed forms, and what no estimate may break."""
+
+from __future__ import annotations
+
+import math
+import time
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from app.model.motion import Motions, Nurbs, Plane
+from app.model.motion_path import lengths
+from app.nc.duration import duration
+from app.nc.read.program import Event, EventKind, ModalState, NcProgram
+from tests.nc.motion_programs import Course, machine
+
+JOLT = 5e-3
+"""s; what a servo period at a corner may make of a closed form that stops there."""
+
+
+def seconds(course: Course, *states: ModalState, **changes: object) -> float:
+    return duration(course.program(*states), machine(**changes)).total  # type: ignore[arg-type]
+
+
+def test_a_long_move_is_its_length_over_its_speed_and_one_ramp() -> None:
+    assert seconds(Course(feed=600).line(100, 0)) == pytest.approx(100 / 10 + 10 / 100)
+    assert seconds(Course(feed=600).line(30, 40)) == pytest.approx(50 / 10 + 10 / (100 / 0.8))
+
+
+def test_a_short_move_is_a_triangle() -> None:
+    assert seconds(Course(feed=6000).line(1, 0)) == pytest.approx(2 * math.sqrt(1 / 100))
+
+
+def test_rapids_go_at_the_axes_own_rates() -> None:
+    assert seconds(Course().rapid(300, 0)) == pytest.approx(300 / 100 + 1)
+    assert seconds(Course().rapid(300, 300)) == pytest.approx(300 / 100 + 1)
+
+
+def test_a_reversal_stops() -> None:
+    there = seconds(Course(feed=600).line(50, 0))
+    assert seconds(Course(feed=600).line(50, 0).line(0, 0)) == pytest.approx(2 * there, abs=JOLT)
+
+
+def test_a_right_corner_stops_where_the_path_is_exact_and_not_where_it_blends() -> None:
+    corner = Course(feed=600).line(50, 0).line(50, 50)
+    stopped = 2 * seconds(Course(feed=600).line(50, 0))
+    assert seconds(corner, ModalState(path="G61")) == pytest.approx(stopped, abs=JOLT)
+    assert seconds(corner, ModalState(path="G64", path_tolerance=0.5)) < stopped - 0.03
+    s = math.sqrt(0.5)
+    v = math.sqrt(100 * math.sqrt(2) * 0.1 * s / (1 - s))  # both axes help to turn
+    assert v < 10
+    assert seconds(corner, ModalState(path="G64", path_tolerance=0.1)) == pytest.approx(2 * (50 / 10 + (10**2 + (10 - v) ** 2) / (2 * 10 * 100)))
+
+
+@pytest.mark.parametrize("plane", list(Plane))
+@pytest.mark.parametrize("ccw", [True, False])
+def test_a_full_circle_is_bounded_by_its_centripetal_acceleration(plane: Plane, ccw: bool) -> None:
+    centre = [0.0, 0.0, 0.0]
+    centre[plane.axes[0]] = 4.0
+    course = Course(feed=60000).arc((0, 0, 0), tuple(centre), ccw, (plane, 1))  # type: ignore[arg-type]
+    v = math.sqrt(100 * 4)
+    assert seconds(course) == pytest.approx(8 * math.pi / v + v / 100)
+
+
+def test_turns_and_helices_count_whole() -> None:
+    twice = Course(feed=60).arc((0, 0, 0), (5, 0, 0), arc=(Plane.XY, 2))
+    assert seconds(twice) == pytest.approx(20 * math.pi / 1 + 1 / 100, rel=1e-3)
+    helix = Course(feed=60).arc((0, 0, 3), (5, 0, 0))
+    assert seconds(helix) == pytest.approx(math.hypot(10 * math.pi, 3) / 1 + 1 / 100, rel=1e-3)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.floats(0.01, 30), min_size=1, max_size=30), st.floats(10, 20000), st.sampled_from(["G61", "G64"]))
+def test_a_chain_of_collinear_pieces_is_one_move(pieces: list[float], feed: float, path: str) -> None:
+    chain, whole = Course(feed=feed), Course(feed=feed)
+    for end in np.cumsum(pieces):
+        chain.line(end * 0.6, end * 0.8)
+    whole.line(sum(pieces) * 0.6, sum(pieces) * 0.8)
+    assert seconds(chain, ModalState(path=path)) == pytest.approx(seconds(whole, ModalState(path=path)), rel=1e-6)
+
+
+def test_an_exact_stop_stops_even_on_a_straight_line() -> None:
+    chain = Course(feed=600).line(20, 0).line(40, 0)
+    assert seconds(chain, ModalState(path="G61.1")) == pytest.approx(2 * seconds(Course(feed=600).line(20, 0)))
+
+
+def test_a_circle_split_in_arcs_is_one_circle() -> None:
+    whole = Course(feed=3000).arc((0, 0, 0), (20, 0, 0))
+    halves = Course(feed=3000).arc((40, 0, 0), (20, 0, 0)).arc((0, 0, 0), (20, 0, 0))
+    assert seconds(halves) == pytest.approx(seconds(whole), rel=1e-6)
+
+
+def walk(seed: int, count: int = 60) -> Course:
+    """A random path of lines, arcs, rapids."""
+    chance = np.random.default_rng(seed)
+    course = Course(feed=float(chance.uniform(60, 5000)))
+    for _ in range(count):
+        x, y, z = (float(v) for v in np.array(course.at) + chance.normal(0, 10.0 ** chance.uniform(-3, 1.5), 3))
+        kind = chance.integers(4)
+        if kind == 0:
+            course.rapid(x, y, z)
+        elif kind == 1:
+            middle = ((x + course.at[0]) / 2, (y + course.at[1]) / 2, course.at[2])
+            course.arc((x, y, z), middle, bool(chance.integers(2)))
+        else:
+            course.line(x, y, z)
+    return course
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_it_is_never_faster_than_without_limits_and_shrinks_as_acceleration_grows(seed: int) -> None:
+    program = walk(seed).program()
+    totals = [duration(program, machine(a, corner=0.02)).total for a in (10.0, 50.0, 300.0, 3000.0, 1e7)]
+    assert totals == sorted(totals, reverse=True)
+    assert totals[0] > totals[-1]
+    motions = program.motions
+    chebyshev = np.max(np.abs(motions.end - motions.start), axis=1) / 100
+    least = np.where(motions.kind == 0, chebyshev, 60 * lengths(motions) / np.where(motions.feed > 0, motions.feed, 1))
+    each = duration(program, machine(1e7, corner=0.02)).moving
+    assert np.all(each >= least * (1 - 1e-9))
+
+
+def test_blending_wider_is_never_slower() -> None:
+    for seed in range(10):
+        course = walk(seed)
+        totals = [seconds(course, ModalState(path="G64", path_tolerance=p)) for p in (0.0, 0.001, 0.05, 1.0)]
+        assert totals == sorted(totals, reverse=True)
+
+
+def test_dwells_and_tool_changes_are_waited_for_and_stop_the_path() -> None:
+    chain, whole = Course(feed=600).line(20, 0).line(40, 0), Course(feed=600).line(40, 0)
+    events = (Event(EventKind.TOOL_CHANGE, 0, 1, 3), Event(EventKind.DWELL, 1, 2, 2.5), Event(EventKind.END, 2, 3))
+    states = (ModalState(tool=3),)
+    told = duration(chain.program(*states, events=events), machine(tool_change=30.0))
+    assert told.total == pytest.approx(30 + 2.5 + 2 * seconds(Course(feed=600).line(20, 0)))
+    assert told.waiting.tolist() == [30.0, 2.5, 0.0]
+    assert told.by_tool == pytest.approx({3: told.total})
+    assert told.parts["wait"] == 32.5
+    assert told.ends[-1] == pytest.approx(told.total)
+    assert told.total > seconds(whole) + 32.5
+
+
+def test_time_is_told_by_tool_and_by_rapid() -> None:
+    course = Course().rapid(100, 0).line(200, 0)
+    course.state = 1
+    course.rapid(200, 100).line(200, 150)
+    states = (ModalState(tool=1), ModalState(tool=2))
+    events = (Event(EventKind.TOOL_CHANGE, 0, 1, 1), Event(EventKind.TOOL_CHANGE, 2, 3, 2), Event(EventKind.TOOL_CHANGE, 3, 4, 2))
+    told = duration(course.program(*states, events=events), machine(tool_change=10.0))
+    assert told.waiting.tolist() == [10, 0, 10, 0, 0]
+    assert sum(told.by_tool.values()) == pytest.approx(told.total) == pytest.approx(sum(told.parts.values()))
+    assert told.by_tool[2] == pytest.approx(10 + told.moving[2] + told.moving[3])
+
+
+def test_motions_without_a_feed_are_counted_and_finite() -> None:
+    told = duration(Course(feed=math.nan).line(10, 0).line(20, 0).program(), machine())
+    assert told.feedless == 2
+    assert math.isfinite(told.total)
+
+
+def test_motions_of_no_length_change_nothing() -> None:
+    plain = Course(feed=600).line(20, 0).line(40, 0)
+    still = Course(feed=600).line(20, 0).line(20, 0).line(40, 0)
+    assert seconds(still) == pytest.approx(seconds(plain))
+    assert duration(NcProgram(Motions.none()), machine()).total == 0.0
+
+
+def test_a_spline_that_is_a_line_takes_as_long_as_the_line_and_a_bend_longer() -> None:
+    def curve(*points: tuple[float, float, float]) -> Nurbs:
+        return Nurbs(np.array(points, float), np.ones(4), np.array([0, 0, 0, 0, 1, 1, 1, 1.0]), 3)
+
+    straight = seconds(Course(feed=600).spline(curve((0, 0, 0), (20, 0, 0), (40, 0, 0), (60, 0, 0))))
+    assert straight == pytest.approx(seconds(Course(feed=600).line(60, 0)), rel=1e-6)
+    sharp = Course(feed=6000).spline(curve((0, 0, 0), (60, 0, 0), (0, 1, 0), (60, 1, 0)))
+    assert seconds(sharp) > 2 * seconds(Course(feed=6000).line(60, 1))
+
+
+def test_two_hundred_thousand_motions_take_well_under_a_tenth_of_a_second() -> None:
+    turns = np.linspace(0, 2000 * math.pi, 200_001)
+    points = np.column_stack([50 * np.cos(turns), 50 * np.sin(turns), turns * 0.01])
+    small, whole = np.ones(200_000, np.uint8), np.zeros(200_000, np.int32)
+    nothing = np.full((200_000, 3), math.nan)
+    motions = Motions(points[:-1], points[1:], nothing, small, small * 0, whole, np.full(200_000, 3000.0), whole + 1, whole)
+    program = NcProgram(motions)
+    duration(program, machine())
+    took = []
+    for _ in range(5):
+        before = time.perf_counter()
+        duration(program, machine(corner=0.01))
+        took.append(time.perf_counter() - before)
+    assert min(took) < 0.3
