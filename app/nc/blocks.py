@@ -11,6 +11,9 @@ from app.nc.post import ArcCentre, Post
 Position = tuple[int, int, int]
 """X, Y and Z as counts of their last decimal."""
 
+CONTINUED = "hitofude+"
+"""What the second and later comments of a note begin with."""
+
 Reached = tuple[int | None, int | None, int | None]
 """A position of which some axes may be unknown."""
 
@@ -22,6 +25,7 @@ class Blocks:
         lines: the text so far.
         motion_line: 1-based line of the last motion block; 0 before the first.
         motions: kind and length, out units, of each motion block; a tool change leaves the tool where it was.
+        home_lines: 1-based lines that send the tool to the machine's own home, where no move of the program goes.
     """
 
     def __init__(self, post: Post, units: Units) -> None:
@@ -29,6 +33,7 @@ class Blocks:
         self.lines: list[str] = []
         self.motion_line = 0
         self.motions: list[tuple[MoveKind, float]] = []
+        self.home_lines: list[int] = []
         self._reached: Reached = (None, None, None)
         self._post = post
         self._digits = post.digits(units)
@@ -44,16 +49,33 @@ class Blocks:
     def comment(self, text: str) -> None:
         """Write a comment, in several lines if it is wider than the control takes."""
         for line in _wrapped(text, self._post.comments.width):
-            self.note(line)
+            self._comment(line)
 
     def note(self, text: str) -> None:
-        """Write a comment that a program reads, whole."""
-        self.lines.append(f"{self._post.comments.open}{text}{self._post.comments.close}")
+        """Write a comment that a program reads; what is wider than the control takes goes on behind "hitofude+"."""
+        for line in continued(text, self._post.comments.width):
+            self._comment(line)
+
+    def _comment(self, text: str) -> None:
+        """Write one comment in the signs that the control takes."""
+        comments = self._post.comments
+        text = "".join(c if c.isalnum() or c == " " or c in comments.signs else " " for c in text)
+        self.lines.append(f"{comments.open}{text.upper() if comments.capitals else text}{comments.close}")
 
     def block(self, text: str) -> None:
         """Write a block that is no motion; an empty text is left out."""
         if text:
             self.lines.append(text if text.startswith(("%", "O")) else self._numbered(text))
+
+    def home(self, text: str) -> None:
+        """Write a block that goes to the machine's own home."""
+        self.block(text)
+        self.home_lines.append(len(self.lines))
+
+    def clearance(self, text: str, z: int) -> None:
+        """Write a block that is the rapid to a height, in the post's own words."""
+        self.block(text)
+        self._moved(MoveKind.RAPID, (self._position[0], self._position[1], z))
 
     def rapid_z(self, z: int) -> None:
         """Go straight up or down at rapid rate."""
@@ -77,31 +99,46 @@ class Blocks:
         if self._post.arcs.centre is ArcCentre.ABSOLUTE:
             finer = 10 ** (digits.I - digits.X)
             centre = (centre[0] + (self._position[0] or 0) * finer, centre[1] + (self._position[1] or 0) * finer)
-        words = {"X": spelled(end[0], digits.X), "Y": spelled(end[1], digits.Y)}
+        words = {"X": self.number(end[0], digits.X), "Y": self.number(end[1], digits.Y)}
         start = self._lengths(self._reached)
-        self._write(kind, end, words | {"I": spelled(centre[0], digits.I), "J": spelled(centre[1], digits.J)}, feed)
+        self._write(kind, end, words | {"I": self.number(centre[0], digits.I), "J": self.number(centre[1], digits.J)}, feed)
         length = arc_length(start, self._lengths(end), offset, kind is MoveKind.ARC_CW)
         self.motions[-1] = (kind, length)
+
+    def number(self, count: int, decimals: int) -> str:
+        """Return a count of the last decimal as the control wants it in an axis word."""
+        text = spelled(count, decimals)
+        return text if self._post.words.trailing_zeros or "." not in text else text.rstrip("0")
 
     def _write(self, kind: MoveKind, end: Reached, words: dict[str, str], feed: int | None = None) -> None:
         """Write a motion block with the axes and the feed that change, and remember what it did."""
         for letter, new, old in zip("XYZ", end, self._position, strict=True):
             if new is not None and new != old:
-                words[letter] = spelled(new, getattr(self._digits, letter))
+                words[letter] = self.number(new, getattr(self._digits, letter))
         if not words:
             return
         motion = self._post.words.motion[kind]
         if motion != self._motion or not self._post.words.modal_motion:
             words["G"] = motion
         if feed is not None and feed != self._feed:
-            words["F"] = _without_zeros(spelled(feed, self._digits.F))
+            words["F"] = self._rate(feed)
             self._feed = feed
         block = (words[letter] if letter == "G" else letter + words[letter] for letter in self._post.words.order if letter in words)
         self.lines.append(self._numbered(" ".join(block)))
-        self._motion, self._position, self.motion_line = motion, end, len(self.lines)
+        self._moved(kind, end)
+
+    def _moved(self, kind: MoveKind, end: Reached) -> None:
+        """Remember what the last line did."""
+        self._motion, self._position, self.motion_line = self._post.words.motion[kind], end, len(self.lines)
         self.motions.append((kind, straight_length(self._lengths(self._reached), self._lengths(end))))
         x, y, z = self._reached
         self._reached = (x if end[0] is None else end[0], y if end[1] is None else end[1], z if end[2] is None else end[2])
+
+    def _rate(self, feed: int) -> str:
+        """Return a feed rate without the zeros behind its point; and without the point, if the control can do so."""
+        text = spelled(feed, self._digits.F)
+        short = text.rstrip("0") if "." in text else f"{text}."
+        return short if self._post.words.feed_point else short.rstrip(".")
 
     def _lengths(self, at: Reached) -> tuple[float | None, float | None, float | None]:
         """Return a position in out units."""
@@ -118,11 +155,6 @@ class Blocks:
         return f"N{number} {text}"
 
 
-def _without_zeros(text: str) -> str:
-    """Return a number without the zeros behind its point."""
-    return text.rstrip("0").rstrip(".") if "." in text else text
-
-
 def _wrapped(text: str, width: int) -> list[str]:
     """Return the text in lines of at most `width` characters, broken at spaces where there are any."""
     lines: list[str] = []
@@ -132,3 +164,18 @@ def _wrapped(text: str, width: int) -> list[str]:
         lines.append(text[:cut])
         text = text[cut:].lstrip()
     return [*lines, text]
+
+
+def continued(text: str, width: int) -> list[str]:
+    """Return a note in lines of at most `width` characters; all but the first begin with CONTINUED.
+
+    Nothing is lost: put together again the lines are the text, and none begins or ends in a space.
+    """
+    lines: list[str] = []
+    room = width
+    while len(text) > room:
+        cut = next((k for k in range(room, 1, -1) if " " not in text[k - 1 : k + 1]), room)
+        lines.append(text[:cut])
+        text, room = text[cut:], width - len(CONTINUED)
+    lines.append(text)
+    return [lines[0], *(CONTINUED + line for line in lines[1:])]

@@ -15,6 +15,10 @@ Comments that begin with `hitofude:` hold one `key=value` each, in this order an
     operation=KIND,TOOL,DEPTH,STOCK_TO_LEAVE        one an operation that cuts
     path_tolerance_mm=T                             proven: the written path against the exact offset of the drawing
     blend_mm=P                                      how far the control may leave the written path
+
+A comment that begins with `hitofude+` goes on with the one before. For a control that knows capitals alone, all of this is
+in capitals, so keys and values are read without regard to case. Where each tool has a file of its own, `tool` and `operation`
+tell of that file.
 """
 
 from __future__ import annotations
@@ -45,6 +49,7 @@ class Heading:
     Attributes:
         blend_mm: how far the control may leave the path, mm; 0 = exact path.
         writing_mm: how far the written path may leave the computed one, mm.
+        file, files: which of how many files of the program this is, from 1.
     """
 
     program: Program
@@ -53,6 +58,8 @@ class Heading:
     box: StockBox
     blend_mm: float
     writing_mm: float
+    file: int = 1
+    files: int = 1
 
 
 def safe_name(text: str) -> str:
@@ -90,6 +97,9 @@ def heading_lines(heading: Heading) -> Iterator[str]:
     job, units = heading.job, heading.job.out_units
     yield f"Part {safe_name(job.part.name)}"
     yield f"Hitofude for {heading.post.title}, lengths in {units.name.lower()}"
+    if heading.files > 1:
+        yield f"File {heading.file} of {heading.files}, with T{heading.program.moves.tool[0]} alone; X and Y zero are those of the others"
+        yield "Set Z zero with this tool in the spindle"
     yield "Stock " + " x ".join(_length(side, units) for side in heading.box.size)
     origin = ", ".join(f"{axis} {_length(value, units)}" for axis, value in zip("XYZ", work_origin(job, heading.box), strict=True))
     yield f"Work origin: {job.origin_xy.value}, {job.origin_z.value}"
@@ -110,7 +120,7 @@ def _blending_words(heading: Heading) -> str:
     if heading.blend_mm == 0:
         return "Exact path: the control does not blend"
     amount = _length(heading.blend_mm, heading.job.out_units)
-    if not heading.post.blending.blend:
+    if "{blend}" not in heading.post.blending.blend:
         return f"Proven on the path; the control may blend by its own setting, taken as {amount}"
     return f"Proven on the path; the control may blend by up to P {amount}"
 
@@ -148,9 +158,10 @@ def _tools(heading: Heading) -> list[Tool]:
 
 
 def _operations(heading: Heading) -> list[tuple[Operation, bool]]:
-    """Return enabled operations, and whether each has moves."""
+    """Return enabled operations, and whether each has moves; in one of several files those that it holds."""
     used = set(np.unique(heading.program.moves.operation).tolist())
-    return [(operation, i in used) for i, operation in enumerate(heading.job.operations) if operation.cut.enabled]
+    shown = ((i, operation) for i, operation in enumerate(heading.job.operations) if operation.cut.enabled)
+    return [(operation, i in used) for i, operation in shown if i in used or heading.files == 1]
 
 
 def _length(value: float, units: Units) -> str:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from app.model.part import Units
+from app.nc.read.dialect import Dialect
 
 
 class ArcCentre(Enum):
@@ -39,16 +40,20 @@ class Words:
         order: letters of a motion block in the order of writing.
         motion: G words of rapid, line, clockwise arc, counter-clockwise arc.
         modal_motion: leave the G word out where it is that of the block before.
+        trailing_zeros: write every decimal, "X10.0000"; else only those that count, and the point: "X10.".
+        feed_point: F has a decimal point always: controls that count whole numbers in thousandths need it.
     """
 
     order: tuple[str, ...]
     motion: tuple[str, ...]
     modal_motion: bool
+    trailing_zeros: bool
+    feed_point: bool
 
 
 @dataclass(frozen=True, slots=True)
 class WordDecimals:
-    """Digits after the decimal point of each word; every word but F keeps its point and its zeros.
+    """Digits after the decimal point of each word; every word but F keeps its point.
 
     Attributes:
         X, Y, Z: positions, out units; X and Y alike.
@@ -78,12 +83,16 @@ class Comments:
 
     Attributes:
         open, close: what stands before and behind; close may be "".
-        width: longest comment, characters; longer text goes on in another comment.
+        width: longest text between the two, characters; longer text goes on in another comment.
+        capitals: the control knows capital letters alone.
+        signs: what it takes beside letters, digits and spaces; a space stands for any other.
     """
 
     open: str
     close: str
     width: int
+    capitals: bool
+    signs: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,8 +127,10 @@ class Blending:
     """How the control may round corners.
 
     Attributes:
-        tolerance_mm: the farthest it may leave the path where it blends; where `blend` is "", what its own setting is taken as.
-        blend: template of the block that says so, with the field {blend} in out units; "" where the control has none.
+        tolerance_mm: the farthest it may leave the path where it blends; where no word says so, what its own setting is
+            taken as. 0: it never leaves the path.
+        blend: template of the block that says so, with the field {blend} in out units; without the field, or "", the
+            control blends by its own setting, if it does.
         exact: block that forbids it, or "" where the control has none.
     """
 
@@ -149,21 +160,28 @@ class CoolantWords:
 class ProgramLines:
     """Blocks round the motion, as templates; a block whose text comes out empty is left out.
 
-    Fields: {units} {blending} in every block; in `tool` and `leave` also {tool} {speed} {dwell_s} {dwell_ms} {coolant_on}
-    {coolant_off}.
+    Fields: {units} {blending} {program} in every block; in `tool` and `leave` also {tool} {speed} {dwell_s} {dwell_ms}
+    {coolant_on} {coolant_off} {preselect}; in `tool` {clearance}. {program} is the program's number: the digits at the end
+    of the part's name where they are one from 1 to 7999, else `number`; "{program:0>4}" fills it up with zeros.
+    {preselect} is the T word of the tool that comes next, and after the last one that of the first; nothing where the
+    program has one tool. A block with {clearance} is the rapid to clearance height, as in "G0 G43 H{tool} Z{clearance}".
 
     Attributes:
+        number: of the program, where the part's name has none.
         top: above the header's comments, such as "%" and an O word, which get no N word.
         start: before the first tool.
         tool: change to a tool, its length, spindle on; the tool stands at clearance.
         leave: after the last move of a tool, at clearance height.
+        home: goes to the machine's own home along Z; before each tool change, the first one too, and at the end.
         end: behind everything.
     """
 
+    number: int
     top: tuple[str, ...]
     start: tuple[str, ...]
     tool: tuple[str, ...]
     leave: tuple[str, ...]
+    home: tuple[str, ...]
     end: tuple[str, ...]
 
 
@@ -174,10 +192,14 @@ class Post:
     Attributes:
         title: the control's name for people.
         extension: of its program files, with the dot.
+        dialect: in which its programs are read.
+        file_per_tool: it changes no tools, so each tool has a program of its own.
     """
 
     title: str
     extension: str
+    dialect: Dialect
+    file_per_tool: bool
     units: UnitWords
     words: Words
     decimals: Decimals

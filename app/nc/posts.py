@@ -15,12 +15,13 @@ from app.nc.post import Post, ProgramLines
 from app.resources import resource
 
 LETTERS = ("N", "G", "X", "Y", "Z", "I", "J", "F")
-EVERYWHERE = {"units", "blending"}
-WITH_TOOL = EVERYWHERE | {"tool", "speed", "dwell_s", "dwell_ms", "coolant_on", "coolant_off"}
+EVERYWHERE = frozenset({"units", "blending", "program"})
+WITH_TOOL = EVERYWHERE | {"tool", "speed", "dwell_s", "dwell_ms", "coolant_on", "coolant_off", "preselect"}
+FIELDS = {"tool": WITH_TOOL | {"clearance"}, "leave": WITH_TOOL}
 EXPECTED = {str: "a text", bool: "true or false", int: "a whole number", float: "a number", tuple[str, ...]: "a list of texts"}
 RANGES = {
     "decimals": (0, 6),
-    "comments.width": (80, 250),
+    "comments.width": (60, 250),
     "numbers.start": (0, 99999),
     "numbers.step": (1, 1000),
     "arcs.largest_sweep_deg": (60, 359),
@@ -29,6 +30,7 @@ RANGES = {
     "arcs.radius_mismatch_mm": (0.0005, 10),
     "blending.tolerance_mm": (0, 10),
     "spindle.dwell_s": (0, 600),
+    "program.number": (1, 7999),
 }
 
 
@@ -127,18 +129,22 @@ def _check_words(post: Post, file: str) -> None:
 
 def _check_templates(post: Post, file: str) -> None:
     """Check that templates name only fields that there are."""
-    _check_template(post.blending.blend, {"blend"}, f"{file}: blending.blend")
+    _check_template(post.blending.blend, frozenset({"blend"}), f"{file}: blending.blend")
     for field in fields(ProgramLines):
-        known = WITH_TOOL if field.name in ("tool", "leave") else EVERYWHERE
-        for template in getattr(post.program, field.name):
-            _check_template(template, known, f"{file}: program.{field.name}")
+        if field.name != "number":
+            for template in getattr(post.program, field.name):
+                _check_template(template, FIELDS.get(field.name, EVERYWHERE), f"{file}: program.{field.name}")
 
 
-def _check_template(template: str, known: set[str], place: str) -> None:
-    """Check the fields of one template."""
+def _check_template(template: str, known: frozenset[str], place: str) -> None:
+    """Check the fields of one template, and that it can be filled in."""
     try:
         used = {name for _, name, _, _ in string.Formatter().parse(template) if name is not None}
     except ValueError as error:
         raise InputError(f"{place}: {template!r} has a brace without its partner.") from error
     if used - known:
         raise InputError(f"{place}: {{{min(used - known)}}} in {template!r} is not known; expected are {', '.join(sorted(known))}.")
+    try:
+        template.format(**dict.fromkeys(known, "1"))
+    except ValueError as error:
+        raise InputError(f"{place}: {template!r} cannot be filled in ({error}); fields are texts, as in {{program:0>4}}.") from error

@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.errors import ParameterError
 from app.model.job import Job
-from app.model.moves import MoveKind, Program
+from app.model.moves import MoveKind, Moves, Program
 from app.model.part import Units
 from app.model.stock_box import stock_box, work_origin
-from app.model.tool import Tool
 from app.nc.arcs import ArcRules, written_pieces
 from app.nc.blocks import Blocks
-from app.nc.grid import spelled
 from app.nc.header import Heading, heading_lines, heading_notes, operation_words, tool_words
 from app.nc.motions import Motions
-from app.nc.post import Coolant, Post
+from app.nc.post import Post
 from app.nc.sequence import check_sequence
+from app.nc.template_fields import program_fields, tool_fields
 from app.nc.work_moves import WorkMoves, work_moves
 from app.progress import NO_PROGRESS, Progress
 
@@ -39,11 +38,48 @@ class NcText:
         lines: (n,) 1-based line that brings the tool to the end of each move of the program; a move that is nothing
             after rounding has the line of the one before.
         motions: what the text moves, block by block.
+        home_lines: 1-based lines that send the tool to the machine's own home along Z (G28, G53), which no move means.
     """
 
     text: str
     lines: NDArray[np.int32]
     motions: Motions
+    home_lines: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class NcFile:
+    """One of the files that a program is written to.
+
+    Attributes:
+        suffix: goes between the chosen name and its extension: "" for the only file, else such as "_1_T3".
+        nc: its text; `nc.lines` are those of the moves from `first` on.
+        first: index of the program's move that is the first of this file.
+    """
+
+    suffix: str
+    nc: NcText
+    first: int = 0
+
+
+def write_files(program: Program, job: Job, post: Post, progress: Progress = NO_PROGRESS) -> tuple[NcFile, ...]:
+    """Return the program as the files that the control needs: one, or one a tool where it changes no tools.
+
+    Files come in the order of cutting, a new one at every change of tool. Each is complete by itself, begins and ends at
+    safe Z, and has the same work origin; together they hold every move once.
+
+    Args and errors: as `write_program`.
+    """
+    _check(program, job, post)
+    tools = program.moves.tool
+    starts = [0, *(np.flatnonzero(np.diff(tools)) + 1).tolist()] if post.file_per_tool else [0]
+    files: list[NcFile] = []
+    for number, (first, stop) in enumerate(zip(starts, [*starts[1:], len(tools)], strict=True), start=1):
+        moves = Moves(**{name: column[first:stop] for name, column in program.moves.columns().items()})  # type: ignore[arg-type]
+        share = progress.part(first / len(tools), stop / len(tools))
+        nc = _written(replace(program, moves=moves), job, post, (number, len(starts)), share)
+        files.append(NcFile(f"_{number}_T{tools[first]}" if len(starts) > 1 else "", nc, first))
+    return tuple(files)
 
 
 def write_program(program: Program, job: Job, post: Post, progress: Progress = NO_PROGRESS) -> NcText:
@@ -60,21 +96,34 @@ def write_program(program: Program, job: Job, post: Post, progress: Progress = N
 
     Raises:
         ParameterError: the moves are none that a machine should make, a tool is not in the job, out units are neither
-            mm nor inch, the control cannot promise an exact path, or there is no region to place the stock round.
+            mm nor inch, the control cannot promise an exact path, it changes no tools and the program needs several, or
+            there is no region to place the stock round.
         Cancelled: the job was asked to stop.
     """
+    files = write_files(program, job, post, progress)
+    if len(files) > 1:
+        raise ParameterError(f"{post.title} changes no tools, so this program is {len(files)} files, one a tool; it cannot be written as one.")
+    return files[0].nc
+
+
+def _check(program: Program, job: Job, post: Post) -> None:
+    """Refuse what cannot be written."""
     if job.out_units not in (Units.MM, Units.INCH):
         raise ParameterError(f"NC programs are in mm or inch, not in {job.out_units.name.lower()}; choose one of the two.")
     if job.exact_path and not post.blending.exact:
         raise ParameterError(f"{post.title} has no word for an exact path; switch exact path off.")
     check_sequence(program.moves, job)
+
+
+def _written(program: Program, job: Job, post: Post, file: tuple[int, int], progress: Progress) -> NcText:
+    """Return the text of one file; `file` is its number and how many there are."""
     box = stock_box(job, program.regions)
     moves = work_moves(program.moves, work_origin(job, box), job.out_units, post.digits(job.out_units))
     sheet = Blocks(post, job.out_units)
-    heading = Heading(program, job, post, box, blend_mm(job, post), writing_tolerance(job, post))
+    heading = Heading(program, job, post, box, blend_mm(job, post), writing_tolerance(job, post), *file)
     writer = _Writer(job, post, sheet, moves)
     lines = writer.write(heading, progress)
-    return NcText("\n".join(sheet.lines) + "\n", np.array(lines, dtype=np.int32), writer.motions())
+    return NcText("\n".join(sheet.lines) + "\n", np.array(lines, dtype=np.int32), writer.motions(), tuple(sheet.home_lines))
 
 
 def blend_mm(job: Job, post: Post) -> float:
@@ -100,7 +149,9 @@ class _Writer:
     def __init__(self, job: Job, post: Post, sheet: Blocks, moves: WorkMoves) -> None:
         self.job, self.post, self.sheet, self.moves = job, post, sheet, moves
         self.done: list[int] = []
-        digits, unit = post.digits(job.out_units), job.out_units.value
+        self.fields = program_fields(job, post, blend_mm(job, post))
+        self.digits = digits = post.digits(job.out_units)
+        unit = job.out_units.value
         self.z_scale = 10.0**digits.Z
         self.arc_rules = ArcRules(
             digits.X, digits.I, writing_tolerance(job, post) / unit, math.radians(post.arcs.largest_sweep_deg),
@@ -130,6 +181,7 @@ class _Writer:
             lines.append(self.sheet.motion_line)
             self.done.append(len(self.sheet.motions))
         self._leave_tool(len(moves) - 1)
+        self._home()
         self._blocks(self.post.program.end)
         return lines
 
@@ -161,37 +213,39 @@ class _Writer:
         """Leave the tool before, if there is one, and take the tool of move i."""
         if i:
             self._leave_tool(i - 1)
-        tool = self.job.tool(self.moves.tool[i])
-        self.sheet.comment(tool_words(tool, self.job.out_units))
-        self._blocks(self.post.program.tool, tool)
+        self._home()
         self.sheet.forget()
+        tool, z = self.job.tool(self.moves.tool[i]), self.moves.end[i][2]
+        self.sheet.comment(tool_words(tool, self.job.out_units))
+        fields = self._tool_fields(i) | {"clearance": self.sheet.number(z, self.digits.Z)}
+        for template in self.post.program.tool:
+            text = template.format(**fields).strip()
+            if "{clearance" in template:
+                self.sheet.clearance(text, z)
+            else:
+                self.sheet.block(text)
 
     def _leave_tool(self, i: int) -> None:
         """Go to safe Z, where each tool began, after move i, the last of its tool; then stop spindle and coolant."""
         self.sheet.rapid_z(self.moves.end[0][2])
-        self._blocks(self.post.program.leave, self.job.tool(self.moves.tool[i]))
+        for template in self.post.program.leave:
+            self.sheet.block(template.format(**self._tool_fields(i)).strip())
 
-    def _blocks(self, templates: tuple[str, ...], tool: Tool | None = None) -> None:
+    def _home(self) -> None:
+        """Go to the machine's own home along Z, if the post wants it."""
+        for template in self.post.program.home:
+            self.sheet.home(template.format(**self.fields).strip())
+
+    def _blocks(self, templates: tuple[str, ...]) -> None:
         """Write the post's blocks."""
-        fields = self._fields() | (self._tool_fields(tool) if tool else {})
         for template in templates:
-            self.sheet.block(template.format(**fields).strip())
+            self.sheet.block(template.format(**self.fields).strip())
 
-    def _fields(self) -> dict[str, str]:
-        """Return what every template may name."""
-        post, units = self.post, self.job.out_units
-        decimals = post.digits(units).X
-        blend = spelled(round(blend_mm(self.job, post) / units.value * 10**decimals), decimals)
-        return {
-            "units": post.units.inch if units is Units.INCH else post.units.mm,
-            "blending": post.blending.exact if self.job.exact_path else post.blending.blend.format(blend=blend),
-        }
+    def _tool_fields(self, i: int) -> dict[str, str]:
+        """Return what the templates round the tool of move i may name."""
+        return self.fields | tool_fields(self.job.tool(self.moves.tool[i]), self.post, self._next_tool(i))
 
-    def _tool_fields(self, tool: Tool) -> dict[str, str]:
-        """Return what the templates round a tool may name."""
-        coolant, dwell = self.post.coolant, self.post.spindle.dwell_s
-        on = {Coolant.NONE: "", Coolant.FLOOD: coolant.flood, Coolant.MIST: coolant.mist}[coolant.use]
-        return {
-            "tool": str(tool.number), "speed": f"{tool.spindle_speed:.0f}", "dwell_s": f"{dwell:g}",
-            "dwell_ms": f"{dwell * 1000:.0f}", "coolant_on": on, "coolant_off": coolant.off if on else "",
-        }  # fmt: skip
+    def _next_tool(self, i: int) -> int:
+        """Return the T number that follows that of move i; after the last one, the first."""
+        tools = self.moves.tool
+        return next((tool for tool in tools[i:] if tool != tools[i]), tools[0])

@@ -10,6 +10,7 @@ from __future__ import annotations
 import cmath
 import json
 import math
+import os
 import re
 import shutil
 import subprocess
@@ -93,6 +94,11 @@ def needs_rs274() -> None:
         pytest.skip("rs274 is not installed (Debian package linuxcnc-uspace)")
 
 
+def own_home(folder: str) -> dict[str, str]:
+    """The environment for an interpreter that runs beside others: it keeps its tools in a file of the home folder."""
+    return os.environ | {"HOME": folder}
+
+
 def canonical_calls(text: str) -> list[tuple[str, list[str]]]:
     """Run `rs274` on a program; fail if it refuses it. Return its canonical calls with their arguments."""
     needs_rs274()
@@ -100,7 +106,9 @@ def canonical_calls(text: str) -> list[tuple[str, list[str]]]:
         (Path(folder) / "in.ngc").write_text(text, "ascii")
         tools = sorted({int(number) for number in re.findall(r"\bT(\d+) M6", text, re.M)})
         (Path(folder) / "tool.tbl").write_text("".join(f"T{n} P{n} Z0.0 D0.1\n" for n in tools))
-        run = subprocess.run([RS274, "-g", "-t", "tool.tbl", "-v", "scratch.var", "in.ngc"], cwd=folder, capture_output=True, text=True)
+        run = subprocess.run(
+            [RS274, "-g", "-t", "tool.tbl", "-v", "scratch.var", "in.ngc"], cwd=folder, capture_output=True, text=True, env=own_home(folder),
+        )  # fmt: skip
     assert run.returncode == 0, run.stderr
     found = (CALL.match(line) for line in run.stdout.splitlines())
     return [(match[1], [item.strip() for item in match[2].split(",")]) for match in found if match]
@@ -112,7 +120,7 @@ def exact_motions(text: str) -> list[Motion]:
     with tempfile.TemporaryDirectory() as folder:
         names = [str(Path(folder) / name) for name in ("in.ngc", "scratch.var", "out.json")]
         Path(names[0]).write_text(re.sub(r"(?<=G43) H\d+$", "", re.sub(r"\bT\d+ M6$", "M1", text, flags=re.M), flags=re.M), "ascii")
-        run = subprocess.run([SYSTEM_PYTHON, "-c", READER, *names], capture_output=True, text=True)
+        run = subprocess.run([SYSTEM_PYTHON, "-c", READER, *names], capture_output=True, text=True, env=own_home(folder))
         if "No module named 'gcode'" in run.stderr:
             pytest.skip("the system's Python has no gcode module (Debian package linuxcnc-uspace)")
         assert run.returncode == 0, run.stderr
