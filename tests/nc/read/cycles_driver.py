@@ -1,0 +1,127 @@
+"""Programs of canned cycles, driven block by block through `cycle_steps` and through LinuxCNC's own interpreter."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import tempfile
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from app.model.motion import MotionKind, Plane
+from app.nc.read.cycles import Cycle, Move, Point, cycle_steps, with_sticky
+from app.nc.read.fault import Fault
+from tests.nc.rs274_oracle import KINDS, RS274, needs_rs274
+
+CALL = re.compile(r"^\s*\d+ N(\d+|\.+)\s+(\w+)\((.*)\)\s*$", re.M)
+PLANES = {"G17": Plane.XY, "G18": Plane.ZX, "G19": Plane.YZ}
+START = (1.0, 2.0, 3.0)
+Motion = tuple[int, MotionKind, Point]
+
+
+@dataclass(frozen=True)
+class Block:
+    """A block: cycle code ("" = the one in force), G words of other groups, words by letter."""
+
+    code: str = ""
+    modes: tuple[str, ...] = ()
+    words: dict[str, float] = field(default_factory=dict)
+
+    def text(self, number: int) -> str:
+        words = [f"{letter}{value:.4f}" if letter != "L" else f"L{value:.0f}" for letter, value in self.words.items()]
+        return " ".join([f"N{number}", *self.modes, self.code, *words])
+
+
+@dataclass(frozen=True)
+class Run:
+    """What a program did: motions of the blocks before `refused`, the number of the block that was refused."""
+
+    motions: list[Motion]
+    refused: int | None = None
+
+
+def program(blocks: list[Block], spindle: int = 1, units: str = "G21") -> str:
+    """Return the text: a start that is known, the blocks numbered from 1."""
+    turn = {1: "M3 S100", -1: "M4 S100", 0: "M5"}[spindle]
+    head = f"{units} G17 G90 G98 F100 {turn}\nN0 G0 X{START[0]} Y{START[1]} Z{START[2]}\n"
+    return head + "\n".join(block.text(k) for k, block in enumerate(blocks, 1)) + "\nM2\n"
+
+
+def interpreted(text: str) -> Run:
+    """Return what `rs274` makes of a program."""
+    needs_rs274()
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "in.ngc").write_text(text, "utf-8")
+        (Path(folder) / "tool.tbl").write_text("T1 P1 Z0.0 D0.1\n")
+        command = [str(RS274), "-g", "-t", "tool.tbl", "-v", "scratch.var", "in.ngc"]
+        run = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60)
+    calls = [(number, name, arguments.split(",")) for number, name, arguments in CALL.findall(run.stdout)]
+    motions = [_motion(int(number), name, arguments) for number, name, arguments in calls if name in KINDS]
+    refused = int(re.search(r"^N(\d+)", run.stderr, re.M)[1]) if run.returncode else None
+    return Run([m for m in motions if m[0] and (refused is None or m[0] < refused)], refused)
+
+
+def _motion(number: int, name: str, arguments: list[str]) -> Motion:
+    x, y, z = (float(a) + 0.0 for a in arguments[:3])
+    return number, MotionKind(int(KINDS[name])), (x, y, z)
+
+
+def driven(blocks: list[Block], spindle: int = 1, units: str = "G21") -> Run:
+    """Return what `cycle_steps` makes of the blocks."""
+    state, motions = _State(spindle, 25.4 if units == "G20" else 1.0), []
+    for number, block in enumerate(blocks, 1):
+        try:
+            motions += [(number, *move) for move in state.run(block)]
+        except Fault:
+            return Run(motions, number)
+    return Run(motions)
+
+
+class _State:
+    """The little that a cycle needs from what was before it."""
+
+    def __init__(self, spindle: int, unit_mm: float) -> None:
+        self.spindle, self.unit_mm = spindle, unit_mm
+        self.position, self.initial, self.code = START, 0.0, ""
+        self.before: Cycle | None = None
+        self.plane, self.absolute, self.retract_to_r = Plane.XY, True, False
+
+    def run(self, block: Block) -> list[tuple[MotionKind, Point]]:
+        self._modes(block)
+        self.code = block.code or self.code
+        cycle = with_sticky(self.cycle(block.words), self.before)
+        if self.before is None:
+            self.initial = self.position[self.plane.axes[2]]
+        moves = [step for step in cycle_steps(cycle, self.position, self.initial) if isinstance(step, Move)]
+        self.position, self.before = moves[-1].meant, cycle
+        return [(move.kind, _rounded(move.target)) for move in moves]
+
+    def _modes(self, block: Block) -> None:
+        for mode in block.modes:
+            self.plane = PLANES.get(mode, self.plane)
+            self.absolute = {"G90": True, "G91": False}.get(mode, self.absolute)
+            self.retract_to_r = {"G98": False, "G99": True}.get(mode, self.retract_to_r)
+
+    def cycle(self, words: dict[str, float]) -> Cycle:
+        first, second, normal = (words.get("XYZ"[axis]) for axis in self.plane.axes)
+        shift = (words.get("I"), words.get("J"), words.get("K"))
+        return Cycle(
+            self.code, self.plane, (first, second), normal, words.get("R"), int(words.get("L", 1)), words.get("P"), words.get("Q"), shift,
+            self.absolute, self.retract_to_r, self.spindle, self.unit_mm,
+        )  # fmt: skip
+
+
+def _rounded(point: Point) -> Point:
+    x, y, z = (round(value, 4) + 0.0 for value in point)
+    return x, y, z
+
+
+def assert_same(blocks: list[Block], spindle: int = 1, units: str = "G21") -> Run:
+    """Assert that both do the same: count, kinds and ends of motions to 4 decimals, and the block refused, if one is."""
+    text = program(blocks, spindle, units)
+    theirs, mine = interpreted(text), driven(blocks, spindle, units)
+    assert mine.refused == theirs.refused, text
+    assert [m[:2] for m in mine.motions] == [m[:2] for m in theirs.motions], text
+    for a, b in zip(mine.motions, theirs.motions, strict=True):
+        assert all(abs(p - q) < 1.001e-4 for p, q in zip(a[2], b[2], strict=True)), (text, a, b)
+    return mine
