@@ -19,7 +19,7 @@ _POWERS = np.array([float(f"1e{k}") for k in range(23)])  # exact, so that digit
 _DIGITS_BOUND = 10**15  # whole numbers below it are exact as floats
 _LONGEST_LINE, _LARGEST_NUMBER = 1000, 999_999_999
 _FARTHEST, _FASTEST = 1e6, 1e7  # mm, mm/min
-_LEAST_RADIUS, _RADII_ALIKE = 0.01, 0.0045  # mm; no control asks for less
+_LEAST_RADIUS, _RADII_ALIKE, _SLACK = 0.01, 0.0045, 1e-6  # mm; no control asks for more
 
 
 @kernel("Tuple((int64, float64, int64))(Array(uint8, 1, 'C', True), int64)")
@@ -127,7 +127,7 @@ def _arc(motion, plane, arc_absolute, lengths, shift, given, start, end, centre)
     centre[w] = start[w]
     if given[_R] != _ABSENT:
         turn = 1.0 if motion == _CCW else -1.0
-        centre[u], centre[v] = centre_by_radius(start[u], start[v], end[u], end[v], lengths[_R], turn, 0.0)
+        centre[u], centre[v] = centre_by_radius(start[u], start[v], end[u], end[v], lengths[_R], turn, _SLACK)
         return not math.isnan(centre[u]) and abs(lengths[_R]) <= _FARTHEST
     if not (a or b) or (arc_absolute and not (a and b)):
         return False
