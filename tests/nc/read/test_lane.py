@@ -24,7 +24,7 @@ def moving(**changes: object) -> Plain:
 
 
 def test_a_line_in_every_way_of_writing_it() -> None:
-    texts = ("G1X1.5Y-2F100", "g01 x+1.5 y-2. f100", " G 1 X 1 . 5 Y - 2 F 1 0 0 ", "(a;b)G1(c)X1.5Y-2(d)F100;(e", "F100.0\tY-02.0X01.50 G1")
+    texts = ("G1X1.5Y-2F100", "g01 x+1.5 y-2. f100", " G 1 X 1 . 5 Y - 2 F 1 0 0 ", "(a;b)G1(c)X1.5Y-2(d)F100;(e", "F100.0\tY-02X01.50 G1")
     for text in texts:
         rows, at = lane(text + "\n")
         assert at == (len(text) + 1, 2), text
