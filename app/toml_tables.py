@@ -62,12 +62,25 @@ def read_tables(kind: type[Kind], file: str, data: bytes, ranges: Mapping[str, R
     Raises:
         InputError: the text is no TOML, or a key is missing, unknown, of the wrong kind or out of its range.
     """
+    return tables_of(kind, read_tree(file, data), (file, data), ranges)
+
+
+def read_tree(file: str, data: bytes) -> dict[str, Any]:
+    """Return what a TOML text holds.
+
+    Raises:
+        InputError: it is none.
+    """
     try:
-        text = data.decode("utf-8-sig")
-        tree = tomllib.loads(text)
+        return tomllib.loads(data.decode("utf-8-sig"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(f"{file}: this is no TOML file ({error}); correct it.") from error
-    made: Kind = _table(kind, tree, _Place(file, tuple(text.splitlines())), ranges)
+
+
+def tables_of(kind: type[Kind], tree: dict[str, Any], source: tuple[str, bytes], ranges: Mapping[str, Range]) -> Kind:
+    """Return the dataclass that tables describe, as `read_tables` does; `source` is the file's name and bytes, for errors."""
+    file, data = source
+    made: Kind = _table(kind, tree, _Place(file, tuple(data.decode("utf-8-sig").splitlines())), ranges)
     return made
 
 

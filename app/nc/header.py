@@ -98,7 +98,7 @@ def heading_lines(heading: Heading) -> Iterator[str]:
     yield f"Part {safe_name(job.part.name)}"
     yield f"Hitofude for {heading.post.title}, lengths in {units.name.lower()}"
     if heading.files > 1:
-        yield f"File {heading.file} of {heading.files}, with T{heading.program.moves.tool[0]} alone; X and Y zero are those of the others"
+        yield f"File {heading.file} of {heading.files}, with T{heading.program.moves.tool[0]} alone, X and Y zero as in the others"
         yield "Set Z zero with this tool in the spindle"
     yield "Stock " + " x ".join(_length(side, units) for side in heading.box.size)
     origin = ", ".join(f"{axis} {_length(value, units)}" for axis, value in zip("XYZ", work_origin(job, heading.box), strict=True))
@@ -120,9 +120,10 @@ def _blending_words(heading: Heading) -> str:
     if heading.blend_mm == 0:
         return "Exact path: the control does not blend"
     amount = _length(heading.blend_mm, heading.job.out_units)
-    if "{blend}" not in heading.post.blending.blend:
+    before, field, _ = heading.post.blending.blend.partition("{blend}")
+    if not field:
         return f"Proven on the path; the control may blend by its own setting, taken as {amount}"
-    return f"Proven on the path; the control may blend by up to P {amount}"
+    return f"Proven on the path; the control may blend by up to {before[-1]} {amount}"
 
 
 def _notes(heading: Heading) -> Iterator[str]:

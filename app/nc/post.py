@@ -16,6 +16,18 @@ class ArcCentre(Enum):
     ABSOLUTE = "absolute"
 
 
+class NurbsForm(Enum):
+    """How the control is told of a NURBS.
+
+    NONE: not at all. BEZIER: planar polynomial pieces of degree 3, four control points each, without knots (LinuxCNC).
+    KNOTS: every control point with its knot and its weight, the last knots alone (Fanuc).
+    """
+
+    NONE = "none"
+    BEZIER = "bezier"
+    KNOTS = "knots"
+
+
 class Coolant(Enum):
     """What the coolant does while a tool cuts."""
 
@@ -85,7 +97,7 @@ class Comments:
         open, close: what stands before and behind; close may be "".
         width: longest text between the two, characters; longer text goes on in another comment.
         capitals: the control knows capital letters alone.
-        signs: what it takes beside letters, digits and spaces; a space stands for any other.
+        signs: what it takes beside letters and digits; a comma stands for any other.
     """
 
     open: str
@@ -162,9 +174,10 @@ class ProgramLines:
 
     Fields: {units} {blending} {program} in every block; in `tool` and `leave` also {tool} {speed} {dwell_s} {dwell_ms}
     {coolant_on} {coolant_off} {preselect}; in `tool` {clearance}. {program} is the program's number: the digits at the end
-    of the part's name where they are one from 1 to 7999, else `number`; "{program:0>4}" fills it up with zeros.
-    {preselect} is the T word of the tool that comes next, and after the last one that of the first; nothing where the
-    program has one tool. A block with {clearance} is the rapid to clearance height, as in "G0 G43 H{tool} Z{clearance}".
+    of the part's name where they are one from 1 to 7999, else `number`. "{program:04}" puts zeros before it; so it goes with
+    {tool}, {speed} and {dwell_ms}. {preselect} is the T word of the tool that comes next, and after the last one that of the
+    first; nothing where the program has one tool. A block with {clearance} is the rapid to clearance height, as in
+    "G0 G43 H{tool} Z{clearance}".
 
     Attributes:
         number: of the program, where the part's name has none.
@@ -183,6 +196,38 @@ class ProgramLines:
     leave: tuple[str, ...]
     home: tuple[str, ...]
     end: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class DrillingWords:
+    """Canned cycles; "" where the control has none, or does it in a way that only its own settings tell.
+
+    Attributes:
+        drill: down at feed, up at rapid rate.
+        peck: the same in steps of Q, each followed by a rapid up to R and down again to `peck_gap_mm` above the last one.
+        chip_break: the same in steps of Q, each followed by a rapid up by `chip_gap_mm`.
+        to_initial, to_r: whether holes end at the height where the first one began, or at R.
+        cancel: ends the cycle.
+        peck_gap_mm, chip_gap_mm: what the control's own settings are.
+    """
+
+    drill: str
+    peck: str
+    chip_break: str
+    to_initial: str
+    to_r: str
+    cancel: str
+    peck_gap_mm: float
+    chip_gap_mm: float
+
+
+@dataclass(frozen=True, slots=True)
+class NurbsWords:
+    """How a NURBS is written: its form, the G word that begins it, the block that ends it, "" where the next G word does."""
+
+    form: NurbsForm
+    word: str
+    end: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,6 +255,8 @@ class Post:
     spindle: SpindleRules
     coolant: CoolantWords
     program: ProgramLines
+    drilling: DrillingWords
+    nurbs: NurbsWords
 
     def digits(self, units: Units) -> WordDecimals:
         """Return the digits of each word in a program of these units."""

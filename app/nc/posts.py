@@ -1,24 +1,29 @@
-"""Posts from their data files: read `resources/posts/NAME.toml` and say exactly what is wrong with it."""
+"""Posts from their data files: those of the program and those of the user; what is wrong with one is said exactly.
+
+A user's post is a file NAME.toml in the folder `posts` of the settings folder; it stands before one of the program's of that
+name. With `extends = "linuxcnc"` it says only what differs from that post; where it is named like the post that it extends,
+it extends the program's own.
+"""
 
 from __future__ import annotations
 
+import re
 import string
-import tomllib
-import typing
-from dataclasses import fields, is_dataclass
-from enum import Enum
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 from app.errors import InputError
-from app.nc.post import Post, ProgramLines
+from app.nc.post import NurbsForm, Post, ProgramLines
 from app.resources import resource
+from app.settings import config_folder
+from app.toml_tables import read_tree, tables_of
 
 LETTERS = ("N", "G", "X", "Y", "Z", "I", "J", "F")
 EVERYWHERE = frozenset({"units", "blending", "program"})
 WITH_TOOL = EVERYWHERE | {"tool", "speed", "dwell_s", "dwell_ms", "coolant_on", "coolant_off", "preselect"}
+COUNTS = frozenset({"program", "tool", "speed", "dwell_ms"})
 FIELDS = {"tool": WITH_TOOL | {"clearance"}, "leave": WITH_TOOL}
-EXPECTED = {str: "a text", bool: "true or false", int: "a whole number", float: "a number", tuple[str, ...]: "a list of texts"}
 RANGES = {
     "decimals": (0, 6),
     "comments.width": (60, 250),
@@ -31,88 +36,94 @@ RANGES = {
     "blending.tolerance_mm": (0, 10),
     "spindle.dwell_s": (0, 600),
     "program.number": (1, 7999),
+    "drilling.peck_gap_mm": (0, 10),
+    "drilling.chip_gap_mm": (0, 10),
 }
 
 
 def post_names() -> tuple[str, ...]:
-    """Return the names of all posts, sorted."""
-    return tuple(sorted(path.stem for path in resource("posts").glob("*.toml")))
+    """Return the names of all posts, the user's among them, sorted."""
+    return tuple(sorted(_own_posts().keys() | _user_posts().keys()))
+
+
+def post_titles() -> dict[str, str]:
+    """Return the title of every post by its name; a damaged one tells that it cannot be used."""
+    return {name: _title(name) for name in post_names()}
 
 
 def load_post(name: str) -> Post:
-    """Return the post `resources/posts/NAME.toml`.
+    """Return the post of this name.
 
     Raises:
         InputError: there is no such post, or its file is not as app/nc/post.py says.
     """
-    if name not in post_names():
+    path = _found(name, ())
+    if path is None:
         raise InputError(f"There is no post {name!r}; choose one of {', '.join(post_names())}.")
-    return read_post(resource("posts", f"{name}.toml"))
+    return read_post(path)
 
 
 def read_post(path: Path) -> Post:
     """Return the post in a file.
 
     Raises:
-        InputError: the text is no TOML, or a key is missing, unknown, of the wrong kind or out of its range.
+        InputError: the text is no TOML, or a key is missing, unknown, of the wrong kind or out of its range; or it extends
+            a post that there is not, or itself.
     """
-    try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path.name}: this is no TOML file ({error}); correct it.") from error
-    post: Post = _table(Post, data, (path.name,))
+    data = _bytes(path)
+    post: Post = tables_of(Post, _tree(path, ()), (path.name, data), RANGES)
     _check_words(post, path.name)
+    _check_nurbs(post, path.name)
     _check_templates(post, path.name)
     return post
 
 
-def _table(kind: Any, data: dict[str, Any], where: tuple[str, ...]) -> Any:
-    """Make a dataclass of a TOML table, key by key; `where` is the file's name and the tables down to here."""
-    types = typing.get_type_hints(kind)
-    for key in data:
-        if key not in types:
-            raise InputError(f"{_place(where, key)} is not known; expected are {', '.join(types)}.")
-    for field in fields(kind):
-        if field.name not in data:
-            raise InputError(f"{_place(where, field.name)} is missing; add {_expected(types[field.name])}.")
-    return kind(**{key: _value(types[key], value, (*where, key)) for key, value in data.items()})
+def _own_posts() -> dict[str, Path]:
+    return {path.stem: path for path in resource("posts").glob("*.toml")}
 
 
-def _value(kind: Any, value: Any, where: tuple[str, ...]) -> Any:
-    """Return a TOML value as what its field holds."""
-    if is_dataclass(kind) and isinstance(value, dict):
-        return _table(kind, value, where)
-    if isinstance(kind, type) and issubclass(kind, Enum) and value in [choice.value for choice in kind]:
-        return kind(value)
-    if kind == tuple[str, ...] and isinstance(value, list) and all(isinstance(item, str) for item in value):
-        return tuple(value)
-    if kind in (int, float) and type(value) in (int, kind):
-        return _in_range(value, where)
-    if kind in (str, bool) and isinstance(value, kind):
-        return value
-    raise InputError(f"{_place(where[:-1], where[-1])} is {value!r}; expected is {_expected(kind)}.")
+def _user_posts() -> dict[str, Path]:
+    return {path.stem: path for path in (config_folder() / "posts").glob("*.toml")}
 
 
-def _in_range(value: float, where: tuple[str, ...]) -> float:
-    """Return a number if it is in the range of its key."""
-    low, high = RANGES["decimals" if where[1] == "decimals" else ".".join(where[1:])]
-    if not low <= value <= high:
-        raise InputError(f"{_place(where[:-1], where[-1])} is {value:g}; expected is a number from {low:g} to {high:g}.")
-    return value
+def _title(name: str) -> str:
+    """Return the title of a post."""
+    try:
+        return load_post(name).title
+    except InputError:
+        return f"{name} (cannot be used)"
 
 
-def _expected(kind: Any) -> str:
-    """Return what a key of this type holds, in words."""
-    if is_dataclass(kind):
-        return f"a table with {', '.join(field.name for field in fields(kind))}"
-    if isinstance(kind, type) and issubclass(kind, Enum):
-        return " or ".join(repr(choice.value) for choice in kind)
-    return EXPECTED[kind]
+def _found(name: str, seen: tuple[Path, ...]) -> Path | None:
+    """Return the file of a post, the user's before the program's own, but none of those that are seen already."""
+    return next((posts[name] for posts in (_user_posts(), _own_posts()) if name in posts and posts[name] not in seen), None)
 
 
-def _place(where: tuple[str, ...], key: str) -> str:
-    """Return the file and the dotted key: "mill.toml: arcs.centre"."""
-    return f"{where[0]}: {'.'.join((*where[1:], key))}"
+def _bytes(path: Path) -> bytes:
+    """Return a post's file."""
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise InputError(f"{path.name} cannot be read: {error.strerror}.") from error
+
+
+def _tree(path: Path, seen: tuple[Path, ...]) -> dict[str, Any]:
+    """Return what a post's file says, laid over the post that it extends."""
+    tree = read_tree(path.name, _bytes(path))
+    if "extends" not in tree:
+        return tree
+    name = tree.pop("extends")
+    base = _found(name, (*seen, path)) if isinstance(name, str) else None
+    if base is None:
+        raise InputError(f"{path.name}: extends is {name!r}; expected is the name of another post: {', '.join(post_names())}.")
+    return _laid_over(_tree(base, (*seen, path)), tree)
+
+
+def _laid_over(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
+    """Return two trees of tables as one; where both have a key, the upper one says."""
+    both = {key: _laid_over(below[key], above[key]) for key in above
+            if isinstance(above[key], dict) and isinstance(below.get(key), dict)}  # fmt: skip
+    return below | above | both
 
 
 def _check_words(post: Post, file: str) -> None:
@@ -127,6 +138,13 @@ def _check_words(post: Post, file: str) -> None:
             raise InputError(f"{file}: decimals.{name} must be alike for X and Y, and for I and J, and I not less than X.")
 
 
+def _check_nurbs(post: Post, file: str) -> None:
+    """Check that a form of NURBS has its word."""
+    if (post.nurbs.form is NurbsForm.NONE) != (not post.nurbs.word):
+        raise InputError(f"{file}: nurbs.word is {post.nurbs.word!r} for the form {post.nurbs.form.value!r}; expected is a G word, "
+                         "or '' for the form 'none'.")
+
+
 def _check_templates(post: Post, file: str) -> None:
     """Check that templates name only fields that there are."""
     _check_template(post.blending.blend, frozenset({"blend"}), f"{file}: blending.blend")
@@ -139,12 +157,11 @@ def _check_templates(post: Post, file: str) -> None:
 def _check_template(template: str, known: frozenset[str], place: str) -> None:
     """Check the fields of one template, and that it can be filled in."""
     try:
-        used = {name for _, name, _, _ in string.Formatter().parse(template) if name is not None}
+        used = {name: spec for _, name, spec, _ in string.Formatter().parse(template) if name is not None}
     except ValueError as error:
         raise InputError(f"{place}: {template!r} has a brace without its partner.") from error
-    if used - known:
-        raise InputError(f"{place}: {{{min(used - known)}}} in {template!r} is not known; expected are {', '.join(sorted(known))}.")
-    try:
-        template.format(**dict.fromkeys(known, "1"))
-    except ValueError as error:
-        raise InputError(f"{place}: {template!r} cannot be filled in ({error}); fields are texts, as in {{program:0>4}}.") from error
+    if used.keys() - known:
+        raise InputError(f"{place}: {{{min(used.keys() - known)}}} in {template!r} is not known; expected are {', '.join(sorted(known))}.")
+    if any(spec and (name not in COUNTS or not re.fullmatch("0[1-9]", spec)) for name, spec in used.items()):
+        raise InputError(f"{place}: {template!r} cannot be filled in; only {', '.join(sorted(COUNTS & known))} can have zeros before, "
+                         "as in {program:04}.")

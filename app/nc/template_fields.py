@@ -10,11 +10,13 @@ from app.model.tool import Tool
 from app.nc.grid import spelled
 from app.nc.post import Coolant, Post
 
+Fields = dict[str, str | int]
+
 LAST_NUMBER = 7999
 """Fanuc and Haas keep higher program numbers for protected ones."""
 
 
-def program_fields(job: Job, post: Post, blend_mm: float) -> dict[str, str]:
+def program_fields(job: Job, post: Post, blend_mm: float) -> Fields:
     """Return what every template may name.
 
     Args:
@@ -27,7 +29,7 @@ def program_fields(job: Job, post: Post, blend_mm: float) -> dict[str, str]:
     return {
         "units": post.units.inch if job.out_units is Units.INCH else post.units.mm,
         "blending": post.blending.exact if job.exact_path else post.blending.blend.format(blend=blend),
-        "program": str(program_number(job.part.name, post.program.number)),
+        "program": program_number(job.part.name, post.program.number),
     }
 
 
@@ -38,7 +40,7 @@ def program_number(name: str, otherwise: int) -> int:
     return number if 1 <= number <= LAST_NUMBER else otherwise
 
 
-def tool_fields(tool: Tool, post: Post, next_tool: int) -> dict[str, str]:
+def tool_fields(tool: Tool, post: Post, next_tool: int) -> Fields:
     """Return what the templates round a tool may name besides.
 
     Args:
@@ -49,6 +51,6 @@ def tool_fields(tool: Tool, post: Post, next_tool: int) -> dict[str, str]:
     coolant, dwell = post.coolant, post.spindle.dwell_s
     on = {Coolant.NONE: "", Coolant.FLOOD: coolant.flood, Coolant.MIST: coolant.mist}[coolant.use]
     return {
-        "tool": str(tool.number), "speed": f"{tool.spindle_speed:.0f}", "dwell_s": f"{dwell:g}", "dwell_ms": f"{dwell * 1000:.0f}",
+        "tool": tool.number, "speed": round(tool.spindle_speed), "dwell_s": f"{dwell:g}", "dwell_ms": round(dwell * 1000),
         "coolant_on": on, "coolant_off": coolant.off if on else "", "preselect": f"T{next_tool}" if next_tool != tool.number else "",
     }  # fmt: skip

@@ -19,7 +19,7 @@ from app.nc.header import Heading, heading_lines, heading_notes, operation_words
 from app.nc.motions import Motions
 from app.nc.post import Post
 from app.nc.sequence import check_sequence
-from app.nc.template_fields import program_fields, tool_fields
+from app.nc.template_fields import Fields, program_fields, tool_fields
 from app.nc.work_moves import WorkMoves, work_moves
 from app.progress import NO_PROGRESS, Progress
 
@@ -102,7 +102,7 @@ def write_program(program: Program, job: Job, post: Post, progress: Progress = N
     """
     files = write_files(program, job, post, progress)
     if len(files) > 1:
-        raise ParameterError(f"{post.title} changes no tools, so this program is {len(files)} files, one a tool; it cannot be written as one.")
+        raise ParameterError(f"{post.title} changes no tools, so this program is {len(files)} files, not one; export it to a folder.")
     return files[0].nc
 
 
@@ -241,7 +241,7 @@ class _Writer:
         for template in templates:
             self.sheet.block(template.format(**self.fields).strip())
 
-    def _tool_fields(self, i: int) -> dict[str, str]:
+    def _tool_fields(self, i: int) -> Fields:
         """Return what the templates round the tool of move i may name."""
         return self.fields | tool_fields(self.job.tool(self.moves.tool[i]), self.post, self._next_tool(i))
 

@@ -106,9 +106,8 @@ def canonical_calls(text: str) -> list[tuple[str, list[str]]]:
         (Path(folder) / "in.ngc").write_text(text, "ascii")
         tools = sorted({int(number) for number in re.findall(r"\bT(\d+) M6", text, re.M)})
         (Path(folder) / "tool.tbl").write_text("".join(f"T{n} P{n} Z0.0 D0.1\n" for n in tools))
-        run = subprocess.run(
-            [RS274, "-g", "-t", "tool.tbl", "-v", "scratch.var", "in.ngc"], cwd=folder, capture_output=True, text=True, env=own_home(folder),
-        )  # fmt: skip
+        command = [RS274, "-g", "-t", "tool.tbl", "-v", "scratch.var", "in.ngc"]
+        run = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=own_home(folder))
     assert run.returncode == 0, run.stderr
     found = (CALL.match(line) for line in run.stdout.splitlines())
     return [(match[1], [item.strip() for item in match[2].split(",")]) for match in found if match]

@@ -10,7 +10,8 @@ import pytest
 from app.errors import InputError
 from app.model.part import Units
 from app.nc.post import ArcCentre, Coolant
-from app.nc.posts import load_post, post_names, read_post
+from app.nc.posts import load_post, post_names, post_titles, read_post
+from app.nc.read.dialect import HABITS, Dialect
 from app.resources import resource
 
 TEXT = resource("posts", "linuxcnc.toml").read_text("utf-8")
@@ -32,9 +33,21 @@ def test_linuxcnc() -> None:
     assert post.arcs.centre is ArcCentre.INCREMENTAL and post.coolant.use is Coolant.NONE
 
 
+def test_five_controls_come_with_the_program() -> None:
+    assert post_titles() == {"fanuc": "Fanuc", "grbl": "grbl", "haas": "Haas", "linuxcnc": "LinuxCNC", "mach3": "Mach3"}
+    assert {name: load_post(name).extension for name in post_names()} == {
+        "fanuc": ".nc", "grbl": ".nc", "haas": ".nc", "linuxcnc": ".ngc", "mach3": ".tap",
+    }  # fmt: skip
+    assert all(load_post(name).dialect is Dialect(name) for name in post_names())
+
+
 @pytest.mark.parametrize("name", post_names())
-def test_every_post_loads(name: str) -> None:
-    assert load_post(name).title
+def test_posts_know_only_words_of_their_language(name: str) -> None:
+    """No block of a post names a G word that the reader's table says the control lacks."""
+    post, missing = load_post(name), HABITS[Dialect(name)].missing
+    blocks = [*post.program.start, *post.program.tool, *post.program.leave, *post.program.home, *post.program.end, post.blending.exact]
+    blocks += [post.blending.blend, post.drilling.drill, post.drilling.peck, post.drilling.chip_break, post.nurbs.word]
+    assert not missing & {word for block in blocks for word in re.findall(r"[GM][0-9.]+", block)}
 
 
 def test_unknown_post_names_the_known_ones() -> None:
@@ -60,14 +73,27 @@ def test_unknown_post_names_the_known_ones() -> None:
         ("G64 P{blend} Q0", "G64 P{p} Q0", "mill.toml: blending.blend: {p} in 'G64 P{p} Q0' is not known"),
         ('"X", "Y", "Z"', '"X", "Y", "Y"', "mill.toml: words.order is"),
         ('"G2", "G3"]', '"G2"]', "mill.toml: words.motion has 3 texts"),
+        ('"T{tool} M6"', '"T{tool:>4} M6"', "mill.toml: program.tool: 'T{tool:>4} M6' cannot be filled in"),
+        ('"T{tool} M6"', '"T{tool[x]} M6"', "mill.toml: program.tool: {tool[x]} in 'T{tool[x]} M6' is not known"),
+        ('home = []', 'home = ["G0 Z{clearance}"]', "mill.toml: program.home: {clearance} in 'G0 Z{clearance}' is not known"),
+        ("number = 1", "number = 9001", "mill.toml: program.number is 9001; expected is a number from 1 to 7999"),
+        ('form = "bezier"', 'form = "none"', "mill.toml: nurbs.word is 'G5.2' for the form 'none'"),
+        ('dialect = "linuxcnc"', 'dialect = "okuma"', "mill.toml: dialect is 'okuma'; expected is 'linuxcnc' or 'grbl'"),
         ("X = 4", "X = 9", "mill.toml: decimals.mm.X is 9; expected is a number from 0 to 6"),
         ("I = 4", "I = 3", "mill.toml: decimals.mm must be alike"),
         ('title = "LinuxCNC"', "title = ", "mill.toml: this is no TOML file"),
     ],
 )
 def test_wrong_posts_say_what_is_wrong(tmp_path: Path, old: str, new: str, sentence: str) -> None:
-    with pytest.raises(InputError, match="^" + re.escape(sentence)):
+    file, said = sentence.split(": ", 1)
+    with pytest.raises(InputError, match=rf"^{re.escape(file)}(:\d+)?: {re.escape(said)}"):
         read_post(variant(tmp_path, old, new))
+
+
+def test_the_line_is_told(tmp_path: Path) -> None:
+    line = TEXT.splitlines().index("dwell_s = 2.0") + 1
+    with pytest.raises(InputError, match=rf"^mill.toml:{line}: spindle.dwell_s"):
+        read_post(variant(tmp_path, "dwell_s = 2.0", "dwell_s = -1"))
 
 
 def test_whole_numbers_will_do_where_decimals_may_be(tmp_path: Path) -> None:
