@@ -22,4 +22,6 @@ def read_program(data: bytes, options: ReadOptions = DEFAULT, progress: Progress
     Raises:
         Cancelled: the job was asked to stop.
     """
-    raise NotImplementedError
+    from app.nc.read.run import Run  # compiled code: loaded where it is used
+
+    return Run(data, options, progress).read()

@@ -1,0 +1,173 @@
+"""Stage two: a line's words, and the block that they make with the values of this moment."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from app.nc.read.codes import AXES, GROUP_OF, ROTARY, TAKES, Group
+from app.nc.read.expression import NUMBER, Value, Values, evaluated
+from app.nc.read.fault import Fault
+from app.nc.read.parameters import Key, Parameters
+
+Setting = Key | Callable[[Parameters], Key]
+"""Which parameter is set."""
+
+ALWAYS = AXES + ROTARY + "fstn"
+"""Words that need no code in their block to take them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """A letter and its value.
+
+    Attributes:
+        letter: lower case.
+        begin, end: where it stands in the line's code.
+        whole: written as a number without a decimal point.
+    """
+
+    letter: str
+    value: Value
+    begin: int
+    end: int
+    whole: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Parsed:
+    """A line that was understood.
+
+    Attributes:
+        deleted: it begins with a slash.
+        settings: parameters that it sets, in order.
+        words: the others, in order.
+    """
+
+    code: str
+    deleted: bool
+    settings: tuple[tuple[Setting, Value], ...]
+    words: tuple[Word, ...]
+
+
+def parse(code: str, nesting: int) -> Parsed:
+    """Return the words of a line.
+
+    Args:
+        code: as `text.code_of` gives it.
+        nesting: how deep brackets may go.
+
+    Raises:
+        Fault: something in it is no word.
+    """
+    values = Values(code, nesting)
+    deleted = code.startswith("/")
+    if deleted:
+        values.at = 2 if code[1:2].isdigit() else 1
+    settings: list[tuple[Setting, Value]] = []
+    words: list[Word] = []
+    while values.at < len(code):
+        letter, begin = code[values.at], values.at
+        values.at += 1
+        if letter == "#":
+            key = values.key()
+            if code[values.at : values.at + 1] != "=":
+                raise Fault("expected = behind the parameter that is set.", column=-1 - values.at)
+            values.at += 1
+            settings.append((key, values.value()))
+        elif "a" <= letter <= "z":
+            words.append(_word(letter, begin, values))
+        else:
+            raise Fault(f"{letter!r} begins no word; expected a letter with a number.", column=-1 - begin, word=letter)
+    return Parsed(code, deleted, tuple(settings), tuple(words))
+
+
+def _word(letter: str, begin: int, values: Values) -> Word:
+    number = NUMBER.match(values.code, values.at)
+    value = values.value()
+    return Word(letter, value, begin, values.at, number is not None and "." not in number[0])
+
+
+@dataclass(slots=True)
+class Block:
+    """A line's words with their values of this moment.
+
+    Attributes:
+        values: of every letter but G, M and N.
+        whole: letters whose number has no decimal point.
+        codes: G and M codes by group; coolant may be two. unknown: codes of no group.
+        used: letters that something has taken.
+    """
+
+    values: dict[str, float] = field(default_factory=dict)
+    whole: set[str] = field(default_factory=set)
+    codes: dict[Group, str] = field(default_factory=dict)
+    coolant: list[str] = field(default_factory=list)
+    unknown: list[str] = field(default_factory=list)
+
+    def has(self, letters: str) -> bool:
+        """Tell whether any of the letters is there."""
+        return any(letter in self.values for letter in letters)
+
+    def get(self, letter: str) -> float | None:
+        """Return a word's value, None without the word."""
+        return self.values.get(letter)
+
+    def need(self, letter: str, code: str) -> float:
+        """Return the value of a word that a code cannot do without.
+
+        Raises:
+            Fault: it is not there.
+        """
+        if letter not in self.values:
+            raise Fault(f"{code} needs a word {letter.upper()}.", letter=_letter(code))
+        return self.values[letter]
+
+    def unused(self) -> str:
+        """Return the first letter that no code of the block takes, or ""."""
+        codes = [*self.codes.values(), *self.coolant]
+        if not self.values.keys() - set(ALWAYS):
+            return ""
+        taken = set(ALWAYS).union(*(TAKES.get(code, "") for code in codes))
+        return next((letter for letter in self.values if letter not in taken), "")
+
+
+def _letter(code: str) -> str:
+    return code[:1].lower()
+
+
+def block_of(parsed: Parsed, parameters: Parameters) -> Block:
+    """Return a line's block, and set the parameters that the line sets: after all its values are known.
+
+    Raises:
+        Fault: two words of one letter or two codes of one group; a value that is no number.
+    """
+    block = Block()
+    for word in parsed.words:
+        value = evaluated(word.value, parameters)
+        if word.letter in "gm":
+            _add_code(block, f"{word.letter.upper()}{round(value, 2):g}", word)
+        elif word.letter in block.values:
+            raise Fault(f"a block takes one word {word.letter.upper()} only.", column=-1 - word.begin)
+        elif word.letter != "n":
+            block.values[word.letter] = value
+            if word.whole:
+                block.whole.add(word.letter)
+    settings = [(key(parameters) if callable(key) else key, evaluated(value, parameters)) for key, value in parsed.settings]
+    for key, value in settings:
+        parameters.set(key, value)
+    return block
+
+
+def _add_code(block: Block, code: str, word: Word) -> None:
+    group = GROUP_OF.get(code)
+    if group is None:
+        block.unknown.append(code)
+        return
+    before = block.codes.get(group)
+    both = {before, code} == {"M7", "M8"}
+    if before is not None and not both and before != "G53" and code != "G53":
+        raise Fault(f"{before} and {code} in one block contradict one another ({group.value}); write them in two.", column=-1 - word.begin)
+    if group is Group.COOLANT:
+        block.coolant.append(code)
+    block.codes[group] = code

@@ -1,0 +1,229 @@
+"""Stage three: the control as it stands between two blocks, and what every code needs of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from app.model.motion import MotionKind, Nurbs
+from app.model.part import Units
+from app.nc.read.block import Block
+from app.nc.read.codes import AXES, Group
+from app.nc.read.columns import Columns, Motion
+from app.nc.read.cycles import Cycle
+from app.nc.read.dialect import HABITS, Dialect
+from app.nc.read.fault import Fault
+from app.nc.read.offsets import OFFSETS, Offsets, Place
+from app.nc.read.options import ReadOptions, ToolOffset
+from app.nc.read.parameters import Key, Parameters
+from app.nc.read.program import Event, EventKind, FeedMode, ModalState
+
+MOST_EVENTS = 1_000_000
+MOST_WARNINGS = 200
+
+CONTROL_NAMES = {"_vmajor": 2.9, "_vminor": 0.0}
+
+
+class Control:
+    """A control that runs a program.
+
+    Attributes:
+        options, habits: how to read.
+        modal: what is in force. motion: the G word that bare axis words obey, "G80" = none.
+        feed: mm/min, mm a revolution or 1/min, by the feed mode; NaN = not said.
+        at: the controlled point, mm, table coordinates.
+        offsets: where zero is. tool_table: as the program has changed it.
+        selected: T number that the next M6 takes.
+        homes: of G28 and G30, mm, machine coordinates.
+        known: for each axis the first motion that the program itself set, -1 = none yet.
+        cycle: the last canned cycle with its words, None after another motion. initial: the height at which their run began,
+            program coordinates and units.
+        curve: the spline over several blocks that is being written, None outside of one.
+        line: 1-based, of the block that is running.
+        columns, splines, events, warnings: what comes out; a warning is a text, its letter and its line.
+    """
+
+    def __init__(self, options: ReadOptions) -> None:
+        """Stand at the start, as a control does when it is switched on."""
+        self.options, self.habits = options, HABITS[options.dialect]
+        self.modal = ModalState()
+        self.motion = "G80" if options.dialect is Dialect.LINUXCNC else "G0"
+        self.feed = math.nan
+        self.at: Place = options.start
+        self.offsets = Offsets(local_is_set_here=options.dialect is Dialect.LINUXCNC)
+        self.tool_table: dict[int, ToolOffset] = dict(options.tool_table)
+        self.selected = 0
+        self.homes: dict[str, Place] = {"G28": (0.0, 0.0, 0.0), "G30": (0.0, 0.0, 0.0)}
+        self.known = [-1, -1, -1]
+        self.cycle: Cycle | None = None
+        self.initial = 0.0
+        self.curve: object | None = None
+        self.line = 0
+        self.columns = Columns()
+        self.splines: dict[int, Nurbs] = {}
+        self.events: list[Event] = []
+        self.warnings: dict[str, tuple[str, int]] = {}
+        self.parameters = Parameters(self.own_parameter, local_numbers=33 if self.habits.fanuc_flow else 30)
+        self._states: dict[ModalState, int] = {}
+
+    @property
+    def unit(self) -> float:
+        """Millimetres of a length unit of the program."""
+        return self.modal.units.value
+
+    def feed_unit(self, block: Block) -> float:
+        """Return the millimetres of a unit of the block's F; only LinuxCNC takes it in the units before the block's own."""
+        code = block.codes.get(Group.UNITS)
+        if code is None or self.options.dialect is Dialect.LINUXCNC:
+            return self.unit
+        return Units.INCH.value if code == "G20" else Units.MM.value
+
+    @property
+    def least(self) -> float:
+        """Length units that a length without a decimal point counts in."""
+        return self.habits.least_inch if self.modal.units is Units.INCH else self.habits.least_mm
+
+    @property
+    def states(self) -> tuple[ModalState, ...]:
+        """Every state that a motion belongs to; at least one."""
+        return tuple(self._states) or (self.modal,)
+
+    @property
+    def program_place(self) -> Place:
+        """Where the controlled point is in program coordinates, mm."""
+        return self.offsets.to_program(self.at)
+
+    def change(self, **values: object) -> None:
+        """Change what is in force."""
+        self.modal = replace(self.modal, **values)  # type: ignore[arg-type]
+
+    def offsets_changed(self) -> None:
+        """Take the offsets into what is in force."""
+        self.change(work_offset=self.offsets.name, shift=self.offsets.shift, rotation=self.offsets.rotation)
+
+    def state(self) -> int:
+        """Return the index of what is in force."""
+        return self._states.setdefault(self.modal, len(self._states))
+
+    def length(self, block: Block, letter: str) -> float | None:
+        """Return a length word in mm, None without the word."""
+        value = block.values.get(letter)
+        if value is None:
+            return None
+        return value * (self.least if letter in block.whole else 1.0) * self.unit
+
+    def axis_words(self, block: Block) -> Iterator[tuple[int, float]]:
+        """Yield the axis words of a block: axis, mm."""
+        for axis, letter in enumerate(AXES):
+            value = self.length(block, letter)
+            if value is not None:
+                yield axis, value
+
+    def target(self, block: Block) -> Place:
+        """Return where the axis words lead, table coordinates."""
+        if self.offsets.rotation == 0.0:
+            place, shift = list(self.at), self.modal.shift
+            for axis, value in self.axis_words(block):
+                place[axis] = value + shift[axis] if self.modal.absolute else place[axis] + value
+        else:
+            program = list(self.program_place)
+            for axis, value in self.axis_words(block):
+                program[axis] = value if self.modal.absolute else program[axis] + value
+            place = list(self.offsets.to_table((program[0], program[1], program[2])))
+        self._check_place(place)
+        return (place[0], place[1], place[2])
+
+    def _check_place(self, place: list[float]) -> None:
+        if not all(abs(value) < 1e9 for value in place):
+            raise Fault("the motion ends more than 1000 km away; check the numbers.")
+
+    def note_known(self, block: Block) -> None:
+        """Note that the motion to come sets the axes of the block's words."""
+        for axis, letter in enumerate(AXES):
+            if letter in block.values and self.known[axis] < 0:
+                self.known[axis] = self.columns.count
+
+    def move(self, kind: MotionKind, end: Place, feed: float = 0.0, arc: tuple[Place, int] | None = None) -> None:
+        """Add a motion from where the point is.
+
+        Args:
+            kind: how.
+            end: where to, table coordinates.
+            feed: mm/min.
+            arc: centre and turns of an arc.
+
+        Raises:
+            Fault: the program has made more motions than the reader takes.
+        """
+        if self.columns.count >= self.options.limits.motions:
+            raise Fault(f"the program makes more than {self.options.limits.motions} motions; the reader stops here.")
+        motion = Motion(kind, self.at, end, feed, self.line, self.state(), self.modal.plane)
+        if arc is not None:
+            motion.centre, motion.turns = arc
+        self.columns.add(motion)
+        self.at = end
+
+    def feed_along(self, length: float) -> float:
+        """Return the feed of a motion of some length, mm/min.
+
+        Raises:
+            Fault: the program has not said it.
+        """
+        if math.isnan(self.feed):
+            raise Fault("a feed motion needs a feed rate; write F before it or with it.", letter="f")
+        if self.modal.feed_mode is FeedMode.INVERSE_TIME:
+            return self.feed * length
+        if self.modal.feed_mode is FeedMode.PER_REVOLUTION:
+            return self.feed * self.modal.speed
+        return self.feed
+
+    def warn(self, text: str, letter: str = "") -> None:
+        """Note something that the reader does not follow, once for each text."""
+        if len(self.warnings) < MOST_WARNINGS:
+            self.warnings.setdefault(text, (letter, self.line))
+
+    def event(self, kind: EventKind, value: float = 0.0) -> None:
+        """Note something that is no motion.
+
+        Raises:
+            Fault: there are more than anybody needs.
+        """
+        if len(self.events) >= MOST_EVENTS:
+            raise Fault(f"the program stops, dwells and changes tools more than {MOST_EVENTS} times; the reader stops here.")
+        self.events.append(Event(kind, self.columns.count, self.line, value))
+
+    def own_parameter(self, key: Key) -> float | None:
+        """Return a parameter that the control itself sets, None if it is another."""
+        if isinstance(key, str):
+            return self._named(key) if key.startswith("_") else None
+        if key < 5001:
+            return None
+        if 5420 <= key <= 5422:
+            return self.program_place[key - 5420] / self.unit
+        if self.habits.fanuc_flow and 5001 <= key <= 5003:
+            return self.program_place[key - 5001] / self.unit
+        if key == 5220:
+            return self._offset_number()
+        if key == 5400:
+            return float(self.modal.tool)
+        if key == 5403:
+            return self.offsets.tool[2] / self.unit
+        return self.tool_table.get(self.modal.tool, ToolOffset()).diameter / self.unit if key == 5410 else None
+
+    def _offset_number(self) -> float:
+        return float(OFFSETS.index(self.offsets.name) + 1) if self.offsets.name in OFFSETS else 0.0
+
+    def _named(self, key: str) -> float | None:
+        if key in ("_x", "_y", "_z"):
+            return self.program_place["xyz".index(key[1])] / self.unit
+        modal = self.modal
+        own: dict[str, float] = CONTROL_NAMES | {
+            "_metric": float(modal.units is Units.MM), "_imperial": float(modal.units is Units.INCH), "_absolute": float(modal.absolute),
+            "_incremental": float(not modal.absolute), "_plane": (170.0, 180.0, 190.0)[modal.plane], "_rpm": modal.speed,
+            "_feed": 0.0 if math.isnan(self.feed) else self.feed / self.unit, "_current_tool": float(modal.tool),
+            "_selected_tool": float(self.selected), "_spindle_on": float(modal.spindle != 0),
+            "_coord_system": 530 + 10 * self._offset_number(),
+        }  # fmt: skip
+        return own.get(key)
+

@@ -1,0 +1,34 @@
+"""Which control a program looks like it was written for."""
+
+from __future__ import annotations
+
+import re
+
+from app.nc.read.dialect import Dialect
+
+_LOOKED_AT = 200_000
+"""Bytes from the beginning; what tells a control's language stands there, or in none of the program."""
+
+_TELLING: tuple[tuple[Dialect, re.Pattern[str]], ...] = tuple(
+    (dialect, re.compile(words, re.IGNORECASE | re.MULTILINE))
+    for dialect, words in (
+        (Dialect.GRBL, r"\bgrbl|^\s*\$[a-z0-9]"),
+        (Dialect.MACH3, r"\bmach\s?3"),
+        (Dialect.LINUXCNC, r"linuxcnc|^\s*(n\d+\s*)?o\s*<|#\s*<|^\s*(n\d+\s*)?o\s*\d+\s*(sub|if|while|do|repeat|call)\b|g5\.[1-3]|g64\s*p"),
+        (Dialect.HAAS, r"\bhaas|g\s*(187|154\s*p|103\s*p)"),
+        (Dialect.FANUC, r"\bfanuc|^\s*[o:]\s*\d{1,5}\s*(\(|$)|\bif\s*\[.*goto|while\s*\[.*\]\s*do\s*\d|g54\.1|g6\.2|g0?5\s*p1\d{4}|g10\.6"),
+    )
+)
+
+
+def guess_dialect(data: bytes) -> Dialect:
+    """Return the control that a program looks like, LinuxCNC when nothing tells.
+
+    The first of these that speaks: a name in a comment or a word that only this control has, in the order grbl, Mach3,
+    LinuxCNC, Haas, Fanuc.
+
+    Args:
+        data: the file's bytes.
+    """
+    text = data[:_LOOKED_AT].decode("latin-1")
+    return next((dialect for dialect, words in _TELLING if words.search(text)), Dialect.LINUXCNC)

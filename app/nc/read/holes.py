@@ -1,0 +1,73 @@
+"""Canned cycles as the control obeys them: their words out of a block, their steps into motions and events."""
+
+from __future__ import annotations
+
+from app.nc.read.block import Block
+from app.nc.read.control import Control
+from app.nc.read.cycles import Cycle, Dwell, Move, Spindle, Stop, cycle_steps, with_sticky
+from app.nc.read.expression import whole
+from app.nc.read.offsets import Place
+from app.nc.read.program import EventKind
+
+
+def bore(control: Control, block: Block) -> None:
+    """Do the holes of a block of a canned cycle.
+
+    Raises:
+        Fault: a word is missing or has no sense, or the holes are more than the reader takes.
+    """
+    unit = control.unit
+    if control.cycle is None:
+        control.initial = control.program_place[control.modal.plane.axes[2]] / unit
+    cycle = with_sticky(_cycle(control, block), control.cycle)
+    control.cycle = cycle
+    if control.modal.absolute:
+        control.note_known(block)
+    place = control.program_place
+    for step in cycle_steps(cycle, (place[0] / unit, place[1] / unit, place[2] / unit), control.initial):
+        if isinstance(step, Move):
+            _move(control, step)
+        elif isinstance(step, Dwell):
+            control.event(EventKind.DWELL, step.seconds)
+        elif isinstance(step, Spindle):
+            control.change(spindle=step.turning)
+        elif isinstance(step, Stop):
+            control.event(EventKind.STOP)
+
+
+def _move(control: Control, step: Move) -> None:
+    """Do a step; where the control goes astray it believes that it stands where it was meant to."""
+    end = _table(control, step.target)
+    feed = control.feed_along(1.0) if step.kind else 0.0
+    control.move(step.kind, end, feed)
+    if step.meant is not step.target:
+        control.at = _table(control, step.meant)
+
+
+def _table(control: Control, target: Place) -> Place:
+    unit = control.unit
+    return control.offsets.to_table((target[0] * unit, target[1] * unit, target[2] * unit))
+
+
+def _cycle(control: Control, block: Block) -> Cycle:
+    """Return the cycle as the block words it, in units of the program."""
+    u, v, w = control.modal.plane.axes
+    words = [_length(control, block, letter) for letter in "xyz"]
+    repeats = block.get("l")
+    fanuc = control.habits.fanuc_flow
+    if repeats is None and fanuc and control.motion != "G87":
+        repeats = block.get("k")
+    dwell = block.get("p")
+    if dwell is not None:
+        dwell *= control.habits.dwell_unit_s if "p" in block.whole else control.habits.dwell_unit_with_point_s
+    return Cycle(
+        code=control.motion, plane=control.modal.plane, hole=(words[u], words[v]), depth=words[w], r=_length(control, block, "r"),
+        repeats=1 if repeats is None else whole(repeats, "the number of repeats"), dwell=dwell, peck=_length(control, block, "q"),
+        shift=(_length(control, block, "i"), _length(control, block, "j"), _length(control, block, "k")), absolute=control.modal.absolute,
+        retract_to_r=control.modal.retract_to_r, spindle=control.modal.spindle, unit_mm=control.unit, fanuc=fanuc,
+    )  # fmt: skip
+
+
+def _length(control: Control, block: Block, letter: str) -> float | None:
+    value = block.get(letter)
+    return value * control.least if value is not None and letter in block.whole else value

@@ -1,0 +1,231 @@
+"""The reader's loop: line by line through a program, plain ones by the compiled lane, until it ends or cannot go on."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from app.nc.read.block import Block, Parsed, block_of, parse
+from app.nc.read.codes import TAKES, Group
+from app.nc.read.control import Control
+from app.nc.read.dialect import Dialect
+from app.nc.read.fault import Fault
+from app.nc.read.flow import Flow
+from app.nc.read.lane import Plain, plain_blocks
+from app.nc.read.macro import call_or_return, is_macro, obey_macro
+from app.nc.read.moves import move
+from app.nc.read.options import ReadOptions
+from app.nc.read.places import Cursor, Places
+from app.nc.read.program import EventKind, FeedMode, NcProgram, Problem, Severity
+from app.nc.read.settings import before_motion, set_once
+from app.nc.read.text import Text, code_of, column_of
+from app.progress import Progress
+
+LINES_A_STEP = 20_000
+"""Lines between two looks at whether the job was cancelled."""
+
+_PLAIN = re.compile(rb"[ \tgxyzijkrfnGXYZIJKRFN0-9.+\-]*(?:[(;][^\n]*)?\n")
+_O_WORD = re.compile(r"/?(?:n[0-9.]+)?[o:]")
+_MOTIONS = ("G0", "G1", "G2", "G3")
+_ENDS = ("M2", "M30")
+
+
+class Run:
+    """One reading of a program."""
+
+    def __init__(self, data: bytes, options: ReadOptions, progress: Progress) -> None:
+        """Stand before the first line."""
+        self._text, self._options, self._progress = Text(data), options, progress
+        self._control = Control(options)
+        self._habits = self._control.habits
+        self._flow = Flow(Places(self._text), self._control)
+        self._bytes = np.frombuffer(self._text.data, np.uint8)
+        self._plain = Plain(semicolon_comments=True)
+        self._parsed: dict[int, Parsed] = {}
+        self._problems: list[Problem] = []
+        self._percent = False
+        self._furthest = self._looped = self._told = 0
+
+    def read(self) -> NcProgram:
+        """Read all that can be read.
+
+        Raises:
+            Cancelled: the job was asked to stop.
+        """
+        try:
+            self._skip_leader()
+            while self._flow.next.offset < len(self._text.data) and self._step():
+                pass
+        except Fault as fault:
+            self._problems.append(self._located(fault, Severity.ERROR))
+        except RecursionError:
+            self._problems.append(self._located(Fault("the block is too long or too deep to be read."), Severity.ERROR))
+        control = self._control
+        warnings = [Problem(line, 0, letter.upper(), text, Severity.WARNING) for text, (letter, line) in control.warnings.items()]
+        tools, stock = (), None
+        known = [row if row >= 0 else control.columns.count for row in control.known]
+        motions = control.columns.motions(control.splines, (known[0], known[1], known[2]))
+        return NcProgram(motions, control.states, tuple(control.events), (*warnings, *self._problems), tools, stock, self._text.line_count)
+
+    def _skip_leader(self) -> None:
+        """Begin behind the per cent sign of a program that has one; Fanuc's and Haas' readers skip what stands before it."""
+        at = Cursor(0, 1)
+        while at.offset < len(self._text.data):
+            line = self._text.data[at.offset : min(self._text.line_end(at.offset), at.offset + 1000)].strip()
+            if line.startswith(b"%"):
+                self._percent = True
+                self._flow.next = Cursor(self._text.line_end(at.offset) + 1, at.line + 1)
+                return
+            if line and (not self._habits.fanuc_flow or at.line > 20):
+                return
+            at = Cursor(self._text.line_end(at.offset) + 1, at.line + 1)
+
+    def _step(self) -> bool:
+        """Do plain lines, or one line of any kind; False at the end of the program."""
+        flow = self._flow
+        self._count()
+        if _PLAIN.match(self._text.data, flow.next.offset) is not None and self._plain_lines():
+            return True
+        flow.here, self._control.line = flow.next, flow.next.line
+        flow.next = Cursor(self._text.line_end(flow.here.offset) + 1, flow.here.line + 1)
+        return self._obey(flow.here)
+
+    def _count(self) -> None:
+        """Count what is read again; look up now and then."""
+        at = self._flow.next
+        if at.offset >= self._furthest:
+            self._furthest = at.offset
+        else:
+            self._looped += 1
+            if self._looped > self._options.limits.looped_blocks:
+                raise Fault(f"loops and calls have repeated more than {self._options.limits.looped_blocks} blocks; the reader stops here.")
+        self._told += 1
+        if self._told >= LINES_A_STEP:
+            self._told = 0
+            self._progress.step(at.offset / len(self._text.data), "Reading NC")
+
+    def _plain_lines(self) -> bool:
+        """Let the lane do what it can; False where that is nothing."""
+        control, plain, flow = self._control, self._plain, self._flow
+        modal = control.modal
+        if control.curve is not None or modal.feed_mode is not FeedMode.PER_MINUTE or modal.rotation != 0.0:
+            return False
+        room = self._options.limits.motions - control.columns.count
+        plain.position[:], plain.feed, plain.known[:] = control.at, control.feed, control.known
+        plain.motion = _MOTIONS.index(control.motion) if control.motion in _MOTIONS else -1
+        plain.scale, plain.bare_scale = control.unit, control.unit * control.least
+        plain.absolute, plain.arc_absolute, plain.plane = modal.absolute, modal.arc_absolute, int(modal.plane)
+        plain.shift[:], plain.state = modal.shift, control.state()
+        begin = flow.next
+        offset, line = plain_blocks(self._bytes, (begin.offset, begin.line), plain, control.columns, min(room, LINES_A_STEP))
+        if line == begin.line:
+            return False
+        x, y, z = plain.position.tolist()
+        control.at, control.feed, control.known = (x, y, z), plain.feed, plain.known.tolist()
+        if plain.motion >= 0:
+            control.motion, control.cycle = _MOTIONS[plain.motion], None
+        flow.here, flow.next = begin, Cursor(offset, line)
+        self._told += line - begin.line - 1
+        if begin.offset < self._furthest:
+            self._looped += line - begin.line - 1
+        return True
+
+    def _obey(self, at: Cursor) -> bool:
+        """Do a line of any kind; False at the end of the program."""
+        parsed = self._parsed.get(at.offset)
+        if parsed is None:
+            if self._text.line_end(at.offset) - at.offset > self._options.limits.line_length:
+                raise Fault(f"the line is longer than {self._options.limits.line_length} characters.")
+            code = code_of(self._text.line(at.offset), nested=self._options.dialect is not Dialect.LINUXCNC)
+            if code.startswith("%"):
+                return False
+            if not code or (code.startswith("/") and self._options.block_delete):
+                return True
+            done, code = self._jumped(code)
+            if done:
+                return True
+            parsed = parse(code, self._options.limits.nesting)
+            if code and self._flow.nested:
+                self._parsed[at.offset] = parsed
+        return self._execute(block_of(parsed, self._control.parameters))
+
+    def _jumped(self, code: str) -> tuple[bool, str]:
+        """Obey a line that is a jump; return whether it is done, and what is left of it."""
+        if self._habits.fanuc_flow and is_macro(code):
+            rest = obey_macro(self._flow, self._control, code)
+            return not rest, rest
+        if _O_WORD.match(code) is None:
+            return False, code
+        if self._habits.ngc_flow:
+            self._flow.obey(code)
+            return True, ""
+        if not self._habits.fanuc_flow:
+            raise Fault(f"{self._habits.title} knows no O words.", column=-1)
+        return True, ""
+
+    def _execute(self, block: Block) -> bool:
+        """Do a block; False at the end of the program."""
+        control = self._control
+        self._check_codes(block)
+        before_motion(control, block)
+        set_once(control, block)
+        move(control, block)
+        stop = block.codes.get(Group.STOP)
+        if stop in _ENDS:
+            control.event(EventKind.END)
+            return False
+        if stop is not None:
+            control.event(EventKind.OPTIONAL_STOP if stop == "M1" else EventKind.STOP)
+        if not call_or_return(self._flow, control, block):
+            control.warn("M99 begins the program again, for ever; it is read once.", "m")
+            control.event(EventKind.END)
+            return False
+        return True
+
+    def _check_codes(self, block: Block) -> None:
+        """Refuse, or pass over, what the control does not know."""
+        title, strict = self._habits.title, self._options.dialect in (Dialect.LINUXCNC, Dialect.GRBL)
+        for code in [*block.codes.values(), *block.coolant]:
+            if code in self._habits.missing:
+                raise Fault(f"{title} does not know {code}.", letter=code[0].lower())
+        for code in block.unknown:
+            own = code[0] == "M" and 100 <= float(code[1:]) < 200
+            if (code[0] == "G" or strict) and not (own and self._options.dialect is Dialect.LINUXCNC):
+                raise Fault(f"{code} is not known.", letter=code[0].lower())
+            self._control.warn(f"{code} is the machine builder's own; what it does is not followed.", code[0].lower())
+        unused = "" if block.unknown or any(code in block.codes.values() for code in ("M98", "G65")) else self._unused(block)
+        if unused and strict:
+            raise Fault("no code in this block takes this word.", letter=unused)
+        if unused:
+            self._control.warn(f"{unused.upper()} stands in a block where no code takes it; it is passed over.", unused)
+
+    def _unused(self, block: Block) -> str:
+        letter = block.unused()
+        modal = self._control.motion if Group.MOTION not in block.codes else ""
+        return "" if letter and letter in TAKES.get(modal, "") else letter
+
+    def _located(self, fault: Fault, severity: Severity) -> Problem:
+        """Return a fault with its place in the text."""
+        at = self._flow.here
+        line = self._text.line(at.offset)[: self._options.limits.line_length]
+        column, word = fault.column, fault.word
+        if fault.letter and not column:
+            column, word = self._word(line, fault.letter.lower(), fault.text)
+        elif column < 0:
+            column = column_of(line, -1 - column)
+        return Problem(at.line, min(max(column, 0), len(line)), word, fault.text, severity)
+
+    def _word(self, line: str, letters: str, text: str) -> tuple[int, str]:
+        """Return column and spelling of the word that a fault is about: the one that its text names, else the first."""
+        try:
+            words = parse(code_of(line, nested=True).removeprefix("/"), self._options.limits.nesting).words
+        except Fault:
+            return 0, ""
+        mine = [word for word in words if word.letter in letters]
+        named = [word for word in mine if isinstance(word.value, float) and f"{word.letter.upper()}{word.value:g}" in text]
+        if not mine:
+            return 0, ""
+        word = (named or mine)[0]
+        begin, end = column_of(line, word.begin), column_of(line, word.end - 1)
+        return begin, line[begin - 1 : end]

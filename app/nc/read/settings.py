@@ -1,0 +1,357 @@
+"""Codes that set what is in force, in the order in which a control obeys those of one block."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+from app.model.motion import Plane
+from app.model.part import Units
+from app.nc.read.block import Block
+from app.nc.read.codes import Group
+from app.nc.read.control import Control
+from app.nc.read.expression import whole
+from app.nc.read.fault import Fault
+from app.nc.read.offsets import ZERO, Place, added, offset_name, replaced, taken
+from app.nc.read.options import ToolOffset
+from app.nc.read.program import EventKind, FeedMode
+
+PLANES = {"G17": Plane.XY, "G18": Plane.ZX, "G19": Plane.YZ}
+LARGEST_SPEED = 1e7
+LARGEST_DWELL_S = 1e6
+
+
+def before_motion(control: Control, block: Block) -> None:
+    """Obey everything of a block that comes before its motion, and is no offset.
+
+    Raises:
+        Fault: a word is missing or out of range, or there is something that no milling machine can do.
+    """
+    for step in _STEPS:
+        step(control, block)
+
+
+def _feed_mode(control: Control, block: Block) -> None:
+    code = block.codes.get(Group.FEED)
+    if code is None:
+        return
+    mode = FeedMode(code)
+    if mode is not control.modal.feed_mode:
+        control.change(feed_mode=mode)
+        control.feed = math.nan
+
+
+def _feed(control: Control, block: Block) -> None:
+    value = block.get("f")
+    inverse = control.modal.feed_mode is FeedMode.INVERSE_TIME
+    if value is None:
+        if inverse and block.codes.get(Group.MOTION, control.motion) not in ("G0", "G80") and block.has("xyz"):
+            control.feed = math.nan
+        return
+    if value < 0:
+        raise Fault(f"the feed rate is {value:g}; it must be greater than 0.", letter="f")
+    control.feed = value * (1.0 if inverse else control.feed_unit(block)) or math.nan
+
+
+def _speed(control: Control, block: Block) -> None:
+    code, value = block.codes.get(Group.SPINDLE_MODE), block.get("s")
+    if code is not None:
+        control.change(constant_surface=code == "G96")
+    if value is None:
+        return
+    if not 0 <= value < LARGEST_SPEED:
+        raise Fault(f"the spindle speed is {value:g}; it must be 0 or more.", letter="s")
+    if value != control.modal.speed:
+        control.change(speed=value)
+
+
+def _tool_word(control: Control, block: Block) -> None:
+    value = block.get("t")
+    if value is None:
+        return
+    number = whole(value, "the tool number")
+    if not 0 <= number < 10**8:
+        raise Fault(f"the tool number is {number}; it must be 0 or more.", letter="t")
+    control.selected = number
+
+
+def _tool_change(control: Control, block: Block) -> None:
+    code = block.codes.get(Group.TOOL)
+    if code is None:
+        return
+    if not control.habits.tool_changes:
+        raise Fault(f"{control.habits.title} changes no tools; write one file for each tool.", letter="m")
+    number = control.selected
+    if code == "M61":
+        number = whole(block.need("q", code), "the tool number")
+    control.change(tool=number, spindle=control.modal.spindle if code == "M61" else 0)
+    control.event(EventKind.TOOL_CHANGE, float(number))
+
+
+def _spindle(control: Control, block: Block) -> None:
+    code = block.codes.get(Group.SPINDLE)
+    if code in ("M3", "M4", "M5"):
+        control.change(spindle={"M3": 1, "M4": -1, "M5": 0}[code])
+    elif code == "M19":
+        control.change(spindle=0)
+
+
+def _coolant(control: Control, block: Block) -> None:
+    for code in block.coolant:
+        control.change(**{"M7": {"mist": True}, "M8": {"flood": True}, "M9": {"mist": False, "flood": False}}[code])
+
+
+def _dwell(control: Control, block: Block) -> None:
+    if block.codes.get(Group.ONCE) != "G4":
+        return
+    letter = next((letter for letter in "pxu" if block.has(letter)), "")
+    if not letter or (letter != "p" and not control.habits.fanuc_flow):
+        raise Fault("G4 needs how long to wait; write P.", letter="g")
+    habits = control.habits
+    unit = habits.dwell_unit_s if letter in block.whole else habits.dwell_unit_with_point_s
+    seconds = block.values.pop(letter) * unit
+    if not 0 <= seconds <= LARGEST_DWELL_S:
+        raise Fault(f"the dwell is {seconds:g} s; it must be 0 or more.", letter=letter)
+    control.event(EventKind.DWELL, seconds)
+
+
+def _plane(control: Control, block: Block) -> None:
+    code = block.codes.get(Group.PLANE)
+    if code is not None:
+        control.change(plane=PLANES[code])
+
+
+def _units(control: Control, block: Block) -> None:
+    code = block.codes.get(Group.UNITS)
+    if code is not None:
+        control.change(units=Units.INCH if code == "G20" else Units.MM)
+
+
+def _radius(control: Control, block: Block) -> None:
+    code = block.codes.get(Group.RADIUS)
+    if code not in (None, "G40"):
+        raise Fault("cutter compensation is not followed: the path depends on the control's tool table; "
+                    "let the program be written for the tool's centre.", letter="g")
+
+
+def _length(control: Control, block: Block) -> None:
+    code = block.codes.get(Group.LENGTH)
+    if code is None:
+        return
+    number, tool = 0, ZERO
+    if code == "G43.1":
+        tool = _replaced_by_words(control, block, control.offsets.tool)
+        for letter in "xyz":
+            block.values.pop(letter, None)
+    elif code != "G49":
+        number = _length_number(control, block, code)
+        tool = _table_offset(control, number)
+        tool = added(control.offsets.tool, tool) if code == "G43.2" else tool
+        tool = taken(ZERO, tool) if code == "G44" else tool
+    moved = taken(control.offsets.tool, tool)
+    if moved != ZERO:
+        control.at = added(control.at, moved)
+    control.offsets.tool = tool
+    control.change(length_offset=number)
+
+
+def _length_number(control: Control, block: Block, code: str) -> int:
+    """Return the H number that a G43 means."""
+    value = block.get("h")
+    if value is None:
+        if not control.habits.length_from_tool:
+            raise Fault(f"{code} needs a word H on a {control.habits.title} control.", letter="g")
+        return control.modal.tool
+    number = whole(value, "the H number")
+    if number < 0:
+        raise Fault(f"the H number is {number}; it must be 0 or more.", letter="h")
+    return number
+
+
+def _table_offset(control: Control, number: int) -> Place:
+    if number == 0 or not control.tool_table:
+        return ZERO
+    row = control.tool_table.get(number)
+    if row is None:
+        raise Fault(f"tool {number} is not in the tool table.", letter="h")
+    return row.offset
+
+
+def _replaced_by_words(control: Control, block: Block, place: Place) -> Place:
+    for axis, value in control.axis_words(block):
+        place = replaced(place, axis, value)
+    return place
+
+
+def _work_offset(control: Control, block: Block) -> None:
+    code = block.codes.get(Group.OFFSET)
+    if code is None:
+        return
+    control.offsets.name = code
+    if code == "G54.1":
+        number = block.values.pop("p", None)
+        if number is None:
+            raise Fault("G54.1 needs a word P.", letter="g")
+        control.offsets.name = offset_name(whole(number, "P of G54.1"), extended=True)
+    control.offsets_changed()
+
+
+def _path(control: Control, block: Block) -> None:
+    code = block.codes.get(Group.PATH)
+    if code is None:
+        return
+    words, tolerance = [code], 0.0 if code != "G64" else None
+    if code == "G64":
+        for letter in "pq":
+            value = block.values.pop(letter, None) if block.has(letter) else None
+            if value is not None:
+                words.append(f"{letter.upper()}{value:g}")
+                tolerance = max(value * control.unit, 0.0) if letter == "p" else tolerance
+    control.change(path=" ".join(words), path_tolerance=tolerance)
+
+
+def _distance(control: Control, block: Block) -> None:
+    code, arcs = block.codes.get(Group.DISTANCE), block.codes.get(Group.ARC_DISTANCE)
+    if code is not None:
+        control.change(absolute=code == "G90")
+    if arcs is not None:
+        control.change(arc_absolute=arcs == "G90.1")
+
+
+def _return_level(control: Control, block: Block) -> None:
+    code = block.codes.get(Group.RETURN)
+    if code is not None:
+        control.change(retract_to_r=code == "G99")
+
+
+def _refused(control: Control, block: Block) -> None:
+    """Refuse what would move the tool in a way that the reader does not follow."""
+    refused = {"G7": "the diameter mode of lathes", "G16": "polar coordinates", "G51": "scaling", "G68": "rotation", "G65": "a macro call"}
+    for code in block.codes.values():
+        if code in refused:
+            raise Fault(f"{refused[code]} ({code}) is not followed; the reader stops here.", letter="g")
+
+
+_STEPS = (
+    _feed_mode, _feed, _speed, _tool_word, _tool_change, _spindle, _coolant, _dwell, _plane, _units, _radius, _length, _work_offset, _path,
+    _distance, _return_level, _refused,
+)  # fmt: skip
+
+
+def set_once(control: Control, block: Block) -> None:
+    """Obey what changes offsets or tables at once: G10, G52, G92 and their like; takes their axis words.
+
+    Raises:
+        Fault: a word is missing or out of range.
+    """
+    code = block.codes.get(Group.ONCE)
+    act = _ONCE.get(code or "")
+    if code is None or act is None:
+        return
+    act(control, block)
+    control.offsets_changed()
+    if code in ("G10", "G52", "G92"):
+        for letter in "xyz":
+            block.values.pop(letter, None)
+
+
+def _set_local(control: Control, block: Block) -> None:
+    _need_axes(block, "G52")
+    for axis, value in control.axis_words(block):
+        control.offsets.set_local(axis, value)
+
+
+def _call_here(control: Control, block: Block) -> None:
+    if not block.has("xyz"):
+        if control.habits.fanuc_flow and block.has("s"):
+            return
+        _need_axes(block, "G92")
+    for axis, value in control.axis_words(block):
+        control.offsets.call_here(control.at, axis, value)
+
+
+def _need_axes(block: Block, code: str) -> None:
+    if not block.has("xyzabcuvw"):
+        raise Fault(f"{code} needs axis words.", letter="g")
+
+
+def _forget_here(control: Control, block: Block) -> None:
+    control.offsets.set_here, control.offsets.set_here_on = ZERO, True
+
+
+def _suspend_here(control: Control, block: Block) -> None:
+    control.offsets.set_here_on = False
+
+
+def _restore_here(control: Control, block: Block) -> None:
+    control.offsets.set_here_on = True
+
+
+def _home_here(name: str) -> Callable[[Control, Block], None]:
+    def act(control: Control, block: Block) -> None:
+        control.homes[name] = added(control.at, control.offsets.tool)
+
+    return act
+
+
+def _set_table(control: Control, block: Block) -> None:
+    """Obey G10: L2 and L20 set a work offset, L1 and L10 to L13 the tool table."""
+    kind = whole(block.need("l", "G10"), "L of G10")
+    number = whole(block.need("p", "G10"), "P of G10")
+    if kind in (2, 20):
+        _set_work(control, block, kind, number)
+    elif kind in (1, 10, 11, 12, 13):
+        _set_tool(control, block, kind, number)
+    elif not control.habits.fanuc_flow:
+        raise Fault(f"G10 L{kind} is not known; expected L1, L2, L10, L11 or L20.", letter="l")
+
+
+def _set_work(control: Control, block: Block, kind: int, number: int) -> None:
+    offsets = control.offsets
+    values = dict(control.axis_words(block))
+    if number == 0 and control.habits.fanuc_flow:
+        offsets.common = _replaced_by_words(control, block, offsets.common)
+        return
+    extended = kind == 20 and control.habits.fanuc_flow
+    name = offsets.name if number == 0 else offset_name(number, extended)
+    if kind == 20 and not extended:
+        offsets.call_work(name, control.at, values)
+        return
+    place = offsets.work.get(name, ZERO)
+    for axis, value in values.items():
+        place = replaced(place, axis, value if control.modal.absolute or not control.habits.fanuc_flow else place[axis] + value)
+    offsets.work[name] = place
+    if block.has("r"):
+        offsets.turned[name] = math.radians(block.values["r"])
+
+
+def _set_tool(control: Control, block: Block, kind: int, number: int) -> None:
+    """Obey G10 L1 (LinuxCNC's row), or Fanuc's L10 to L13 (length, its wear, radius, its wear; wear is added)."""
+    before = control.tool_table.get(number, ToolOffset())
+    radius = control.length(block, "r")
+    if control.habits.fanuc_flow:
+        if radius is None:
+            raise Fault("G10 needs a word R with the tool's value.", letter="g")
+        if kind in (10, 11):
+            z = radius + (before.offset[2] if kind == 11 else 0.0)
+            control.tool_table[number] = replace(before, offset=replaced(before.offset, 2, z))
+        return
+    place = before.offset
+    for axis, value in control.axis_words(block):
+        tip = control.at[axis] + control.offsets.tool[axis]
+        place = replaced(place, axis, value if kind == 1 else tip - _goal(control, kind, axis, value))
+    control.tool_table[number] = ToolOffset(place, before.diameter if radius is None else 2 * radius)
+
+
+def _goal(control: Control, kind: int, axis: int, value: float) -> float:
+    """Return where G10 L10 (in program coordinates) and L11 (from G59.3) say that the tool's tip is, table coordinates."""
+    if kind == 10:
+        return value + control.modal.shift[axis]
+    return value + control.offsets.work.get("G59.3", ZERO)[axis]
+
+
+_ONCE: dict[str, Callable[[Control, Block], None]] = {
+    "G10": _set_table, "G52": _set_local, "G92": _call_here, "G92.1": _forget_here, "G92.2": _suspend_here, "G92.3": _restore_here,
+    "G28.1": _home_here("G28"), "G30.1": _home_here("G30"),
+}  # fmt: skip
