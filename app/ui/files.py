@@ -17,22 +17,26 @@ from app.ui.figures import counted, grouped
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
 from app.ui.memory import remember
+from app.ui.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
+from app.ui.nc.reading import is_program
 from app.ui.opening import Opened, Opening
 from app.ui.showing import Showing
 from app.ui.views import View
 
 FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
+OPEN_FILTER = f"Drawings and NC programs (*.dxf *.DXF {' '.join('*' + suffix for suffix in PROGRAM_SUFFIXES)});;All files (*)"
 _UNIT_NAMES = {Units.MM: "mm", Units.INCH: "inch"}
 
 
 class Files(QObject):
     """Everything between the window and files."""
 
-    def __init__(self, window: MainWindow, showing: Showing, log: Log) -> None:
+    def __init__(self, window: MainWindow, showing: Showing, log: Log, open_program: Callable[[Path], None]) -> None:
         super().__init__(window)
         self._window, self._showing, self._log = window, showing, log
         self._document, self._computation = window.document, window.computation
         self._gives_up = False
+        self._open_program = open_program
         self.opening = Opening(window.document, window.worker)
         self.exporting = Exporting(window.computation, window.notice, self._choose_nc_file)
         window.dropped.connect(lambda path: self.open_file(Path(path)))
@@ -56,7 +60,10 @@ class Files(QObject):
         self._leave_drawing("Open the sample part", self.open_sample)
 
     def open_file(self, path: Path, units: Units | None = None) -> None:
-        """Open a drawing, after asking when changes would be lost."""
+        """Open a drawing, after asking when changes would be lost; an NC program is shown beside it, and nothing is lost."""
+        if is_program(path):
+            self._open_program(path)
+            return
         self._leave_drawing(f"Open {path.name}", lambda: self.opening.open(path, units))
 
     def open_sample(self) -> None:
@@ -71,9 +78,9 @@ class Files(QObject):
         self._window.notice.hide()
         self._showing.show_view(View.DRAW)
 
-    def choose_drawing(self) -> None:
-        """Ask for a drawing and open it."""
-        name, _ = QFileDialog.getOpenFileName(self._window, "Open drawing", self._window.settings.last_folder, opening_files.FILTER)
+    def choose_file(self) -> None:
+        """Ask for a drawing or a program and open it."""
+        name, _ = QFileDialog.getOpenFileName(self._window, "Open", self._window.settings.last_folder, OPEN_FILTER)
         if name:
             self.open_file(Path(name))
 
@@ -83,7 +90,7 @@ class Files(QObject):
         for name in self._window.settings.recent_files:
             menu.addAction(name, partial(self.open_file, Path(name)))
         if menu.isEmpty():
-            menu.addAction("No drawing was opened yet").setEnabled(False)
+            menu.addAction("Nothing was opened yet").setEnabled(False)
 
     def _choose_nc_file(self) -> Path | None:
         stem = self._document.path.stem if self._document.path else self._document.part.name

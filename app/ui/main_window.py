@@ -16,6 +16,7 @@ from app.ui.bars import ToolStrip, TopBar
 from app.ui.canvas.canvas import Canvas
 from app.ui.command_line import CommandLine
 from app.ui.computation import Computation
+from app.ui.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
 from app.ui.notice import Notice
 from app.ui.opening import SUFFIXES
 from app.ui.panels.side_panel import SidePanel
@@ -31,7 +32,7 @@ class MainWindow(QMainWindow):
     """Menu, bars, views, panel, log, command line, status.
 
     Signals:
-        dropped(path): a drawing was dropped on the window. closing(): about to close; `may_close` tells whether it may.
+        dropped(path): a drawing or an NC program was dropped on the window. closing(): about to close; `may_close` tells whether it may.
     """
 
     dropped = Signal(str)
@@ -107,13 +108,13 @@ class MainWindow(QMainWindow):
         self.actions_[f"theme_{choice.value}"].setChecked(True)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
-        """Welcome one drawing."""
+        """Welcome one drawing or NC program."""
         urls = event.mimeData().urls()
-        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith(SUFFIXES):
+        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith((*SUFFIXES, *PROGRAM_SUFFIXES)):
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 (Qt's name)
-        """Open the drawing that was dropped."""
+        """Open the file that was dropped."""
         event.acceptProposedAction()
         self.dropped.emit(event.mimeData().urls()[0].toLocalFile())
 

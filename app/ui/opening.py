@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from app.files.drawing import Drawing
 
 SUFFIXES = (".dxf",)
-FILTER = "Drawings (*.dxf *.DXF);;All files (*)"
 
 
 @dataclass(frozen=True)

@@ -37,6 +37,7 @@ NOTHING = Missing()
 NO_DRAWING = Missing("Nothing is drawn yet. Pick a tool at the left, type  rect 0,0 60,40  or open a drawing.", "Open a drawing")
 NO_PATHS = Missing("There are no tool paths yet.", "Compute  F5", "compute")
 NO_NC = Missing("There is no NC program yet.", "Compute  F5", "compute")
+NO_PROGRAM = Missing("There is no NC program yet. Draw a part and compute it, or open a program.", "Open an NC program", "nc_open")
 COMPUTING = Missing("The paths are being computed.", "Cancel  Shift+F5", "cancel")
 
 
@@ -57,8 +58,7 @@ class Showing(QObject):
         window.worker.busy_changed.connect(self._on_busy)
         window.status.badge.clicked.connect(self.open_findings)
         window.findings_list.picked.connect(self.go_to)
-        window.views.nc.line_picked.connect(self._on_line_picked)
-        window.canvas.tool_changed.connect(lambda _: self._show_missing())
+        window.canvas.tool_changed.connect(lambda _: self.show_missing())
         window.views.empty.pressed.connect(lambda: window.actions_[self._empty_action].trigger())
         window.views.legend.layer_switched.connect(self._on_layer)
         window.views.legend.colour_chosen.connect(lambda by: window.canvas.set_colour_by(ColourBy(by)))
@@ -89,7 +89,7 @@ class Showing(QObject):
         self.view = view
         self._window.actions_[view.value].setChecked(True)
         self._window.views.show_view(view)
-        self._show_missing()
+        self.show_missing()
 
     def refresh(self, change: Change) -> None:
         """Show what changed in the document."""
@@ -98,7 +98,7 @@ class Showing(QObject):
             margin = 2 * self._document.job.stock.margin
             self._window.panel.show_size(None if size is None else (size[0] + margin, size[1] + margin))
             self._window.views.legend.show_job(self._document.job)
-            self._show_missing()
+            self.show_missing()
         self._show_titles()
 
     def _show_titles(self) -> None:
@@ -118,20 +118,22 @@ class Showing(QObject):
             actions[action].setEnabled(drawn)
         actions["compute"].setEnabled(drawn)
 
-    def _show_missing(self) -> None:
+    def show_missing(self) -> None:
+        """Say what the view lacks, if it lacks anything."""
         made = self._computation.made
         missing = self._missing()
         self._empty_action = missing.action
         self._window.views.show_missing(missing.sentence, missing.button, made is not None)
 
     def _missing(self) -> Missing:
-        if self._computation.made is not None:
+        if self._computation.made is not None or (self.view is View.NC and len(self._window.views.nc.text.text)):
             return NOTHING
         if self._computation.state is State.RUNNING:
             return COMPUTING if self.view is not View.DRAW else NOTHING
         if not self._document.part.entities:
-            drawing = self.view is not View.NC and self._window.canvas.tool is not CanvasTool.SELECT
-            return NOTHING if drawing else NO_DRAWING
+            if self.view is View.NC:
+                return NO_PROGRAM
+            return NOTHING if self._window.canvas.tool is not CanvasTool.SELECT else NO_DRAWING
         return {View.PATHS: NO_PATHS, View.NC: NO_NC}.get(self.view, NOTHING)
 
     def show_hovered(self, text: str) -> None:
@@ -146,14 +148,12 @@ class Showing(QObject):
             self._window.canvas.set_program(picture)
             if picture is not None:
                 self._window.views.legend.show_left(bool(picture.left), bool(picture.unreachable))
-            if made is not None:
-                self._window.views.nc.show_program(made.nc.text, made.nc.lines, made.program.moves)
             self._window.canvas.set_findings(self._marked())
         self._window.canvas.set_stale(self._computation.outdated)
         strokes = made.program.strokes if made is not None and state is State.CURRENT else None
         self._window.panel.show_results(self._computation.operation_times(), strokes)
         self._show_badge()
-        self._show_missing()
+        self.show_missing()
         self._window.status.show_message(state.value)
         self._window.actions_["cancel"].setEnabled(self._window.worker.busy)
 
@@ -196,11 +196,4 @@ class Showing(QObject):
         self._window.canvas.go_to(finding.x, finding.y, closely=True)
         self._window.canvas.setFocus()
         self._document.select(finding.entity_ids)
-
-    def _on_line_picked(self, move: int) -> None:
-        program = self._computation.program
-        if program is not None:
-            x, y, z = (float(v) for v in program.moves.end[move])
-            self._window.canvas.go_to(x, y)
-            self._window.status.show_message(f"Ends at X {x:.3f} Y {y:.3f} Z {z:.3f}, part coordinates.")
 

@@ -72,10 +72,10 @@ class StatusBar(QWidget):
         for widget in (self.step, self.bar, self.cancel, self.badge):
             row.addWidget(widget)
 
-    def show_place(self, x: float, y: float) -> None:
-        """Show where the mouse is, mm."""
-        self.place_x.setText(f"X {x:.3f}")
-        self.place_y.setText(f"Y {y:.3f}")
+    def show_place(self, x: float, y: float, axes: str = "XY") -> None:
+        """Show where the mouse is, mm, to the right and up, along which axes."""
+        self.place_x.setText(f"{axes[0]} {x:.3f}")
+        self.place_y.setText(f"{axes[1]} {y:.3f}")
 
     def show_grid(self, step: float) -> None:
         """Show the grid's step at this zoom, mm."""

@@ -28,6 +28,9 @@ QWidget#toolStrip { border-right: 1px solid $hairline; }
 QWidget#sidePanel { border-left: 1px solid $hairline; }
 QWidget#logArea, QWidget#commandRow, QWidget#statusBar { border-top: 1px solid $hairline; }
 QFrame#hairline { background: $hairline; border: 0; }
+QWidget#ncBar { background: $paper; border-bottom: 1px solid $hairline; }
+QWidget#ncProblems { background: $paper; border-top: 1px solid $hairline; }
+QSplitter::handle { background: $hairline; }
 QLabel { color: $ink; background: transparent; }
 QLabel[role="muted"] { color: $muted; }
 QLabel[role="error"] { color: $error; }
@@ -80,6 +83,10 @@ QComboBox::drop-down { border: 0; width: 18px; }
 QComboBox::down-arrow { image: url($arrow); width: 12px; height: 12px; }
 QComboBox QAbstractItemView { background: $raised; color: $ink; border: 1px solid $hairline; outline: 0;
   selection-background-color: $chosen; selection-color: $ink; }
+QListWidget { background: transparent; border: 0; outline: 0; padding: 0 4px; }
+QListWidget::item { padding: 3px 8px; border-radius: 4px; }
+QListWidget::item:hover { background: $hover; }
+QListWidget::item:selected { background: $chosen; }
 QScrollArea, QScrollArea > QWidget > QWidget { background: transparent; border: 0; }
 QScrollBar:vertical { background: transparent; width: 8px; margin: 0; }
 QScrollBar:horizontal { background: transparent; height: 8px; margin: 0; }

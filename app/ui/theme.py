@@ -21,7 +21,7 @@ class Theme:
         hairline, grid, grid_major: separators and raster.
         accent: the bitmap's phosphor green; accent_ink: text on it; accent_text: green that can be read on paper.
         pocket … unreachable: tool paths and findings; region_fill: the area to machine.
-        error, warning, ok: verdicts, readable as text on paper.
+        error, warning, ok: verdicts, readable as text on paper. parameter: parameters and O words of NC text, splines.
         regions: cycle of eight for colouring by region; none is taken for plunge, contour, gouge or left material.
     """
 
@@ -52,6 +52,7 @@ class Theme:
     error: QColor
     warning: QColor
     ok: QColor
+    parameter: QColor
     regions: tuple[QColor, ...]
 
     def hex_colours(self) -> dict[str, str]:
@@ -71,7 +72,7 @@ LIGHT = Theme(
     accent=QColor("#2BD47D"), accent_ink=QColor("#08301B"), accent_text=QColor("#0B7A43"), selection=QColor("#2BD47D"),
     pocket=QColor("#009E73"), contour=QColor("#E69F00"), rest=QColor("#CC79A7"), rapid=QColor("#8A8F98"), plunge=QColor("#D55E00"),
     gouge=QColor("#D32F2F"), left=QColor("#2979FF"), unreachable=QColor("#B0A8C8"), region_fill=QColor("#F3F5F2"),
-    error=QColor("#C62828"), warning=QColor("#8A5A00"), ok=QColor("#0B7A43"),
+    error=QColor("#C62828"), warning=QColor("#8A5A00"), ok=QColor("#0B7A43"), parameter=QColor("#6A4BB5"),
     regions=_regions("#009E73", "#CC79A7", "#7A6BC2", "#7F8C2A", "#56B4E9", "#882255", "#8A6A4A", "#3B4F9E"),
 )
 
@@ -82,7 +83,7 @@ DARK = Theme(
     accent=QColor("#2BD47D"), accent_ink=QColor("#06251A"), accent_text=QColor("#3FDD8C"), selection=QColor("#2BD47D"),
     pocket=QColor("#1DB98C"), contour=QColor("#F0AE2B"), rest=QColor("#DB92B9"), rapid=QColor("#7C828C"), plunge=QColor("#EE7A2B"),
     gouge=QColor("#F0524F"), left=QColor("#4C8DFF"), unreachable=QColor("#8F86AC"), region_fill=QColor("#171B20"),
-    error=QColor("#FF7B74"), warning=QColor("#F0AE2B"), ok=QColor("#3FDD8C"),
+    error=QColor("#FF7B74"), warning=QColor("#F0AE2B"), ok=QColor("#3FDD8C"), parameter=QColor("#B5A4F0"),
     regions=_regions("#1DB98C", "#DB92B9", "#9C8EE0", "#A7B44A", "#7CC7F2", "#C4568F", "#B8926A", "#7484D8"),
 )
 

@@ -12,7 +12,8 @@ from app.ui.canvas.canvas import Canvas
 from app.ui.canvas.modes import CanvasMode
 from app.ui.fade import Fade
 from app.ui.legend import Legend
-from app.ui.nc_view import NcView
+from app.ui.nc.nc_view import NcView
+from app.ui.nc.path_view import PathView
 from app.ui.theme import LIGHT, Theme
 
 _RULER_PX, _MARGIN_PX = 24, 16
@@ -87,9 +88,15 @@ class Views(QStackedWidget):
         self.view = view
         if view is View.NC:
             self.setCurrentWidget(self.nc)
+            self.nc.text.setFocus()
         else:
             self.setCurrentWidget(self.canvas)
             self.canvas.set_mode(CanvasMode.PATHS if view is View.PATHS else CanvasMode.DRAW)
+
+    @property
+    def viewport(self) -> Canvas | PathView:
+        """What zooms and fits in the view at the front."""
+        return self.nc.path if self.view is View.NC else self.canvas
 
     def show_missing(self, sentence: str, button: str, shows_paths: bool) -> None:
         """Say what is missing in the view, or nothing when `sentence` is empty.

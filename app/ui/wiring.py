@@ -19,6 +19,8 @@ from app.ui.help import show_about, show_keys
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
 from app.ui.memory import choose_theme
+from app.ui.nc.control import NcControl
+from app.ui.nc.wiring import NcWiring
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.showing import Showing
 from app.ui.verdict import Level, verdict
@@ -44,12 +46,15 @@ class Wiring(QObject):
         self.window_, self.document, self.computation = window, window.document, window.computation
         self.log = Log(window.document, window.command_line.log)
         self.showing = Showing(window)
-        self.files = Files(window, self.showing, self.log)
+        self.nc = NcControl(window, self.log)
+        self.files = Files(window, self.showing, self.log, self.nc.open)
         self._connect_files()
         self._connect_edit()
         self._connect_view()
         self._connect_job()
         self._connect_canvas()
+        self._nc_wiring = NcWiring(window, self.nc, self.showing)
+        self.nc.failed.connect(self._say_error)
         self._unsubscribe = self.document.subscribe(self.showing.refresh)
         self.showing.show_view(View.DRAW)
         self.showing.refresh(Change.ALL)
@@ -60,7 +65,7 @@ class Wiring(QObject):
     def _connect_files(self) -> None:
         files = self.files
         self._on("new", files.ask_new)
-        self._on("open", files.choose_drawing)
+        self._on("open", files.choose_file)
         self._on("sample", files.ask_sample)
         self._on("export", files.exporting.start)
         self._on("quit", self.window_.close)
@@ -81,9 +86,9 @@ class Wiring(QObject):
         canvas, actions = self.window_.canvas, self.window_.actions_
         for view in View:
             self._on(view.value, partial(self.showing.show_view, view))
-        self._on("fit", canvas.fit)
-        self._on("zoom_in", lambda: canvas.zoom_by(1.5))
-        self._on("zoom_out", lambda: canvas.zoom_by(1 / 1.5))
+        self._on("fit", lambda: self.window_.views.viewport.fit())
+        self._on("zoom_in", lambda: self.window_.views.viewport.zoom_by(1.5))
+        self._on("zoom_out", lambda: self.window_.views.viewport.zoom_by(1 / 1.5))
         status = self.window_.status
         switches = (("snap", status.snap, canvas.set_snap), ("ortho", status.ortho, canvas.set_ortho),
                     ("grid", status.grid, canvas.set_grid_snap))

@@ -91,22 +91,12 @@ def test_tabs_lead_from_drawing_to_nc(qtbot, computed):
     window = computed.window_
     qtbot.mouseClick(window.top_bar.tabs["view_nc"], Qt.MouseButton.LeftButton)
     assert window.views.currentWidget() is window.views.nc
-    assert window.views.nc.lines == computed.computation.made.nc.text.splitlines()
+    assert window.views.nc.text.text.text == computed.computation.made.nc.text
     assert not window.views.legend.isVisible()
     qtbot.mouseClick(window.top_bar.tabs["view_draw"], Qt.MouseButton.LeftButton)
     assert window.views.currentWidget() is window.canvas
     press(qtbot, computed, Qt.Key.Key_2, Qt.KeyboardModifier.ControlModifier)
     assert computed.showing.view is View.PATHS
-
-
-def test_picked_nc_line_tells_its_place(qtbot, computed):
-    nc, made = computed.window_.views.nc, computed.computation.made
-    computed.showing.show_view(View.NC)
-    with qtbot.waitSignal(nc.line_picked) as caught:
-        nc.pick(int(made.nc.lines[10]) - 1)
-    assert made.nc.lines[caught.args[0]] == made.nc.lines[10]
-    x = made.program.moves.end[caught.args[0], 0]
-    assert f"X {x:.3f}" in computed.window_.status.message.text()
 
 
 def test_export_writes_what_was_computed(qtbot, computed, tmp_path):

@@ -30,20 +30,25 @@ def cells_shown(view: View, frame: Frame) -> bool:
     return frame.pitch * view.scale >= CELL_PX
 
 
-def paint_paper(painter: QPainter, view: View, area: QRectF, frame: Frame, theme: Theme) -> None:
-    """Paint ground, raster, cells and frame within a screen rectangle."""
+def paint_paper(painter: QPainter, view: View, area: QRectF, frame: Frame | None, theme: Theme) -> None:
+    """Paint ground, raster, and the display's cells and frame where there is one, within a screen rectangle."""
     painter.fillRect(area, theme.canvas)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
     minor, major = grid_steps(view)
     _paint_raster(painter, view, area, minor, theme.grid)
     _paint_raster(painter, view, area, major, theme.grid_major)
+    if frame is not None:
+        _paint_frame(painter, view, area, frame, theme)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+
+
+def _paint_frame(painter: QPainter, view: View, area: QRectF, frame: Frame, theme: Theme) -> None:
     x0, y0, x1, y1 = frame.extent
     outline = QRectF(view.to_screen((x0, y1)), view.to_screen((x1, y0)))
     if cells_shown(view, frame):
         _paint_cells(painter, view, outline.intersected(area), frame, theme)
     painter.setPen(_line(theme.hairline.darker(112) if theme.canvas.lightness() > 128 else theme.hairline.lighter(130)))
     painter.drawRect(_within(outline, area))
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
 
 
 def paint_origin(painter: QPainter, view: View, theme: Theme) -> None:

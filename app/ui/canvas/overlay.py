@@ -132,15 +132,20 @@ def paint_highlight(painter: QPainter, view: View, path: QPainterPath, theme: Th
 
 def paint_findings(painter: QPainter, view: View, findings: tuple[Finding, ...], theme: Theme) -> None:
     """Paint a ring with a cross at the place of each finding; remarks are quieter."""
-    painter.setBrush(Qt.BrushStyle.NoBrush)
     for finding in findings:
         if finding.x is None or finding.y is None:
             continue
         at = view.to_screen((finding.x, finding.y))
-        painter.setPen(QPen(theme.error if finding.counts else theme.warning, 1.8 if finding.counts else 1.2))
-        painter.drawEllipse(at, 8.0, 8.0)
-        for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-            painter.drawLine(QPointF(at.x() + 5 * dx, at.y() + 5 * dy), QPointF(at.x() + 11 * dx, at.y() + 11 * dy))
+        paint_place(painter, at, theme.error if finding.counts else theme.warning, 1.8 if finding.counts else 1.2)
+
+
+def paint_place(painter: QPainter, at: QPointF, colour: QColor, width: float = 1.8) -> None:
+    """Paint a ring with a cross round a place on the screen."""
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setPen(QPen(colour, width))
+    painter.drawEllipse(at, 8.0, 8.0)
+    for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+        painter.drawLine(QPointF(at.x() + 5 * dx, at.y() + 5 * dy), QPointF(at.x() + 11 * dx, at.y() + 11 * dy))
 
 
 def snap_name(snap: Snap | None) -> str:

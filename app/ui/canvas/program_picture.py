@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 
@@ -101,7 +102,7 @@ class ProgramPicture:
             painter.drawPath(chunk.path)
         painter.restore()
         if PathLayers.PLUNGE in look.layers:
-            self._paint_plunges(painter, view, box, look.theme)
+            paint_plunges(painter, view, self._plunges, box, (look.theme.plunge, look.theme.canvas))
 
     def _pen(self, painter: QPainter, style: PathStyle, look: PathLook, fine: bool) -> QPen:
         width = LINK_WIDTH if style.purpose in (Purpose.LINK, Purpose.LEAD) else CUT_WIDTH
@@ -127,18 +128,28 @@ class ProgramPicture:
                 colour.setAlphaF(0.10)
             painter.fillPath(path, colour)
 
-    def _paint_plunges(self, painter: QPainter, view: View, box: Box, theme: Theme) -> None:
-        near = self._plunges[np.all((self._plunges >= box[:2]) & (self._plunges <= box[2:]), axis=1)]
-        places = [view.to_screen((x, y)) for x, y in near.tolist()]
-        if len(places) < _MANY_PLUNGES:
-            rings = QPainterPath()
-            for at in places:
-                rings.addEllipse(at, 4.4, 4.4)
-            painter.setPen(QPen(theme.plunge, 1.4))
-            painter.setBrush(theme.canvas)
-            painter.drawPath(rings)
-        painter.setPen(QPen(theme.plunge, 3.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
-        painter.drawPoints(places)
+
+def paint_plunges(painter: QPainter, view: View, places: NDArray[np.float64], box: Box, colours: tuple[QColor, QColor]) -> None:
+    """Paint a ring where a tool plunges; many of them are dots.
+
+    Args:
+        painter: works in screen px.
+        view: from mm to px.
+        places: (n, 2) mm.
+        box: what is seen, mm.
+        colours: of the ring, of the ground in it.
+    """
+    near = places[np.all((places >= box[:2]) & (places <= box[2:]), axis=1)]
+    seen = [view.to_screen((x, y)) for x, y in near.tolist()]
+    if len(seen) < _MANY_PLUNGES:
+        rings = QPainterPath()
+        for at in seen:
+            rings.addEllipse(at, 4.4, 4.4)
+        painter.setPen(QPen(colours[0], 1.4))
+        painter.setBrush(colours[1])
+        painter.drawPath(rings)
+    painter.setPen(QPen(colours[0], 3.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+    painter.drawPoints(seen)
 
 
 def _roles(styles: list[PathStyle]) -> dict[tuple[int, int], str]:

@@ -1,0 +1,1 @@
+"""The NC view: a program's text, its path, and the way from each to the other."""

@@ -1,0 +1,197 @@
+"""What the NC view shows: the job's program, or another that was opened; reads it in the background."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QFileDialog
+
+from app.atomic import write_atomically
+from app.errors import HitofudeError
+from app.nc.read.dialect import Dialect
+from app.nc.read.program import Severity
+from app.ui.computation import State
+from app.ui.figures import counted
+from app.ui.log import Log
+from app.ui.main_window import MainWindow
+from app.ui.nc.motion_shapes import Side
+from app.ui.nc.program_text import program_text
+from app.ui.nc.reading import FILTER, Reading, Shown, Source
+from app.ui.views import View
+
+
+class NcControl(QObject):
+    """Decides what the NC view shows; the drawing and its job are never touched from here.
+
+    Signals:
+        changed(): another program, or none, is shown. failed(sentence).
+    """
+
+    changed = Signal()
+    failed = Signal(str)
+
+    def __init__(self, window: MainWindow, log: Log) -> None:
+        super().__init__(window)
+        self._window, self._log, self._view = window, log, window.views.nc
+        self._computation = window.computation
+        self._own: Source | None = None
+        self._foreign: Source | None = None
+        self._made: object = None
+        self.reading = Reading(self)
+        self.reading.failed.connect(self.failed)
+        self.reading.progress.connect(window.status.show_progress)
+        self.reading.busy_changed.connect(self._on_busy)
+        window.status.cancelled.connect(self.reading.worker.cancel)
+        self._computation.changed.connect(self._follow)
+        self._view.side_wanted.connect(self._draw_side)
+        self._view.head.dialect_chosen.connect(self._read_as)
+        self._view.banner.pressed.connect(self._on_banner)
+
+    @property
+    def source(self) -> Source | None:
+        """What is shown, or is about to be."""
+        return self._foreign or self._own
+
+    @property
+    def foreign(self) -> bool:
+        """Whether another program than the job's is shown."""
+        return self._foreign is not None
+
+    def open(self, path: Path) -> None:
+        """Show the program of a file; until it is read, what was there stays."""
+        self._read(Source(path.name, path=path), remember=True)
+
+    def show_text(self, name: str, text: str) -> None:
+        """Show a program that was made just now and is in no file yet."""
+        self._read(Source(name, data=text.encode()))
+
+    def choose(self) -> None:
+        """Ask for a program and open it."""
+        name, _ = QFileDialog.getOpenFileName(self._window, "Open NC program", self._window.settings.last_folder, FILTER)
+        if name:
+            self.open(Path(name))
+
+    def back(self) -> None:
+        """Show the job's program again."""
+        if self._foreign is not None:
+            self._foreign = None
+            self._show_own()
+
+    def save_as(self) -> None:
+        """Write the shown text to a file; the job's program is exported, with its findings."""
+        if self._foreign is None:
+            self._window.actions_["export"].trigger()
+            return
+        start = str(Path(self._window.settings.last_folder or Path.home()) / self._foreign.name)
+        name, _ = QFileDialog.getSaveFileName(self._window, "Save NC program", start, FILTER)
+        if name:
+            self.save(Path(name))
+
+    def save(self, path: Path) -> None:
+        """Write the shown program, byte for byte, to a file: whole or not at all."""
+        shown = self._view.shown
+        if shown is None or shown.source.data is None:
+            return
+        try:
+            write_atomically(path, shown.source.data)
+        except HitofudeError as error:
+            self.failed.emit(str(error))
+            return
+        self._log.note(f"save {path.name}", f"{counted(len(shown.text), 'line')} written to {path}")
+        self._window.status.show_message(f"{path.name} is written.")
+
+    def _read(self, source: Source, remember: bool = False) -> None:
+        self.reading.read(source, self._view.side, partial(self._on_foreign, remember))
+
+    def _on_foreign(self, remember: bool, shown: Shown) -> None:
+        source, window = shown.source, self._window
+        again = self._foreign is not None and self._foreign.path == source.path and self._foreign.name == source.name
+        self._foreign = source
+        if remember and source.path is not None:
+            window.settings = window.settings.with_recent_file(source.path)
+        self._view.show_program(shown)
+        self._show_heads(shown.guessed)
+        if not again:
+            window.notice.hide()
+            self._log.note(f"open {source.name}", _sentence(shown), error=shown.program.error is not None)
+            window.actions_[View.NC.value].trigger()
+            self._view.text.setFocus()
+        self.changed.emit()
+
+    def _read_as(self, dialect: Dialect | None) -> None:
+        if self._foreign is not None:
+            self._read(replace(self._foreign, dialect=dialect))
+
+    def _follow(self) -> None:
+        """Show the job's program when it was computed anew, unless another one is looked at."""
+        made = self._computation.made
+        if made is not self._made:
+            self._made = made
+            self._own = self._own_source()
+            if self._foreign is None:
+                self._show_own()
+        self._show_heads()
+
+    def _own_source(self) -> Source | None:
+        from app.nc.posts import load_post
+
+        made = self._computation.made
+        if made is None or not made.nc.text:
+            return None
+        post, document = load_post(made.job.post), self._window.document
+        stem = document.path.stem if document.path else made.job.part.name
+        return Source(f"{stem}{post.extension}", data=made.nc.text.encode(), dialect=post.dialect)
+
+    def _show_own(self) -> None:
+        source = self._own
+        self._view.show_text(source.name if source is not None else "", program_text(source.bytes() if source is not None else b""))
+        self._show_heads()
+        if source is not None:
+            self.reading.read(source, self._view.side, self._on_own)
+        self.changed.emit()
+
+    def _on_own(self, shown: Shown) -> None:
+        if self._foreign is None:
+            self._view.show_program(shown)
+            self.changed.emit()
+
+    def _show_heads(self, guessed: Dialect | None = None) -> None:
+        """Say what is shown: another program, or one that the job has outgrown."""
+        source, banner = self.source, self._view.banner
+        dialect = source.dialect if source is not None else None
+        if guessed is not None or not self.foreign:
+            self._view.head.show_dialect(guessed or dialect or Dialect.LINUXCNC, dialect, self.foreign)
+        if self.foreign:
+            banner.say("Not the job's program.", "Back to the job's program")
+        elif self._computation.outdated and self._computation.state is not State.RUNNING:
+            banner.say("The job has changed since.", "Compute  F5")
+        else:
+            banner.hide()
+
+    def _on_banner(self) -> None:
+        if self.foreign:
+            self.back()
+        else:
+            self._window.actions_["compute"].trigger()
+
+    def _draw_side(self, side: Side) -> None:
+        shown = self._view.shown
+        if shown is not None:
+            self.reading.draw(shown.shapes, side, self._view.add_picture)
+
+    def _on_busy(self, busy: bool) -> None:
+        if busy or not self._window.worker.busy:
+            self._window.status.show_progress(0.0 if busy else None)
+
+
+def _sentence(shown: Shown) -> str:
+    """Return what there is to say about a program that was opened."""
+    problems = shown.program.problems
+    errors = sum(problem.severity is Severity.ERROR for problem in problems)
+    words = [counted(len(shown.text), "line"), counted(len(shown.shapes), "motion")]
+    words += [counted(errors, "error")] if errors else []
+    words += [counted(len(problems) - errors, "warning")] if len(problems) > errors else []
+    return f"{', '.join(words)}. {shown.program.error.told(shown.source.name) if shown.program.error else ''}".strip()

@@ -1,0 +1,157 @@
+"""Paints a program's motions from one side: rapids dotted, plunges in their own hue, cuts by tool or by kind of motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QPainter, QPainterPath
+
+from app.edit.sample import Box
+from app.model.motion import MotionKind
+from app.ui.canvas.curve_path import MANY, path_of
+from app.ui.canvas.pens import FINE, screen_pen
+from app.ui.canvas.program_chunks import rapids_path
+from app.ui.canvas.program_geometry import RUN
+from app.ui.canvas.program_picture import CUT_WIDTH, RAPID_DOTS, RAPID_WIDTH, paint_plunges
+from app.ui.canvas.view import View
+from app.ui.nc.motion_shapes import Look, MotionShapes, Side, tools_of
+from app.ui.theme import Theme
+
+Floats = NDArray[np.float64]
+
+_MANY_RAPIDS = 1_500
+"""So many dotted lines take Qt too long; they are painted faint instead."""
+
+
+class PathColour(Enum):
+    """What the colour of a motion tells."""
+
+    TOOL = "tool"
+    MOTION = "motion"
+
+
+@dataclass(frozen=True, slots=True)
+class PathPaint:
+    """How a picture is painted.
+
+    Attributes:
+        one: a single hue for everything, for a program laid over another; None = colours that tell something.
+    """
+
+    theme: Theme
+    colour: PathColour = PathColour.TOOL
+    one: QColor | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Chunk:
+    """Motions of one look: a path in mm, and what its colour depends on."""
+
+    path: QPainterPath
+    look: Look
+    tool: int
+    kind: MotionKind
+
+
+def tool_colour(order: int, theme: Theme) -> QColor:
+    """Return the colour of the program's first (0), second (1), ... tool."""
+    three = (theme.pocket, theme.contour, theme.rest)
+    return three[order] if order < len(three) else theme.regions[(order - 1) % len(theme.regions)]
+
+
+def motion_colour(kind: MotionKind, theme: Theme) -> QColor:
+    """Return the colour of a kind of motion."""
+    return {MotionKind.RAPID: theme.rapid, MotionKind.LINE: theme.pocket, MotionKind.ARC_CW: theme.contour,
+            MotionKind.ARC_CCW: theme.rest, MotionKind.SPLINE: theme.parameter}[kind]
+
+
+class MotionPicture:
+    """One program seen from one side, ready to paint.
+
+    Attributes:
+        shapes: its motions. side: from where they are seen.
+        tools: T numbers that cut, in order; what colours by tool count.
+    """
+
+    def __init__(self, shapes: MotionShapes, side: Side) -> None:
+        """Build every path once, in mm."""
+        self.shapes, self.side, self.tools = shapes, side, tools_of(shapes)
+        self._order = {tool: at for at, tool in enumerate(self.tools)}
+        self._chunks: list[_Chunk] = []
+        self._boxes: Floats = np.zeros((0, 4))
+        self._sizes = np.zeros(0, np.int64)
+        columns = list(side.value)
+        motions = shapes.program.motions
+        plunge = shapes.look == Look.PLUNGE
+        self._plunges = np.unique(motions.end[plunge][:, columns], axis=0) if side is Side.XY else np.zeros((0, 2))
+        rapid = np.hstack([motions.start[:, columns], motions.end[:, columns]])[shapes.look == Look.RAPID]
+        self._rapids = np.unique(rapid[np.any(rapid[:, :2] != rapid[:, 2:], axis=1)], axis=0)
+        self._cut(shapes)
+
+    @property
+    def box(self) -> Box | None:
+        """x0, y0, x1, y1 of all that is seen, mm; None when there is nothing."""
+        return self.box_of(None)
+
+    def box_of(self, motions: NDArray[np.int64] | None) -> Box | None:
+        """Return x0, y0, x1, y1 of some motions seen from this side, mm."""
+        corners = self.shapes.box(motions)
+        if corners is None:
+            return None
+        (x0, y0), (x1, y1) = (corner[list(self.side.value)].tolist() for corner in corners)
+        return (x0, y0, x1, y1)
+
+    def paint(self, painter: QPainter, view: View, box: Box, how: PathPaint) -> None:
+        """Paint what lies in a box in mm; the painter works in screen px."""
+        painter.save()
+        painter.setTransform(view.transform(), True)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        self._paint_rapids(painter, box, how)
+        boxes = self._boxes
+        near = (boxes[:, 0] <= box[2]) & (boxes[:, 2] >= box[0]) & (boxes[:, 1] <= box[3]) & (boxes[:, 3] >= box[1])
+        seen = np.flatnonzero(near)
+        width = FINE if int(self._sizes[seen].sum()) > MANY else CUT_WIDTH
+        for chunk in (self._chunks[k] for k in seen):
+            painter.setPen(screen_pen(painter, self._colour(chunk, how), width))
+            painter.drawPath(chunk.path)
+        painter.restore()
+        paint_plunges(painter, view, self._plunges, box, (how.one or how.theme.plunge, how.theme.canvas))
+
+    def _paint_rapids(self, painter: QPainter, box: Box, how: PathPaint) -> None:
+        path = rapids_path(self._rapids, box)
+        colour = QColor(how.one or how.theme.rapid)
+        if path.elementCount() > 2 * _MANY_RAPIDS:
+            colour.setAlphaF(0.35)
+            painter.setPen(screen_pen(painter, colour, FINE))
+        else:
+            painter.setPen(screen_pen(painter, colour, RAPID_WIDTH, RAPID_DOTS))
+        painter.drawPath(path)
+
+    def _colour(self, chunk: _Chunk, how: PathPaint) -> QColor:
+        if how.one is not None:
+            return how.one
+        if chunk.look is Look.PLUNGE:
+            return how.theme.plunge
+        return motion_colour(chunk.kind, how.theme) if how.colour is PathColour.MOTION else tool_colour(self._order[chunk.tool], how.theme)
+
+    def _cut(self, shapes: MotionShapes) -> None:
+        """Cut the feeds into chunks of about 96 motions of one look, tool and kind."""
+        seen = shapes.look != Look.RAPID
+        if self.side is Side.XY:
+            seen &= shapes.look != Look.PLUNGE
+        rows = np.flatnonzero(seen)
+        keys = np.stack([shapes.look[rows], shapes.tool[rows], shapes.program.motions.kind[rows]], axis=1).astype(np.int64)
+        styles, which = np.unique(keys, axis=0, return_inverse=True)
+        boxes, sizes = [], []
+        for number, (look, tool, kind) in enumerate(styles.tolist()):
+            own = rows[which.ravel() == number]
+            for part in np.array_split(own, max(1, len(own) // RUN)):
+                elements, at = shapes.elements(part, self.side)
+                self._chunks.append(_Chunk(path_of(elements.tobytes()), Look(look), tool, MotionKind(kind)))
+                boxes.append(self.box_of(part))
+                sizes.append(int(at[-1]))
+        self._boxes, self._sizes = np.array(boxes).reshape(-1, 4), np.array(sizes, dtype=np.int64)

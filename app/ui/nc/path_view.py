@@ -1,0 +1,226 @@
+"""The path of a program, seen from above or from a side: zoom, pan, pick a motion, light motions up."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPainterPath, QPen
+from PySide6.QtWidgets import QWidget
+
+from app.model.curves import Point
+from app.ui.canvas import overlay
+from app.ui.canvas.grid import paint_origin, paint_paper, paint_ruler_marks, paint_rulers
+from app.ui.canvas.view import fitted
+from app.ui.canvas.viewport import Viewport
+from app.ui.nc.motion_hover import describe_motion, nearest_motion
+from app.ui.nc.motion_picture import MotionPicture, PathColour, PathPaint
+from app.ui.nc.motion_shapes import Side
+from app.ui.theme import LIGHT, Theme, text_font
+
+_PICK_PX, _CLICK_PX, _BLEED_PX = 6.0, 4.0, 8.0
+_FRAME = (0.0, 0.0, 100.0, 100.0)
+
+
+class PathView(Viewport):
+    """Shows motions and tells which one is picked.
+
+    Signals:
+        motion_picked(index): a motion was clicked. hovered(sentence): what is under the mouse, or "".
+        cursor_moved(right, up): the place under the mouse, mm.
+    """
+
+    motion_picked = Signal(int)
+    hovered = Signal(str)
+    cursor_moved = Signal(float, float)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._how = PathPaint(LIGHT)
+        self.picture: MotionPicture | None = None
+        self.other: MotionPicture | None = None
+        self._lit, self._under, self._band = QPainterPath(), QPainterPath(), np.zeros(0, np.int64)
+        self._hover: int | None = None
+        self._ends_at: Point | None = None
+        self._mouse: QPointF | None = None
+        self._pressed: QPointF | None = None
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setMinimumSize(200, 150)
+        self.setAccessibleName("Path of the NC program")
+
+    @property
+    def lit(self) -> NDArray[np.int64]:
+        """The motions that are lit up."""
+        return self._band
+
+    def set_theme(self, theme: Theme) -> None:
+        """Paint with another theme."""
+        self._how = PathPaint(theme, self._how.colour)
+        self.repaint_scene()
+
+    def set_colour(self, colour: PathColour) -> None:
+        """Colour by tool or by kind of motion."""
+        self._how = PathPaint(self._how.theme, colour)
+        self.repaint_scene()
+
+    def show_picture(self, picture: MotionPicture | None, other: MotionPicture | None = None) -> None:
+        """Show a program's motions, and perhaps another program's over them; what was lit up is not any more."""
+        self.picture, self.other = picture, other
+        self._hover, self._under = None, QPainterPath()
+        self.light(np.zeros(0, np.int64))
+        problem = picture.shapes.program.error if picture is not None else None
+        ended = picture is not None and problem is not None and len(picture.shapes)
+        self._ends_at = self._seen(picture.shapes.program.motions.end[-1]) if picture is not None and ended else None
+        self.repaint_scene()
+
+    def fit(self) -> None:
+        """Show everything."""
+        self.glide_to_box(self._whole())
+
+    def fit_now(self) -> None:
+        """Show everything at once, and again when the size changes."""
+        self.fit_to(self._whole())
+
+    def light(self, motions: NDArray[np.int64]) -> None:
+        """Light up some motions, by number."""
+        self._band = motions
+        self._lit = self.picture.shapes.path(motions, self.picture.side) if self.picture is not None else QPainterPath()
+        self.update()
+
+    def bring_into_sight(self) -> None:
+        """Move the picture so that what is lit up is seen, no farther than needed."""
+        box = self.picture.box_of(self._band) if self.picture is not None and len(self._band) else None
+        if box is None:
+            return
+        free = self.area.adjusted(24, 24, -24, -24)
+        seen = QRectF(self.view.to_screen((box[0], box[3])), self.view.to_screen((box[2], box[1]))).normalized()
+        middle = ((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
+        if seen.width() > free.width() or seen.height() > free.height():
+            if not seen.intersects(free):
+                self.glide_to(fitted(box, self.area))
+        elif not free.contains(seen):
+            self.glide_to(self.view.centred(middle, self.area))
+
+    def paint_scene(self, painter: QPainter, area: QRectF) -> None:
+        """Paint raster and motions within a screen rectangle."""
+        theme = self._how.theme
+        box = self.view.world_box(area.adjusted(-_BLEED_PX, -_BLEED_PX, _BLEED_PX, _BLEED_PX))
+        paint_paper(painter, self.view, area, None, theme)
+        if self.picture is not None:
+            self.picture.paint(painter, self.view, box, self._how)
+        if self.other is not None:
+            self.other.paint(painter, self.view, box, PathPaint(theme, one=theme.left))
+        paint_origin(painter, self.view, theme)
+        self._name_axes(painter)
+
+    def paint_margins(self, painter: QPainter) -> None:
+        """Paint the rulers."""
+        paint_rulers(painter, self.view, self.width(), self.height(), self._how.theme)
+
+    def paint_overlay(self, painter: QPainter) -> None:
+        """Paint what is lit up, what is under the mouse, and where reading ended."""
+        painter.setClipRect(self.area)
+        theme = self._how.theme
+        if not self._lit.isEmpty():
+            overlay.paint_highlight(painter, self.view, self._lit, theme)
+            self._paint_end(painter, theme)
+        if not self._under.isEmpty():
+            overlay.paint_highlight(painter, self.view, self._under, theme, 1.5)
+        if self._ends_at is not None:
+            overlay.paint_place(painter, self.view.to_screen(self._ends_at), theme.error)
+        painter.setClipping(False)
+        if self._mouse is not None and self.area.contains(self._mouse):
+            paint_ruler_marks(painter, self._mouse, theme)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Hold the picture; what is not dragged is a click."""
+        if event.button() in (Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton):
+            self._pressed = event.position() if event.button() is Qt.MouseButton.LeftButton else None
+            if self._pressed is None:
+                self.begin_pan(event.position())
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Drag the picture, or look at what lies under the mouse."""
+        self._mouse = event.position()
+        if self._pressed is not None and (event.position() - self._pressed).manhattanLength() > _CLICK_PX:
+            self.begin_pan(self._pressed)
+            self._pressed = None
+        if not self.pan_to(event):
+            self._look(event.position())
+        self.cursor_moved.emit(*self.view.to_world(event.position()))
+        self.update()
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Let the picture go, or pick."""
+        if self.end_pan():
+            self.unsetCursor()
+        elif self._pressed is not None:
+            self._pressed = None
+            picked = self._at(event.position())
+            if picked is not None:
+                self.motion_picked.emit(picked)
+
+    def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
+        """Forget the mouse."""
+        self._mouse = None
+        self._show_hover(None)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
+        """F and Home fit, + and - zoom."""
+        keys: dict[int, Callable[[], None]] = {
+            Qt.Key.Key_F: self.fit, Qt.Key.Key_Home: self.fit, Qt.Key.Key_Plus: lambda: self.zoom_by(1.5),
+            Qt.Key.Key_Minus: lambda: self.zoom_by(1 / 1.5),
+        }
+        act = keys.get(event.key())
+        if act is not None and not event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+            act()
+        else:
+            super().keyPressEvent(event)
+
+    def _whole(self) -> tuple[float, float, float, float]:
+        boxes = [b for b in (p.box for p in (self.picture, self.other) if p is not None) if b is not None]
+        if not boxes:
+            return _FRAME
+        x0, y0, x1, y1 = zip(*boxes, strict=True)
+        return (min(x0), min(y0), max(x1), max(y1))
+
+    def _seen(self, point: NDArray[np.float64]) -> Point:
+        side = self.picture.side if self.picture is not None else Side.XY
+        return (float(point[side.value[0]]), float(point[side.value[1]]))
+
+    def _paint_end(self, painter: QPainter, theme: Theme) -> None:
+        """Paint where the last of the lit motions ends: this is where the tool is."""
+        if self.picture is not None and len(self._band):
+            painter.setPen(QPen(theme.accent_text, 1.8))
+            painter.setBrush(theme.canvas)
+            painter.drawEllipse(self.view.to_screen(self._seen(self.picture.shapes.program.motions.end[self._band[-1]])), 4.5, 4.5)
+
+    def _name_axes(self, painter: QPainter) -> None:
+        """Write the names of the two axes at the arrows of the zero."""
+        names = "XYZ"
+        side = self.picture.side if self.picture is not None else Side.XY
+        zero = self.view.to_screen((0.0, 0.0))
+        painter.setFont(text_font(11))
+        painter.setPen(QColor(self._how.theme.muted))
+        painter.drawText(QPointF(zero.x() + 41, zero.y() + 4), names[side.value[0]])
+        painter.drawText(QPointF(zero.x() - 3.5, zero.y() - 41), names[side.value[1]])
+
+    def _at(self, position: QPointF) -> int | None:
+        if self.picture is None or not len(self.picture.shapes) or not self.area.contains(position):
+            return None
+        return nearest_motion(self.picture.shapes, self.picture.side, self.view.to_world(position), _PICK_PX / self.view.scale)
+
+    def _look(self, position: QPointF) -> None:
+        self._show_hover(self._at(position))
+
+    def _show_hover(self, motion: int | None) -> None:
+        if motion == self._hover or self.picture is None:
+            return
+        self._hover = motion
+        shapes = self.picture.shapes
+        self._under = shapes.path(np.array([motion]), self.picture.side) if motion is not None else QPainterPath()
+        self.hovered.emit(describe_motion(shapes, motion) if motion is not None else "")
+        self.update()

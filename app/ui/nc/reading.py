@@ -1,0 +1,163 @@
+"""Reading programs in the background: from a file or a text to lines, motions and pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal
+
+from app.errors import InputError
+from app.nc.duration import Duration
+from app.nc.read.dialect import Dialect
+from app.nc.read.program import NcProgram
+from app.progress import Progress
+from app.ui.nc.line_looks import LineLooks, line_looks
+from app.ui.nc.motion_picture import MotionPicture
+from app.ui.nc.motion_shapes import MotionShapes, Side, shape_motions
+from app.ui.nc.program_text import ProgramText, program_text
+from app.ui.worker import Answer, Worker
+
+SUFFIXES = (".ngc", ".nc", ".tap", ".gcode", ".cnc", ".g", ".gc", ".eia", ".min", ".mpf", ".txt")
+FILTER = f"NC programs ({' '.join('*' + suffix for suffix in SUFFIXES)});;All files (*)"
+
+
+def is_program(path: Path) -> bool:
+    """Return whether a file's name says that it is an NC program."""
+    return path.suffix.lower() in SUFFIXES
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """What is to be read.
+
+    Attributes:
+        name: for people. data: the bytes; None = those of the file. path: the file, None = it is in none.
+        dialect: the control's; None = as it looks.
+    """
+
+    name: str
+    data: bytes | None = None
+    path: Path | None = None
+    dialect: Dialect | None = None
+
+    def bytes(self) -> bytes:
+        """Return the program's bytes.
+
+        Raises:
+            InputError: the file cannot be read.
+        """
+        if self.data is not None:
+            return self.data
+        try:
+            return Path(self.path or self.name).read_bytes()
+        except OSError as error:
+            raise InputError(f"Cannot read {self.path}: {error.strerror}. Choose another file.") from error
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """A program that was read, ready to be shown.
+
+    Attributes:
+        source: where it came from, with its bytes. dialect: in which it was read.
+        text, looks, shapes: lines, their looks, the motions. times: when each motion ends.
+        pictures: of the sides that were asked for.
+    """
+
+    source: Source
+    dialect: Dialect
+    guessed: Dialect
+    text: ProgramText
+    looks: LineLooks
+    shapes: MotionShapes
+    times: Duration
+    pictures: dict[Side, MotionPicture]
+
+    @property
+    def program(self) -> NcProgram:
+        """What the reader made of it."""
+        return self.shapes.program
+
+
+def read_shown(source: Source, side: Side, progress: Progress) -> Shown:
+    """Read a program and prepare everything that is shown of it.
+
+    Raises:
+        InputError: the file cannot be read.
+        Cancelled: the job was asked to stop.
+    """
+    from app.files.machine_toml import DEFAULT_MACHINE, load_machine
+    from app.nc.duration import duration
+    from app.nc.read.guess import guess_dialect
+    from app.nc.read.options import ReadOptions
+    from app.nc.read.reader import read_program
+
+    progress.step(0.0, f"Reading {source.name}")
+    data = source.bytes()
+    text = program_text(data)
+    guessed = guess_dialect(data)
+    dialect = source.dialect or guessed
+    program = read_program(data, ReadOptions(dialect), progress.part(0.05, 0.6))
+    progress.step(0.6, "Preparing the picture")
+    shapes = shape_motions(program)
+    progress.step(0.7, "Preparing the picture")
+    picture = MotionPicture(shapes, side)
+    progress.step(0.95, "Estimating the time")
+    times = duration(program, load_machine(DEFAULT_MACHINE))
+    looks = line_looks(len(text), shapes, program.problems)
+    return Shown(replace(source, data=data), dialect, guessed, text, looks, shapes, times, {side: picture})
+
+
+class Reading(QObject):
+    """Runs one job for the NC view at a time; a newer one takes its place, and its answer goes to whoever asked last.
+
+    Signals:
+        failed(sentence). busy_changed(bool). progress(fraction, text).
+    """
+
+    failed = Signal(str)
+    busy_changed = Signal(bool)
+    progress = Signal(float, str)
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.worker = Worker(self)
+        self._then: Callable[[Any], None] = _nothing
+        self._job = 0
+        self.worker.done.connect(self._on_done)
+        self.worker.failed.connect(self._on_failed)
+        self.worker.busy_changed.connect(self.busy_changed)
+        self.worker.progress.connect(self.progress)
+
+    def start(self, function: Callable[[Progress], object], then: Callable[[Any], None]) -> None:
+        """Run `function(progress)` on another thread, then call `then(answer)` on this one."""
+        self._then = then
+        self._job = self.worker.start(function, 0)
+
+    def read(self, source: Source, side: Side, then: Callable[[Shown], None]) -> None:
+        """Read a program, then show it."""
+        self.start(lambda progress: read_shown(source, side, progress), then)
+
+    def draw(self, shapes: MotionShapes, side: Side, then: Callable[[MotionPicture], None]) -> None:
+        """Prepare the picture of another side."""
+        self.start(lambda progress: _drawn(shapes, side, progress), then)
+
+    def _on_done(self, answer: Answer) -> None:
+        if answer.job_id == self._job:
+            self._then(answer.value)
+
+    def _on_failed(self, answer: Answer) -> None:
+        if answer.job_id == self._job:
+            self.failed.emit(answer.error or "")
+
+
+def _drawn(shapes: MotionShapes, side: Side, progress: Progress) -> MotionPicture:
+    progress.step(0.0, "Preparing the picture")
+    return MotionPicture(shapes, side)
+
+
+def _nothing(_: object) -> None:
+    """Before anything was asked for."""

@@ -1,0 +1,73 @@
+"""What the keys, the menu and the mouse do in the NC view."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from PySide6.QtCore import QObject, QPoint
+from PySide6.QtWidgets import QMenu
+
+from app.ui.main_window import MainWindow
+from app.ui.nc.control import NcControl
+from app.ui.nc.motion_shapes import Side
+from app.ui.showing import Showing
+from app.ui.views import View
+
+_CONTEXT = ("nc_find", "nc_line", "", "nc_save", "nc_back")
+_SIDES = {"nc_xy": Side.XY, "nc_xz": Side.XZ, "nc_yz": Side.YZ}
+
+
+class NcWiring(QObject):
+    """Connects the NC menu and the NC view."""
+
+    def __init__(self, window: MainWindow, control: NcControl, showing: Showing) -> None:
+        super().__init__(window)
+        self._window, self._control, self._showing, self._view = window, control, showing, window.views.nc
+        self._on("nc_open", control.choose)
+        self._on("nc_back", control.back)
+        self._on("nc_save", control.save_as)
+        view = self._view
+        self._in_view("nc_find", view.begin_find)
+        self._in_view("nc_line", partial(view.begin_find, ":"))
+        self._in_view("nc_find_next", view.find_next)
+        self._in_view("nc_find_before", partial(view.find_next, back=True))
+        self._in_view("nc_problem", partial(view.problems.step, 1))
+        self._in_view("nc_problem_before", partial(view.problems.step, -1))
+        for name, side in _SIDES.items():
+            self._in_view(name, partial(view.set_side, side))
+        view.menu_asked.connect(self._open_menu)
+        view.path.hovered.connect(showing.show_hovered)
+        view.path.cursor_moved.connect(lambda right, up: window.status.show_place(right, up, view.side.name))
+        control.changed.connect(self._refresh)
+        self._refresh()
+
+    def _on(self, name: str, act: Callable[[], object]) -> None:
+        self._window.actions_[name].triggered.connect(lambda *_: act())
+
+    def _in_view(self, name: str, act: Callable[[], object]) -> None:
+        """Do something in the NC view, which comes to the front."""
+        def bring_and_act() -> None:
+            if self._showing.view is not View.NC:
+                self._showing.show_view(View.NC)
+            act()
+
+        self._on(name, bring_and_act)
+
+    def _refresh(self) -> None:
+        actions, control = self._window.actions_, self._control
+        actions["nc_back"].setEnabled(control.foreign)
+        for name in ("nc_save", "nc_find", "nc_find_next", "nc_find_before", "nc_line"):
+            actions[name].setEnabled(control.source is not None)
+        for name in ("nc_problem", "nc_problem_before"):
+            actions[name].setEnabled(bool(self._view.problems.problems))
+        self._showing.show_missing()
+
+    def _open_menu(self, at: QPoint) -> None:
+        menu = QMenu(self._view)
+        for name in _CONTEXT:
+            if name:
+                menu.addAction(self._window.actions_[name])
+            else:
+                menu.addSeparator()
+        menu.popup(at)
