@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from enum import Enum
+from enum import StrEnum
 
 AXES = "xyz"
 ROTARY = "abcuvw"
 
 
-class Group(Enum):
+class Group(StrEnum):
     """Codes of one group exclude one another in a block; the value says what they are about."""
 
     ONCE = "what is done once"

@@ -40,7 +40,7 @@ class Control:
         cycle: the last canned cycle with its words, None after another motion. initial: the height at which their run began,
             program coordinates and units.
         curve: the spline over several blocks that is being written, None outside of one.
-        line: 1-based, of the block that is running.
+        line: 1-based, of the block that is running. unrolled: blocks that were done again.
         columns, splines, events, warnings: what comes out; a warning is a text, its letter and its line.
     """
 
@@ -59,13 +59,14 @@ class Control:
         self.cycle: Cycle | None = None
         self.initial = 0.0
         self.curve: object | None = None
-        self.line = 0
+        self.line = self.unrolled = 0
         self.columns = Columns()
         self.splines: dict[int, Nurbs] = {}
         self.events: list[Event] = []
         self.warnings: dict[str, tuple[str, int]] = {}
         self.parameters = Parameters(self.own_parameter, local_numbers=33 if self.habits.fanuc_flow else 30)
         self._states: dict[ModalState, int] = {}
+        self._last: tuple[ModalState | None, int] = (None, 0)
 
     @property
     def unit(self) -> float:
@@ -104,7 +105,9 @@ class Control:
 
     def state(self) -> int:
         """Return the index of what is in force."""
-        return self._states.setdefault(self.modal, len(self._states))
+        if self.modal is not self._last[0]:
+            self._last = self.modal, self._states.setdefault(self.modal, len(self._states))
+        return self._last[1]
 
     def length(self, block: Block, letter: str) -> float | None:
         """Return a length word in mm, None without the word."""
@@ -177,6 +180,16 @@ class Control:
         if self.modal.feed_mode is FeedMode.PER_REVOLUTION:
             return self.feed * self.modal.speed
         return self.feed
+
+    def unroll(self, blocks: int = 1) -> None:
+        """Count blocks that are done again.
+
+        Raises:
+            Fault: they are more than the reader takes.
+        """
+        self.unrolled += blocks
+        if self.unrolled > self.options.limits.looped_blocks:
+            raise Fault(f"loops, calls and cycles repeat more than {self.options.limits.looped_blocks} blocks; the reader stops here.")
 
     def warn(self, text: str, letter: str = "") -> None:
         """Note something that the reader does not follow, once for each text."""

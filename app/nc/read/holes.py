@@ -26,6 +26,7 @@ def bore(control: Control, block: Block) -> None:
     place = control.program_place
     for step in cycle_steps(cycle, (place[0] / unit, place[1] / unit, place[2] / unit), control.initial):
         if isinstance(step, Move):
+            control.unroll()
             _move(control, step)
         elif isinstance(step, Dwell):
             control.event(EventKind.DWELL, step.seconds)

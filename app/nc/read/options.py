@@ -13,7 +13,7 @@ class ReadLimits:
     """What a program may ask for before the reader stops with an error, so that no text can hang it.
 
     Attributes:
-        looped_blocks: blocks that loops, subroutines and jumps repeat.
+        looped_blocks: blocks that loops, subroutines and jumps repeat, and motions of holes that one block makes.
         motions: motions in all.
         line_length: characters of one line.
         nesting: brackets in brackets, and arguments of arguments.

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from app.nc.read.text import Text, code_of
 
 KEYWORDS = (
-    "sub", "endsub", "return", "call", "do", "while", "endwhile", "if", "elseif", "else", "endif", "repeat", "endrepeat", "break", "continue",
+    "sub", "endsub", "return", "call", "do", "while", "endwhile", "if", "elseif", "else", "endif", "repeat", "endrepeat", "break",
+    "continue",
 )  # fmt: skip
 
 _O_LINE = re.compile(

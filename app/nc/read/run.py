@@ -45,7 +45,7 @@ class Run:
         self._parsed: dict[int, Parsed] = {}
         self._problems: list[Problem] = []
         self._percent = False
-        self._furthest = self._looped = self._told = 0
+        self._furthest = self._told = 0
 
     def read(self) -> NcProgram:
         """Read all that can be read.
@@ -97,9 +97,7 @@ class Run:
         if at.offset >= self._furthest:
             self._furthest = at.offset
         else:
-            self._looped += 1
-            if self._looped > self._options.limits.looped_blocks:
-                raise Fault(f"loops and calls have repeated more than {self._options.limits.looped_blocks} blocks; the reader stops here.")
+            self._control.unroll()
         self._told += 1
         if self._told >= LINES_A_STEP:
             self._told = 0
@@ -128,7 +126,7 @@ class Run:
         flow.here, flow.next = begin, Cursor(offset, line)
         self._told += line - begin.line - 1
         if begin.offset < self._furthest:
-            self._looped += line - begin.line - 1
+            control.unroll(line - begin.line - 1)
         return True
 
     def _obey(self, at: Cursor) -> bool:

@@ -28,14 +28,18 @@ def before_motion(control: Control, block: Block) -> None:
     Raises:
         Fault: a word is missing or out of range, or there is something that no milling machine can do.
     """
-    for step in _STEPS:
-        step(control, block)
+    if Group.FEED in block.codes:
+        _feed_mode(control, block)
+    _feed(control, block)
+    _speed(control, block)
+    _tool_word(control, block)
+    for group, step in _STEPS:
+        if group in block.codes:
+            step(control, block)
 
 
 def _feed_mode(control: Control, block: Block) -> None:
-    code = block.codes.get(Group.FEED)
-    if code is None:
-        return
+    code = block.codes[Group.FEED]
     mode = FeedMode(code)
     if mode is not control.modal.feed_mode:
         control.change(feed_mode=mode)
@@ -55,9 +59,9 @@ def _feed(control: Control, block: Block) -> None:
 
 
 def _speed(control: Control, block: Block) -> None:
-    code, value = block.codes.get(Group.SPINDLE_MODE), block.get("s")
-    if code is not None:
-        control.change(constant_surface=code == "G96")
+    if Group.SPINDLE_MODE in block.codes:
+        control.change(constant_surface=block.codes[Group.SPINDLE_MODE] == "G96")
+    value = block.values.get("s")
     if value is None:
         return
     if not 0 <= value < LARGEST_SPEED:
@@ -77,9 +81,7 @@ def _tool_word(control: Control, block: Block) -> None:
 
 
 def _tool_change(control: Control, block: Block) -> None:
-    code = block.codes.get(Group.TOOL)
-    if code is None:
-        return
+    code = block.codes[Group.TOOL]
     if not control.habits.tool_changes:
         raise Fault(f"{control.habits.title} changes no tools; write one file for each tool.", letter="m")
     number = control.selected
@@ -90,7 +92,7 @@ def _tool_change(control: Control, block: Block) -> None:
 
 
 def _spindle(control: Control, block: Block) -> None:
-    code = block.codes.get(Group.SPINDLE)
+    code = block.codes[Group.SPINDLE]
     if code in ("M3", "M4", "M5"):
         control.change(spindle={"M3": 1, "M4": -1, "M5": 0}[code])
     elif code == "M19":
@@ -117,28 +119,21 @@ def _dwell(control: Control, block: Block) -> None:
 
 
 def _plane(control: Control, block: Block) -> None:
-    code = block.codes.get(Group.PLANE)
-    if code is not None:
-        control.change(plane=PLANES[code])
+    control.change(plane=PLANES[block.codes[Group.PLANE]])
 
 
 def _units(control: Control, block: Block) -> None:
-    code = block.codes.get(Group.UNITS)
-    if code is not None:
-        control.change(units=Units.INCH if code == "G20" else Units.MM)
+    control.change(units=Units.INCH if block.codes[Group.UNITS] == "G20" else Units.MM)
 
 
 def _radius(control: Control, block: Block) -> None:
-    code = block.codes.get(Group.RADIUS)
-    if code not in (None, "G40"):
+    if block.codes[Group.RADIUS] != "G40":
         raise Fault("cutter compensation is not followed: the path depends on the control's tool table; "
                     "let the program be written for the tool's centre.", letter="g")
 
 
 def _length(control: Control, block: Block) -> None:
-    code = block.codes.get(Group.LENGTH)
-    if code is None:
-        return
+    code = block.codes[Group.LENGTH]
     number, tool = 0, ZERO
     if code == "G43.1":
         tool = _replaced_by_words(control, block, control.offsets.tool)
@@ -185,9 +180,7 @@ def _replaced_by_words(control: Control, block: Block, place: Place) -> Place:
 
 
 def _work_offset(control: Control, block: Block) -> None:
-    code = block.codes.get(Group.OFFSET)
-    if code is None:
-        return
+    code = block.codes[Group.OFFSET]
     control.offsets.name = code
     if code == "G54.1":
         number = block.values.pop("p", None)
@@ -198,9 +191,7 @@ def _work_offset(control: Control, block: Block) -> None:
 
 
 def _path(control: Control, block: Block) -> None:
-    code = block.codes.get(Group.PATH)
-    if code is None:
-        return
+    code = block.codes[Group.PATH]
     words, tolerance = [code], 0.0 if code != "G64" else None
     if code == "G64":
         for letter in "pq":
@@ -212,17 +203,15 @@ def _path(control: Control, block: Block) -> None:
 
 
 def _distance(control: Control, block: Block) -> None:
-    code, arcs = block.codes.get(Group.DISTANCE), block.codes.get(Group.ARC_DISTANCE)
-    if code is not None:
-        control.change(absolute=code == "G90")
-    if arcs is not None:
-        control.change(arc_absolute=arcs == "G90.1")
+    control.change(absolute=block.codes[Group.DISTANCE] == "G90")
+
+
+def _arc_distance(control: Control, block: Block) -> None:
+    control.change(arc_absolute=block.codes[Group.ARC_DISTANCE] == "G90.1")
 
 
 def _return_level(control: Control, block: Block) -> None:
-    code = block.codes.get(Group.RETURN)
-    if code is not None:
-        control.change(retract_to_r=code == "G99")
+    control.change(retract_to_r=block.codes[Group.RETURN] == "G99")
 
 
 def _refused(control: Control, block: Block) -> None:
@@ -233,10 +222,13 @@ def _refused(control: Control, block: Block) -> None:
             raise Fault(f"{refused[code]} ({code}) is not followed; the reader stops here.", letter="g")
 
 
-_STEPS = (
-    _feed_mode, _feed, _speed, _tool_word, _tool_change, _spindle, _coolant, _dwell, _plane, _units, _radius, _length, _work_offset, _path,
-    _distance, _return_level, _refused,
+_STEPS: tuple[tuple[Group, Callable[[Control, Block], None]], ...] = (
+    (Group.TOOL, _tool_change), (Group.SPINDLE, _spindle), (Group.COOLANT, _coolant), (Group.ONCE, _dwell), (Group.PLANE, _plane),
+    (Group.UNITS, _units), (Group.RADIUS, _radius), (Group.LENGTH, _length), (Group.OFFSET, _work_offset), (Group.PATH, _path),
+    (Group.DISTANCE, _distance), (Group.ARC_DISTANCE, _arc_distance), (Group.RETURN, _return_level), (Group.ONCE, _refused),
+    (Group.LATHE, _refused), (Group.POLAR, _refused), (Group.SCALING, _refused), (Group.TURNING, _refused),
 )  # fmt: skip
+"""What each group does, in the order in which a control does it."""
 
 
 def set_once(control: Control, block: Block) -> None:
