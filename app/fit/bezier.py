@@ -158,13 +158,27 @@ def _of_ellipse(curve: Ellipse) -> Pieces:
 
 
 def _of_spline(curve: Spline) -> Pieces:
-    """Cut at every knot: control point j of a span is the blossom at its ends, taken p - j and j times."""
-    p = curve.degree
-    knots = np.array(curve.knots)
     weights = np.array(curve.weights or (1.0,) * len(curve.control_points))
     points = np.column_stack([np.array(curve.control_points) * weights[:, None], weights])
+    return Pieces(cut_at_knots(points, np.array(curve.knots), curve.degree))
+
+
+def cut_at_knots(points: Floats, knots: Floats, degree: int) -> Floats:
+    """Return the Bézier pieces of a B-spline, from knot to knot; spans that are empty are left out.
+
+    Control point j of a span is the blossom at its ends, taken p - j and j times.
+
+    Args:
+        points: (k, d) control points, homogeneous where the spline is rational.
+        knots: (k + degree + 1,) not decreasing.
+        degree: p >= 1, < k.
+
+    Returns:
+        (spans, p + 1, d) control points.
+    """
+    p = degree
     spans = np.flatnonzero(np.diff(knots[p : len(points) + 1]) > 1e-12 * max(1e-300, knots[-1] - knots[0])) + p
-    result = np.empty((len(spans), p + 1, 3))
+    result = np.empty((len(spans), p + 1, points.shape[1]))
     for j in range(p + 1):
         b = points[spans[:, None] - p + np.arange(p + 1)]
         for level in range(1, p + 1):
@@ -174,4 +188,4 @@ def _of_spline(curve: Spline) -> Pieces:
             share = ((t - low) / (high - low))[..., None]
             b = b[:, :-1] * (1 - share) + b[:, 1:] * share
         result[:, j] = b[:, 0]
-    return Pieces(result)
+    return result

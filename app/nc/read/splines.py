@@ -43,7 +43,7 @@ def cubic(start: Point, end: Point, first: Offset, second: Offset) -> Nurbs:
             smoothly: minus its P, Q, also over other motions; (0, 0) where there was none.
         second: P, Q, from the end to the second control point.
     """
-    return _bezier([start, _beside(start, first), _beside(end, second, start[2]), end])
+    return _bezier([start, _beside(start, first), _beside(end, second), end])
 
 
 def quadratic(start: Point, end: Point, middle: Offset) -> Nurbs:
@@ -85,8 +85,8 @@ def _both(one: float | None, other: float | None, letters: str) -> Offset:
     return one, other
 
 
-def _beside(point: Point, offset: Offset, height: float | None = None) -> Point:
-    return point[0] + offset[0], point[1] + offset[1], point[2] if height is None else height
+def _beside(point: Point, offset: Offset) -> Point:
+    return point[0] + offset[0], point[1] + offset[1], point[2]
 
 
 def _bezier(points: Sequence[Point]) -> Nurbs:
