@@ -32,6 +32,7 @@ class Purpose(IntEnum):
     POCKET = 3
     LINK = 4
     LEAD = 5
+    DRILL = 6
 
 
 @dataclass(frozen=True)

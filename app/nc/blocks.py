@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from app.model.moves import MoveKind
 from app.model.part import Units
-from app.nc.grid import spelled
+from app.nc.drilling import Hole
+from app.nc.grid import Position, spelled
 from app.nc.motions import arc_length, straight_length
 from app.nc.post import ArcCentre, Post
-
-Position = tuple[int, int, int]
-"""X, Y and Z as counts of their last decimal."""
 
 CONTINUED = "hitofude+"
 """What the second and later comments of a note begin with."""
@@ -44,6 +42,7 @@ class Blocks:
         """Take nothing for granted any more: at the start, and after a tool change."""
         self._position: Reached = (None, None, None)
         self._motion = ""
+        self._cycle = ""
         self._feed: int | None = None
 
     def comment(self, text: str) -> None:
@@ -62,9 +61,21 @@ class Blocks:
         text = "".join(c if c.isalnum() or c in comments.signs else "," for c in text)
         self.lines.append(f"{comments.open}{text.upper() if comments.capitals else text}{comments.close}")
 
+    @property
+    def cycle(self) -> str:
+        """The canned cycle that is in force, as it was given, or ""."""
+        return self._cycle
+
+    @property
+    def z(self) -> int:
+        """Where the tool is along Z, counts of the last decimal."""
+        assert self._position[2] is not None
+        return self._position[2]
+
     def block(self, text: str) -> None:
         """Write a block that is no motion; an empty text is left out."""
         if text:
+            self._end_cycle()
             self.lines.append(text if text.startswith(("%", "O")) else self._numbered(text))
 
     def home(self, text: str) -> None:
@@ -105,6 +116,34 @@ class Blocks:
         length = arc_length(start, self._lengths(end), offset, kind is MoveKind.ARC_CW)
         self.motions[-1] = (kind, length)
 
+    def hole(self, hole: Hole, steps: list[tuple[MoveKind, Position]]) -> None:
+        """Write a hole as a canned cycle; its G words and its feed are left out where they are in force.
+
+        Args:
+            hole: its words.
+            steps: the moves that the control makes of it.
+        """
+        words = []
+        if hole.cycle != self._cycle:
+            self._end_cycle()
+            words.append(hole.cycle)
+        words += [f"X{self.number(hole.x, self._digits.X)}", f"Y{self.number(hole.y, self._digits.Y)}"]
+        heights = {"Z": hole.z, "R": hole.r} | ({"Q": hole.peck} if hole.peck else {})
+        words += [letter + self.number(count, self._digits.Z) for letter, count in heights.items()]
+        if hole.feed != self._feed:
+            words.append(f"F{self._rate(hole.feed)}")
+        self.lines.append(self._numbered(" ".join(words)))
+        for kind, end in steps:
+            if end != self._position:
+                self._moved(kind, end)
+        self._cycle, self._motion, self._feed = hole.cycle, "", hole.feed
+
+    def _end_cycle(self) -> None:
+        """Cancel the canned cycle that is in force."""
+        if self._cycle:
+            self.lines.append(self._numbered(self._post.drilling.cancel))
+            self._cycle = ""
+
     def number(self, count: int, decimals: int) -> str:
         """Return a count of the last decimal as the control wants it in an axis word."""
         text = spelled(count, decimals)
@@ -117,6 +156,7 @@ class Blocks:
                 words[letter] = self.number(new, getattr(self._digits, letter))
         if not words:
             return
+        self._end_cycle()
         motion = self._post.words.motion[kind]
         if motion != self._motion or not self._post.words.modal_motion:
             words["G"] = motion

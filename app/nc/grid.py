@@ -5,6 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+Position = tuple[int, int, int]
+"""X, Y and Z as counts of their last decimal."""
+
 
 def counts(values: NDArray[np.float64], decimals: int) -> list[int]:
     """Return values as counts of their last decimal, the nearest ones."""

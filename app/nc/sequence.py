@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from app.errors import ParameterError
 from app.model.job import Job
-from app.model.moves import MoveKind, Moves
+from app.model.moves import MoveKind, Moves, Purpose
 
 Mask = NDArray[np.bool_]
 
@@ -18,9 +18,9 @@ SAME = 1e-9
 def check_sequence(moves: Moves, job: Job) -> None:
     """Refuse moves that no machine should make.
 
-    Every tool begins with a rapid at safe Z; rapids go either along Z or level, never down below retract Z and never
-    level below it; cutting moves have a feed rate; arcs have a radius and are exactly a full turn or clearly less, as
-    noise can make a full turn of an arc of no length.
+    Every tool begins with a rapid at safe Z; rapids go either along Z or level, never down below retract Z but between the
+    pecks of a hole, and never level below it; cutting moves have a feed rate; arcs have a radius and are exactly a full turn
+    or clearly less, as noise can make a full turn of an arc of no length.
 
     Raises:
         ParameterError: naming the first move that breaks a rule, where it ends, and the rule.
@@ -48,7 +48,16 @@ def _check_rapids(moves: Moves, rapid: Mask, job: Job) -> None:
     level, along_z = np.hypot(delta[:, 0], delta[:, 1]) > SAME, np.abs(delta[:, 2]) > SAME
     _refuse(moves, rapid & level & along_z, "is a rapid that changes XY and Z at once; move level first, then along Z")
     _refuse(moves, rapid & level & (moves.end[:, 2] < low), f"is a rapid in XY below retract Z {job.retract_z:g}")
-    _refuse(moves, rapid & (delta[:, 2] < -SAME) & (moves.end[:, 2] < low), f"is a rapid down below retract Z {job.retract_z:g}")
+    down = (delta[:, 2] < -SAME) & ~_into_the_hole(moves)
+    _refuse(moves, rapid & down & (moves.end[:, 2] < low), f"is a rapid down below retract Z {job.retract_z:g}")
+
+
+def _into_the_hole(moves: Moves) -> Mask:
+    """Return which moves go down between two pecks: where the move before the last one drilled, no deeper than it did."""
+    before, after = moves.end[:-2], moves.end[2:]
+    same = np.hypot(*(before - after)[:, :2].T) < SAME
+    drilled = (moves.purpose[:-2] == Purpose.DRILL) & (moves.kind[:-2] == MoveKind.LINE)
+    return np.concatenate([np.zeros(min(2, len(moves)), bool), same & drilled & (after[:, 2] > before[:, 2] - SAME)])
 
 
 def _check_arcs(moves: Moves, arc: Mask) -> None:

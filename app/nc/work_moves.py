@@ -9,8 +9,7 @@ import numpy as np
 from app.model.moves import MoveKind, Moves
 from app.model.part import Units
 from app.nc.arcs import MeantArc
-from app.nc.blocks import Position
-from app.nc.grid import counts
+from app.nc.grid import Position, counts
 from app.nc.post import WordDecimals
 
 
@@ -19,7 +18,7 @@ class WorkMoves:
     """Columns of a program's moves, ready to be spelled.
 
     Attributes:
-        kind, tool, operation: as in the moves.
+        kind, purpose, tool, operation: as in the moves.
         end: X, Y, Z as counts of the last decimal.
         z: heights before rounding, out units.
         feed: counts of the last decimal of F, at least one, as controls refuse F0.
@@ -27,6 +26,7 @@ class WorkMoves:
     """
 
     kind: list[MoveKind]
+    purpose: list[int]
     tool: list[int]
     operation: list[int]
     end: list[Position]
@@ -45,6 +45,7 @@ def work_moves(moves: Moves, origin: tuple[float, float, float], units: Units, d
     columns = [counts(column, decimals) for column, decimals in zip(end.T, (digits.X, digits.Y, digits.Z), strict=True)]
     return WorkMoves(
         kind=[MoveKind(kind) for kind in moves.kind.tolist()],
+        purpose=moves.purpose.tolist(),
         tool=moves.tool.tolist(),
         operation=moves.operation.tolist(),
         end=list(zip(*columns, strict=True)),

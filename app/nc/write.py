@@ -15,6 +15,7 @@ from app.model.part import Units
 from app.model.stock_box import stock_box, work_origin
 from app.nc.arcs import ArcRules, written_pieces
 from app.nc.blocks import Blocks
+from app.nc.drilling import CycleRules, hole_at
 from app.nc.header import Heading, heading_lines, heading_notes, operation_words, tool_words
 from app.nc.motions import Motions
 from app.nc.post import Post
@@ -153,6 +154,9 @@ class _Writer:
         self.digits = digits = post.digits(job.out_units)
         unit = job.out_units.value
         self.z_scale = 10.0**digits.Z
+        self.row_began = 0
+        gaps = (round(gap / unit * self.z_scale) for gap in (post.drilling.peck_gap_mm, post.drilling.chip_gap_mm))
+        self.cycle_rules = CycleRules(post.drilling, round(self.z_scale), *gaps)
         self.arc_rules = ArcRules(
             digits.X, digits.I, writing_tolerance(job, post) / unit, math.radians(post.arcs.largest_sweep_deg),
             post.arcs.smallest_radius_mm / unit, post.arcs.largest_radius_mm / unit, post.arcs.radius_mismatch_mm / unit,
@@ -167,9 +171,11 @@ class _Writer:
         for note in heading_notes(heading):
             self.sheet.note(note)
         self._blocks(self.post.program.start)
-        for i in range(len(moves)):
-            if i % MOVES_A_STEP == 0:
+        i, told = 0, 0
+        while i < len(moves):
+            if i >= told:
                 progress.step(i / len(moves), "Writing NC")
+                told = i + MOVES_A_STEP
             new_tool = i == 0 or moves.tool[i] != moves.tool[i - 1]
             if new_tool:
                 self._change_tool(i)
@@ -177,9 +183,10 @@ class _Writer:
                 self.sheet.comment(operation_words(self.job.operations[moves.operation[i]], self.job))
             if new_tool:
                 self.sheet.rapid_z(moves.end[i][2])
-            self._move(i)
-            lines.append(self.sheet.motion_line)
-            self.done.append(len(self.sheet.motions))
+            stop = self._hole(i) or self._move(i)
+            lines += [self.sheet.motion_line] * (stop - i)
+            self.done += [len(self.sheet.motions)] * (stop - i)
+            i = stop
         self._leave_tool(len(moves) - 1)
         self._home()
         self._blocks(self.post.program.end)
@@ -193,13 +200,27 @@ class _Writer:
             np.array(kinds, np.uint8), np.array(lengths) * self.job.out_units.value, np.minimum(move, len(self.moves) - 1).astype(np.int32),
         )  # fmt: skip
 
-    def _move(self, i: int) -> None:
-        """Write one move."""
+    def _hole(self, i: int) -> int:
+        """Write the hole that begins with move i as a canned cycle; return the index behind it, or 0 where it is none."""
+        sheet, moves = self.sheet, self.moves
+        if moves.kind[i] is not MoveKind.RAPID:
+            return 0
+        hole = hole_at(moves, i, (sheet.z, self.row_began), self.cycle_rules) if sheet.cycle else None
+        if hole is None or hole.cycle != sheet.cycle:
+            self.row_began = sheet.z
+            hole = hole_at(moves, i, (sheet.z, sheet.z), self.cycle_rules)
+        if hole is None:
+            return 0
+        sheet.hole(hole, [(moves.kind[k], moves.end[k]) for k in range(i, hole.stop)])
+        return hole.stop
+
+    def _move(self, i: int) -> int:
+        """Write one move; return the index behind it."""
         moves = self.moves
         kind, end, feed = moves.kind[i], moves.end[i], moves.feed[i]
         if kind in (MoveKind.RAPID, MoveKind.LINE):
             self.sheet.straight(kind, end, feed)
-            return
+            return i + 1
         before, z0, z1 = moves.end[i - 1], moves.z[i - 1], moves.z[i]
         for piece in written_pieces(moves.arcs[i], before[:2], end[:2], self.arc_rules):
             z = end[2] if piece.fraction == 1 else round((z0 + (z1 - z0) * piece.fraction) * self.z_scale)
@@ -208,6 +229,7 @@ class _Writer:
             else:
                 self.sheet.arc(kind, (*piece.end, z), piece.centre, feed)
         self.sheet.straight(MoveKind.LINE, end, feed)
+        return i + 1
 
     def _change_tool(self, i: int) -> None:
         """Leave the tool before, if there is one, and take the tool of move i."""

@@ -63,7 +63,7 @@ def chunks(shapes: MoveShapes) -> list[PathChunk]:
     seen: set[tuple[int, bytes]] = set()
     for run, number in enumerate(runs.style):
         mark = (number, runs.data[run])
-        if runs.styles[number].purpose in (Purpose.PLUNGE, Purpose.RAPID) or mark in seen:
+        if runs.styles[number].purpose in (Purpose.PLUNGE, Purpose.DRILL, Purpose.RAPID) or mark in seen:
             continue
         seen.add(mark)
         if runs.begins_at[run] > 0:
@@ -95,7 +95,7 @@ def rapids_path(lines: Floats, box: Box) -> QPainterPath:
 
 def plunges(shapes: MoveShapes) -> Floats:
     """Return (n, 2) places where a tool plunges, mm, each once."""
-    return np.unique(shapes.moves.end[shapes.moves.purpose == Purpose.PLUNGE, :2], axis=0)
+    return np.unique(shapes.moves.end[np.isin(shapes.moves.purpose, (Purpose.PLUNGE, Purpose.DRILL)), :2], axis=0)
 
 
 def _runs(shapes: MoveShapes) -> _Runs:

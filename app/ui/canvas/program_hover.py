@@ -14,7 +14,7 @@ from app.model.operation import ContourOperation, PocketOperation
 from app.ui.canvas.program_geometry import MoveShapes
 
 _NAMES = {Purpose.RAPID: "Rapid", Purpose.PLUNGE: "Plunge", Purpose.CONTOUR: "Contour", Purpose.POCKET: "Pocket",
-          Purpose.LINK: "Link", Purpose.LEAD: "Lead"}
+          Purpose.LINK: "Link", Purpose.LEAD: "Lead", Purpose.DRILL: "Drill"}
 
 
 def nearest_move(shapes: MoveShapes, at: Point, reach: float, purposes: frozenset[Purpose]) -> int | None:

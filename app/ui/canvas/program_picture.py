@@ -29,8 +29,9 @@ CONTOUR_DASHES, RAPID_DOTS = (6.0, 3.6), (1.2, 2.6)
 _LAYER_OF = {
     Purpose.RAPID: PathLayers.RAPID, Purpose.PLUNGE: PathLayers.PLUNGE, Purpose.CONTOUR: PathLayers.CONTOUR,
     Purpose.POCKET: PathLayers.POCKET, Purpose.LINK: PathLayers.LINK, Purpose.LEAD: PathLayers.LEAD,
+    Purpose.DRILL: PathLayers.PLUNGE,
 }
-_MANY_PLUNGES = 300
+_MANY_PLUNGES, _RING_PX = 300, 10.0
 _ORDER = (Purpose.LINK, Purpose.POCKET, Purpose.LEAD, Purpose.CONTOUR)
 
 
@@ -130,7 +131,7 @@ class ProgramPicture:
 
 
 def paint_plunges(painter: QPainter, view: View, places: NDArray[np.float64], box: Box, colours: tuple[QColor, QColor]) -> None:
-    """Paint a ring where a tool plunges; many of them are dots.
+    """Paint a ring where a tool plunges; many of them are dots, and of rings that would cover one another one is painted.
 
     Args:
         painter: works in screen px.
@@ -141,15 +142,16 @@ def paint_plunges(painter: QPainter, view: View, places: NDArray[np.float64], bo
     """
     near = places[np.all((places >= box[:2]) & (places <= box[2:]), axis=1)]
     seen = [view.to_screen((x, y)) for x, y in near.tolist()]
-    if len(seen) < _MANY_PLUNGES:
+    apart = {(round(at.x() / _RING_PX), round(at.y() / _RING_PX)): at for at in seen}
+    if len(apart) < _MANY_PLUNGES:
         rings = QPainterPath()
-        for at in seen:
+        for at in apart.values():
             rings.addEllipse(at, 4.4, 4.4)
         painter.setPen(QPen(colours[0], 1.4))
         painter.setBrush(colours[1])
         painter.drawPath(rings)
     painter.setPen(QPen(colours[0], 3.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
-    painter.drawPoints(seen)
+    painter.drawPoints(list(apart.values()) if len(apart) < _MANY_PLUNGES else seen)
 
 
 def _roles(styles: list[PathStyle]) -> dict[tuple[int, int], str]:
