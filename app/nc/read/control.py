@@ -18,6 +18,7 @@ from app.nc.read.offsets import OFFSETS, Offsets, Place
 from app.nc.read.options import ReadOptions, ToolOffset
 from app.nc.read.parameters import Key, Parameters
 from app.nc.read.program import Event, EventKind, FeedMode, ModalState
+from app.nc.read.splines import OpenFanucNurbs, OpenNurbs
 
 MOST_EVENTS = 1_000_000
 MOST_WARNINGS = 200
@@ -39,7 +40,7 @@ class Control:
         known: for each axis the first motion that the program itself set, -1 = none yet.
         cycle: the last canned cycle with its words, None after another motion. initial: the height at which their run began,
             program coordinates and units.
-        curve: the spline over several blocks that is being written, None outside of one.
+        curve: the spline over several blocks that is being written, None outside of one. last_offset: P, Q of the last G5, mm.
         line: 1-based, of the block that is running. unrolled: blocks that were done again.
         columns, splines, events, warnings: what comes out; a warning is a text, its letter and its line.
     """
@@ -58,7 +59,8 @@ class Control:
         self.known = [-1, -1, -1]
         self.cycle: Cycle | None = None
         self.initial = 0.0
-        self.curve: object | None = None
+        self.curve: OpenNurbs | OpenFanucNurbs | None = None
+        self.last_offset = (0.0, 0.0)
         self.line = self.unrolled = 0
         self.columns = Columns()
         self.splines: dict[int, Nurbs] = {}
@@ -207,7 +209,7 @@ class Control:
         self.events.append(Event(kind, self.columns.count, self.line, value))
 
     def own_parameter(self, key: Key) -> float | None:
-        """Return a parameter that the control itself sets, None if it is another."""
+        """Return a parameter that the control itself sets, None if it is another; those of tables are in mm."""
         if isinstance(key, str):
             return self._named(key) if key.startswith("_") else None
         if key < 5001:
@@ -218,11 +220,23 @@ class Control:
             return self.program_place[key - 5001] / self.unit
         if key == 5220:
             return self._offset_number()
+        if 5161 <= key <= 5163 or 5181 <= key <= 5183:
+            return self.homes["G28" if key < 5180 else "G30"][(key - 1) % 20]
+        if 5211 <= key <= 5213:
+            return self.offsets.set_here[key - 5211]
+        if 5221 <= key <= 5390 and (key - 5221) % 20 in (0, 1, 2, 9):
+            return self._offset_value(OFFSETS[(key - 5221) // 20], (key - 5221) % 20)
         if key == 5400:
             return float(self.modal.tool)
         if key == 5403:
             return self.offsets.tool[2] / self.unit
         return self.tool_table.get(self.modal.tool, ToolOffset()).diameter / self.unit if key == 5410 else None
+
+    def _offset_value(self, name: str, item: int) -> float:
+        """Return an axis (0 to 2, mm) or the rotation (9, degrees) of a work offset."""
+        if item == 9:
+            return math.degrees(self.offsets.turned.get(name, 0.0))
+        return self.offsets.work.get(name, (0.0, 0.0, 0.0))[item]
 
     def _offset_number(self) -> float:
         return float(OFFSETS.index(self.offsets.name) + 1) if self.offsets.name in OFFSETS else 0.0

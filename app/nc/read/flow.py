@@ -236,8 +236,8 @@ class Flow:
 
     def _repeat(self, statement: Statement, values: Values) -> None:
         count = self._condition(values)
-        if count >= 1:
-            self.frames[-1].loops[statement.label] = Loop(statement, int(count) - 1)
+        if count >= 0.5:
+            self.frames[-1].loops[statement.label] = Loop(statement, round(count) - 1)
         else:
             self.next = self.places.after(self._partner(statement, "endrepeat").at)
 

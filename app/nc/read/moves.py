@@ -10,7 +10,7 @@ from app.nc.read.arc_kernels import centre_by_radius, radii
 from app.nc.read.block import Block
 from app.nc.read.codes import AXES, CYCLES, ROTARY, WITHOUT_AXES, Group
 from app.nc.read.control import Control
-from app.nc.read.curves import end_curve, move_along_curve
+from app.nc.read.curves import drop_curve, move_along_curve
 from app.nc.read.dialect import Dialect
 from app.nc.read.expression import whole
 from app.nc.read.fault import Fault
@@ -26,6 +26,8 @@ MISMATCH = {Dialect.GRBL: (0.005, 0.5)}
 MISMATCH_OF_OTHERS = (0.0285, math.inf)
 """The two radii of an arc may differ by the first, mm, or by 0.1 %, but never by the second."""
 RELATIVE_MISMATCH = 1e-3
+CURVES = ("G5.2", "G5.3", "G6.2")
+"""They take several blocks for one curve."""
 MOST_TURNS = 100_000
 
 
@@ -52,6 +54,8 @@ def move(control: Control, block: Block) -> None:
     _check_once(control, once)
     if control.motion not in CYCLES:
         control.cycle = None
+    if control.motion not in CURVES:
+        drop_curve(control)
     _MOTIONS[control.motion](control, block)
 
 
@@ -62,7 +66,7 @@ def _check_once(control: Control, once: str | None) -> None:
 
 def _go_home(control: Control, block: Block, code: str) -> None:
     """Go by way of the axis words to where the machine's reference point is; only along the axes that are named, if any."""
-    end_curve(control, code)
+    drop_curve(control)
     named = [axis for axis, letter in enumerate(AXES) if letter in block.values]
     by_way = control.target(block)
     control.note_known(block)
@@ -226,5 +230,5 @@ _MOTIONS: dict[str, Callable[[Control, Block], None]] = {
     "G0": _rapid, "G1": _line, "G2": _arc, "G3": _arc, "G33": _thread, "G33.1": _thread, "G80": _no_motion,
     **dict.fromkeys(("G38.2", "G38.3", "G38.4", "G38.5"), _probe),
     **dict.fromkeys(CYCLES, _cycle),
-    **dict.fromkeys(("G5", "G5.1", "G5.2", "G5.3", "G6.2"), move_along_curve),
+    **dict.fromkeys(("G5", "G5.1", *CURVES), move_along_curve),
 }  # fmt: skip
