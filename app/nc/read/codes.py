@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from enum import StrEnum
 
+from app.nc.read.cycles import CYCLE_WORDS
+
 AXES = "xyz"
 ROTARY = "abcuvw"
 
@@ -77,16 +79,15 @@ _M: dict[Group, tuple[str, ...]] = {
 }
 GROUP_OF: dict[str, Group] = {code: group for table in (_G, _M) for group, codes in table.items() for code in codes}
 
-CYCLES = frozenset(_codes("G73 G74 G81 G82 G83 G84 G85 G86 G87 G88 G89"))
+CYCLES = frozenset(CYCLE_WORDS)
 WITHOUT_AXES = frozenset({"G4", "G9", "G28.1", "G30.1", "G53", "G92.1", "G92.2", "G92.3"})
 """Codes done once that leave the axis words of their block to its motion."""
 
-TAKES: dict[str, str] = {
+TAKES: dict[str, str] = {code: letters.lower() for code, letters in CYCLE_WORDS.items()} | {
     "G2": "ijkrp", "G3": "ijkrp", "G4": "pxu", "G5": "ijpq", "G5.1": "ijpq", "G5.2": "pl", "G6.2": "pkr", "G10": "lprijq", "G33": "k",
     "G33.1": "ki", "G41": "d", "G42": "d", "G41.1": "dl", "G42.1": "dl", "G43": "h", "G43.1": "", "G43.2": "h", "G44": "h",
-    "G51": "ijkp", "G54.1": "p", "G64": "pq", "G65": "abcdefhijklmqrstuvwxyzp", "G68": "abr", "G73": "rqplk", "G74": "rplqk",
-    "G81": "rlk", "G82": "rplk", "G83": "rqplk", "G84": "rplqjk", "G85": "rlk", "G86": "rplk", "G87": "rijkplq", "G88": "rplk",
-    "G89": "rplk", "G96": "d", "G187": "pe", "M19": "rpq", "M3": "$", "M50": "p", "M51": "p", "M52": "p", "M53": "p", "M61": "q",
+    "G51": "ijkp", "G54.1": "p", "G64": "pq", "G65": "abcdefhijklmqrstuvwxyzp", "G68": "abr",
+    "G96": "d", "G187": "pe", "M19": "rpq", "M3": "$", "M50": "p", "M51": "p", "M52": "p", "M53": "p", "M61": "q",
     "M62": "p", "M63": "p", "M64": "p", "M65": "p", "M66": "pelq", "M67": "eq", "M68": "eq", "M97": "pl", "M98": "pl", "M99": "p",
 }  # fmt: skip
 """Which words beside axes, F, S and T a code takes; codes that are not named take none."""

@@ -49,7 +49,7 @@ def move(control: Control, block: Block) -> None:
         return
     if code is not None:
         control.motion = code
-    elif not axes and not (control.motion in ("G2", "G3") and block.has("ijk")):
+    elif not axes and not (control.motion in ("G2", "G3") and block.has("ijk")) and not (control.motion == "G6.2" and block.has("k")):
         return
     _check_once(control, once)
     if control.motion not in CYCLES:
@@ -62,6 +62,8 @@ def move(control: Control, block: Block) -> None:
 def _check_once(control: Control, once: str | None) -> None:
     if once == "G53" and control.motion not in ("G0", "G1"):
         raise Fault("G53 goes with G0 and G1 only.", letter="g")
+    if once == "G53" and not control.modal.absolute:
+        raise Fault("G53 goes with G90 only: the machine's zero is no increment.", letter="g")
 
 
 def _go_home(control: Control, block: Block, code: str) -> None:

@@ -7,7 +7,7 @@ import re
 import numpy as np
 
 from app.nc.read.block import Block, Parsed, block_of, parse
-from app.nc.read.codes import TAKES, Group
+from app.nc.read.codes import CYCLES, TAKES, Group
 from app.nc.read.control import Control
 from app.nc.read.dialect import Dialect
 from app.nc.read.fault import Fault
@@ -201,7 +201,8 @@ class Run:
     def _unused(self, block: Block) -> str:
         letter = block.unused()
         modal = self._control.motion if Group.MOTION not in block.codes else ""
-        return "" if letter and letter in TAKES.get(modal, "") else letter
+        repeats = letter == "k" and self._habits.fanuc_flow and self._control.motion in CYCLES
+        return "" if repeats or (letter and letter in TAKES.get(modal, "")) else letter
 
     def _located(self, fault: Fault, severity: Severity) -> Problem:
         """Return a fault with its place in the text."""

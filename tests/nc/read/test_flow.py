@@ -36,8 +36,8 @@ def test_loops_within_loops() -> None:
 
 
 def test_break_and_continue() -> None:
-    text = ("#1=0\no1 while [1]\n#1=[#1+1]\no2 if [#1 eq 2]\no1 continue\no2 endif\no3 if [#1 gt 3]\no1 break\no3 endif\nG0 X#1\no1 endwhile\n"
-            "G0 X9\nM2\n")  # fmt: skip
+    text = ("#1=0\no1 while [1]\n#1=[#1+1]\no2 if [#1 eq 2]\no1 continue\no2 endif\no3 if [#1 gt 3]\no1 break\no3 endif\nG0 X#1\n"
+            "o1 endwhile\nG0 X9\nM2\n")  # fmt: skip
     assert way(text) == [1, 3, 9]
 
 

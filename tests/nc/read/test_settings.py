@@ -23,7 +23,8 @@ def test_every_motion_knows_what_is_in_force() -> None:
     assert (first.units, first.plane, first.absolute, first.tool, first.length_offset) == (Units.INCH, Plane.ZX, False, 7, 7)
     assert (first.speed, first.spindle, first.flood, first.mist, first.work_offset) == (1500, -1, True, False, "G55")
     assert (first.path, first.path_tolerance, first.retract_to_r) == ("G61.1", 0.0, True)
-    assert (second.units, second.plane, second.absolute, second.spindle, second.flood, second.mist) == (Units.MM, Plane.XY, True, 0, False, True)
+    assert (second.units, second.plane, second.absolute, second.spindle) == (Units.MM, Plane.XY, True, 0)
+    assert (second.flood, second.mist) == (False, True)
     assert (second.path, second.path_tolerance, second.work_offset, second.retract_to_r) == ("G64 P0.02 Q0.01", 0.02, "G54", False)
     assert program.motions.line.tolist() == [2, 6]
 
