@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.model.moves import MoveKind
 from app.model.part import Units
 from app.nc.drilling import Hole
-from app.nc.grid import Position, spelled
+from app.nc.grid import Position, numeral, spelled
 from app.nc.motions import arc_length, straight_length
 from app.nc.post import ArcCentre, Post
 
@@ -146,8 +146,7 @@ class Blocks:
 
     def number(self, count: int, decimals: int) -> str:
         """Return a count of the last decimal as the control wants it in an axis word."""
-        text = spelled(count, decimals)
-        return text if self._post.words.trailing_zeros or "." not in text else text.rstrip("0")
+        return numeral(count, decimals, self._post.words.trailing_zeros)
 
     def _write(self, kind: MoveKind, end: Reached, words: dict[str, str], feed: int | None = None) -> None:
         """Write a motion block with the axes and the feed that change, and remember what it did."""

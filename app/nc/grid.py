@@ -18,3 +18,9 @@ def counts(values: NDArray[np.float64], decimals: int) -> list[int]:
 def spelled(count: int, decimals: int) -> str:
     """Return a count of the last decimal as text with all its decimals; zero has no sign."""
     return f"{count / 10**decimals:.{decimals}f}"
+
+
+def numeral(count: int, decimals: int, zeros: bool) -> str:
+    """Return a count of the last decimal as the number of an axis word; without `zeros` only with those that count."""
+    text = spelled(count, decimals)
+    return text if zeros or "." not in text else text.rstrip("0")

@@ -1,0 +1,128 @@
+"""A rational B-spline in the words of a control that knows one.
+
+LinuxCNC (G5.2 ... G5.3) has no knots, works in one plane, and takes the largest L for all; so a curve is written as cubic
+Bézier pieces of four control points, which is the same curve. Fanuc (G6.2) has them, in the digits of an axis word; knots
+that these cannot hold give way to those of the Bézier pieces, 0, 1, 2 ..., which draw the same curve.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.fit.bezier import cut_at_knots
+from app.model.motion import Nurbs
+from app.model.part import Units
+from app.nc.grid import counts, numeral
+from app.nc.post import NurbsForm, Post
+
+Floats = NDArray[np.float64]
+
+CUBIC = 3
+LARGEST_WEIGHT = 9999.0
+"""Of R: only the weights' ratios count, and R has few digits behind its point."""
+WEIGHT_DIGITS = 9
+"""Of P of G5.2."""
+MOST_KNOTS = 99999
+
+
+@dataclass(frozen=True, slots=True)
+class _Spelling:
+    """Control points as words, one text a letter and point."""
+
+    x: list[str]
+    y: list[str]
+    z: list[str]
+
+
+def nurbs_blocks(curve: Nurbs, post: Post, units: Units) -> tuple[str, ...] | None:
+    """Return the blocks that drive along a curve from its start, where the tool stands, at the feed in force.
+
+    Every control point is rounded once, so the written curve is nowhere farther from the meant one than a point from its
+    rounded one; knots stay exact, weights to 1 in 10 million.
+
+    Args:
+        curve: mm, from the program's zero.
+        post: the control's words.
+        units: of the program, MM or INCH.
+
+    Returns:
+        The blocks; behind them the next motion has to say its G word. None where the control cannot carry the curve: it
+        knows no NURBS, not this degree, or only those in the plane.
+    """
+    if post.nurbs.form is NurbsForm.NONE or curve.degree > CUBIC:
+        return None
+    if post.nurbs.form is NurbsForm.KNOTS:
+        return tuple(_with_knots(curve, post, units))
+    z = counts(curve.points[:, 2] / units.value, post.digits(units).Z)
+    return tuple(_pieces(curve, post, units)) if len(set(z)) == 1 else None
+
+
+def _pieces(curve: Nurbs, post: Post, units: Units) -> list[str]:
+    """Return cubic pieces of four control points; the first is where the tool stands, with its weight alone."""
+    blocks: list[str] = []
+    for piece in _cubics(_bezier(curve)):
+        weights = piece[:, 3] / piece[:, 3].max()
+        spelled = _spelled(piece[:, :3] / piece[:, 3:], post, units)
+        p = [f"P{weight:.{WEIGHT_DIGITS}f}".rstrip("0").rstrip(".") for weight in weights]
+        blocks.append(f"{post.nurbs.word} {p[0]} L{CUBIC + 1}")
+        blocks += [f"{spelled.x[k]} {spelled.y[k]} {p[k]}" for k in range(1, CUBIC + 1)]
+        blocks.append(post.nurbs.end)
+    return blocks
+
+
+def _with_knots(curve: Nurbs, post: Post, units: Units) -> list[str]:
+    """Return every control point with its knot, and its weight where they are not all alike; then the last knots."""
+    homogeneous, knots = _homogeneous(curve), _whole(curve.knots)
+    if knots is None:
+        pieces = _bezier(curve)
+        homogeneous = np.concatenate([pieces[0, :1], pieces[:, 1:].reshape(-1, 4)])
+        inner = np.repeat(np.arange(1, len(pieces)), curve.degree)
+        knots = [0] * (curve.degree + 1) + inner.tolist() + [len(pieces)] * (curve.degree + 1)
+    weights = homogeneous[:, 3] / homogeneous[:, 3].max()
+    spelled = _spelled(homogeneous[:, :3] / homogeneous[:, 3:], post, units)
+    decimals, zeros = post.digits(units).X, post.words.trailing_zeros
+    r = [f" R{numeral(count, decimals, zeros)}" for count in counts(weights * LARGEST_WEIGHT, decimals)]
+    if np.ptp(weights) == 0:
+        r = [""] * len(weights)
+    k = [f"K{numeral(knot * 10**decimals, decimals, zeros)}" for knot in knots]
+    blocks = [" ".join(words) + weight for *words, weight in zip(k, spelled.x, spelled.y, spelled.z, r, strict=False)]
+    return [f"{post.nurbs.word} P{curve.degree + 1} {blocks[0]}", *blocks[1:], *k[len(blocks) :]]
+
+
+def _spelled(points: Floats, post: Post, units: Units) -> _Spelling:
+    """Return points (n, 3), mm, as words."""
+    digits, zeros = post.digits(units), post.words.trailing_zeros
+    columns = zip("XYZ", points.T / units.value, (digits.X, digits.Y, digits.Z), strict=True)
+    return _Spelling(*([letter + numeral(n, decimals, zeros) for n in counts(axis, decimals)] for letter, axis, decimals in columns))
+
+
+def _homogeneous(curve: Nurbs) -> Floats:
+    """Return control points (k, 4): w x, w y, w z, w."""
+    weights = curve.weights[:, None]
+    return np.hstack([curve.points * weights, weights])
+
+
+def _bezier(curve: Nurbs) -> Floats:
+    """Return the Bézier pieces (n, degree + 1, 4), homogeneous."""
+    return cut_at_knots(_homogeneous(curve), curve.knots, curve.degree)
+
+
+def _cubics(pieces: Floats) -> Floats:
+    """Return the same pieces with degree 3: point k of one degree more is between points k - 1 and k."""
+    while (degree := pieces.shape[1] - 1) < CUBIC:
+        share = (np.arange(degree + 2) / (degree + 1))[:, None]
+        before = np.pad(pieces, ((0, 0), (1, 0), (0, 0)))
+        after = np.pad(pieces, ((0, 0), (0, 1), (0, 0)))
+        pieces = share * before + (1 - share) * after
+    return pieces
+
+
+def _whole(knots: Floats) -> list[int] | None:
+    """Return the knots as whole numbers that draw the same curve, where there are such; None where there are not."""
+    steps = np.diff(knots)
+    moved = (knots - knots[0]) / np.min(steps[steps > 0])
+    near = np.rint(moved)
+    return near.astype(int).tolist() if near[-1] <= MOST_KNOTS and np.allclose(moved, near, rtol=0, atol=1e-9) else None

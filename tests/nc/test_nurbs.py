@@ -1,0 +1,144 @@
+"""NURBS in a control's words: read back they are the same curve, and LinuxCNC's interpreter takes its own and drives along it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from app.fit.bezier import cut_at_knots
+from app.model.motion import MotionKind, Nurbs
+from app.model.part import Units
+from app.nc.nurbs import nurbs_blocks
+from app.nc.posts import load_post, post_names
+from app.nc.read.options import ReadOptions
+from app.nc.read.reader import read_program
+from tests.nc.rs274_oracle import canonical_calls, exact_motions
+
+UNITS = pytest.mark.parametrize("units", [Units.MM, Units.INCH], ids=["mm", "inch"])
+QUARTER = Nurbs(np.array([[10, 0, -1], [10, 10, -1], [0, 10, -1.0]]), np.array([1, math.sqrt(0.5), 1]), np.array([0, 0, 0, 1, 1, 1.0]), 2)
+
+
+def curve(points: list[tuple[float, float, float]], weights: list[float], inner: list[float], degree: int) -> Nurbs:
+    knots = [0.0] * (degree + 1) + sorted(inner) + [1.0] * (degree + 1)
+    return Nurbs(np.array(points), np.array(weights), np.array(knots), degree)
+
+
+def text_of(meant: Nurbs, name: str, units: Units) -> str:
+    """A program that goes to the curve's start and along it."""
+    post = load_post(name)
+    blocks = nurbs_blocks(meant, post, units)
+    assert blocks is not None
+    start = " ".join(f"{axis}{round(value / units.value, 5):.5f}" for axis, value in zip("XYZ", meant.points[0], strict=True))
+    if name == "fanuc":
+        start = " ".join(word for word in blocks[0].split() if word[0] in "XYZ")
+    return "\n".join([f"G17 G90 G94 {'G20' if units is Units.INCH else 'G21'}", f"G0 {start}", "F100.", *blocks, "G0 Z50.", "M30", ""])
+
+
+def read_back(text: str, name: str) -> list[Nurbs]:
+    program = read_program(text.encode(), ReadOptions(dialect=load_post(name).dialect))
+    assert program.problems == ()
+    motions = program.motions
+    assert [int(kind) for kind in motions.kind] == [0] + [MotionKind.SPLINE] * len(motions.splines) + [0]
+    return [motions.splines[row] for row in sorted(motions.splines)]
+
+
+def along(curves: list[Nurbs], count: int = 33) -> np.ndarray:
+    """(pieces, count, 3) points of each Bézier piece at evenly spread parameters: those of two equal curves are equal."""
+    found = []
+    for each in curves:
+        weights = each.weights[:, None]
+        pieces = cut_at_knots(np.hstack([each.points * weights, weights]), each.knots, each.degree)
+        t = np.linspace(0, 1, count)[None, :, None, None]
+        b = np.repeat(pieces[:, None], count, axis=1)
+        while b.shape[2] > 1:
+            b = b[:, :, :-1] * (1 - t) + b[:, :, 1:] * t
+        found.append(b[:, :, 0, :3] / b[:, :, 0, 3:])
+    return np.concatenate(found)
+
+
+coordinate = st.floats(-80, 80)
+weight = st.floats(0.05, 20)
+
+
+@st.composite
+def curves(draw: st.DrawFn, flat: bool) -> Nurbs:
+    degree = draw(st.integers(1, 3))
+    inner = draw(st.one_of(
+        st.lists(st.floats(0.01, 0.99), max_size=4, unique=True),
+        st.integers(0, 5).map(lambda n: [k / (n + 1) for k in range(1, n + 1)]),
+    ))  # fmt: skip
+    count = degree + 1 + len(inner)
+    height = st.just(draw(coordinate)) if flat else coordinate
+    points = draw(st.lists(st.tuples(coordinate, coordinate, height), min_size=count, max_size=count))
+    weights = draw(st.one_of(st.just([1.0] * count), st.lists(weight, min_size=count, max_size=count)))
+    return curve(points, weights, inner, degree)
+
+
+@UNITS
+@settings(max_examples=60, deadline=None)
+@given(meant=curves(flat=False))
+def test_fanuc_reads_the_same_curve(units: Units, meant: Nurbs) -> None:
+    seen = along(read_back(text_of(meant, "fanuc", units), "fanuc"))
+    step = units.value * 10.0 ** -load_post("fanuc").digits(units).X
+    assert np.abs(seen - along([meant])).max() <= 0.5 * step + 3e-4
+
+
+@UNITS
+@settings(max_examples=60, deadline=None)
+@given(meant=curves(flat=True))
+def test_linuxcnc_reads_the_same_curve(units: Units, meant: Nurbs) -> None:
+    seen = along(read_back(text_of(meant, "linuxcnc", units), "linuxcnc"))
+    step = units.value * 10.0 ** -load_post("linuxcnc").digits(units).X
+    assert np.abs(seen[..., :2] - along([meant])[..., :2]).max() <= 0.5 * step + 1e-6
+
+
+@UNITS
+@settings(max_examples=10, deadline=None)
+@given(meant=curves(flat=True))
+def test_linuxcnc_drives_along_it(units: Units, meant: Nurbs) -> None:
+    """The interpreter's points are the pieces' own, at even parameters; it lets no piece out."""
+    text = text_of(meant, "linuxcnc", units)
+    assert sum(name == "NURBS_FEED" for name, _ in canonical_calls(text)) == text.count("G5.3")
+    ends = [number for number, line in enumerate(text.splitlines(), start=1) if line == "G5.3"]
+    driven = [motion for motion in exact_motions(text) if motion.line in ends]
+    step = units.value * 10.0 ** -load_post("linuxcnc").digits(units).X
+    for line, points in zip(ends, along([meant], 61), strict=True):
+        theirs = np.array([motion.end[:2] for motion in driven if motion.line == line])
+        assert np.abs(theirs[:60] - points[1:, :2]).max() <= 0.5 * step + 1e-6
+
+
+def test_a_quarter_of_a_circle_in_the_words_of_each_control() -> None:
+    assert nurbs_blocks(QUARTER, load_post("linuxcnc"), Units.MM) == (
+        "G5.2 P1 L4", "X10.0000 Y5.8579 P0.804737854", "X5.8579 Y10.0000 P0.804737854", "X0.0000 Y10.0000 P1", "G5.3",
+    )  # fmt: skip
+    assert nurbs_blocks(QUARTER, load_post("fanuc"), Units.MM) == (
+        "G6.2 P3 K0. X10. Y0. Z-1. R9999.", "K0. X10. Y10. Z-1. R7070.361", "K0. X0. Y10. Z-1. R9999.", "K1.", "K1.", "K1.",
+    )  # fmt: skip
+    for name, off in (("linuxcnc", 1e-4), ("fanuc", 1e-3)):
+        points = along(read_back(text_of(QUARTER, name, Units.MM), name))
+        assert np.abs(np.hypot(points[..., 0], points[..., 1]) - 10).max() < off
+
+
+def test_even_knots_stay_and_uneven_ones_give_way_to_those_of_pieces() -> None:
+    points = [(0.0, 0.0, 0.0), (10.0, 5.0, 0.0), (20.0, -5.0, 1.0), (30.0, 5.0, 0.0), (40.0, 0.0, 0.0), (50.0, 3.0, 0.0)]
+    fanuc = load_post("fanuc")
+    even = nurbs_blocks(curve(points, [1.0] * 6, [1 / 3, 2 / 3], 3), fanuc, Units.MM)
+    assert even is not None and [block.split()[-1] for block in even[6:]] == ["K3."] * 4
+    assert [block.split()[0] for block in even[1:6]] == ["K0.", "K0.", "K0.", "K1.", "K2."]
+    uneven = nurbs_blocks(curve(points, [1.0] * 6, [0.31, math.pi / 5], 3), fanuc, Units.MM)
+    assert uneven is not None and len(uneven) == 10 + 4
+    assert [block.split()[0] for block in uneven[1:]] == ["K0."] * 3 + ["K1."] * 3 + ["K2."] * 3 + ["K3."] * 4
+
+
+@pytest.mark.parametrize("name", post_names())
+def test_who_carries_what(name: str) -> None:
+    post = load_post(name)
+    steep = replace(QUARTER, points=QUARTER.points + np.array([[0, 0, 0], [0, 0, 1], [0, 0, 2]]))
+    high = curve([(float(k), float(k % 2), 0.0) for k in range(5)], [1.0] * 5, [], 4)
+    carried = [nurbs_blocks(each, post, Units.MM) is not None for each in (QUARTER, steep, high)]
+    assert carried == {"linuxcnc": [True, False, False], "fanuc": [True, True, False]}.get(name, [False, False, False])
