@@ -31,22 +31,48 @@ class _Place:
         """Return the place of a table in this one."""
         return _Place(self.file, self.lines, (*self.tables, key))
 
+    def item(self, key: str, number: int) -> _Place:
+        """Return the place of the number-th table, from 1 on, of a list of tables in this one."""
+        return self.inside(f"{key}[{number}]")
+
     def error(self, key: str, text: str) -> InputError:
         """Return an error that names a key: "mill.toml:7: x.rapid is ..."."""
         return InputError(f"{self.file}:{self._line(key)}: {'.'.join((*self.tables, key))} {text}")
 
+    def begin(self) -> str:
+        """Return the file and the line of the table's header; of the file's own keys, the file alone."""
+        return f"{self.file}:{self._line('')}" if self.tables else self.file
+
     def _line(self, key: str) -> int:
         """Return the 1-based line of a key; where it is missing, that of its table, or 1."""
         table, found = "", 1
+        here, counts = ".".join(self.tables), dict[str, int]()
         for number, line in enumerate(self.lines, 1):
-            if header := re.match(r"\s*\[\s*([\w.\"'-]+)\s*\]", line):
-                table = header[1]
-                found = number if table == ".".join(self.tables) else found
-                if table == ".".join((*self.tables, key)):
+            if header := re.match(r"\s*(\[{1,2})\s*([\w.\"'-]+)\s*\]", line):
+                table = _numbered(header[2], counts, begins=header[1] == "[[")
+                found = number if table == here else found
+                if table in (f"{here}.{key}".lstrip("."), f"{here}.{key}[1]".lstrip(".")):
                     return number
-            elif table == ".".join(self.tables) and re.match(rf"\s*[\"']?{re.escape(key)}[\"']?\s*=", line):
+            elif table == here and re.match(rf"\s*[\"']?{re.escape(key)}[\"']?\s*=", line):
                 return number
         return found
+
+
+def _numbered(header: str, counts: dict[str, int], begins: bool) -> str:
+    """Return a table's path with the numbers of the lists in it: "tool.feeds" -> "tool[2].feeds[1]".
+
+    Args:
+        header: the path as the file has it.
+        counts: how many tables each list holds up to here; changed.
+        begins: this header begins another table of a list.
+    """
+    path = ""
+    parts = header.split(".")
+    for depth, part in enumerate(parts, 1):
+        path = f"{path}.{part}".lstrip(".")
+        counts[path] = counts.get(path, 0) + (begins and depth == len(parts))
+        path += f"[{counts[path]}]" * bool(counts[path])
+    return path
 
 
 def read_tables(kind: type[Kind], file: str, data: bytes, ranges: Mapping[str, Range]) -> Kind:
@@ -54,7 +80,7 @@ def read_tables(kind: type[Kind], file: str, data: bytes, ranges: Mapping[str, R
 
     Args:
         kind: a dataclass whose fields are texts, flags, numbers, Enums by their value, tuples of texts or of so many
-            numbers, dataclasses, or one of these or None.
+            numbers or of any number of such tuples, dataclasses, tuples of any number of them, or one of these or None.
         file: the file's name, for errors.
         data: its bytes, UTF-8.
         ranges: least and greatest number by dotted key; a table's name stands for all its numbers; others are free.
@@ -99,7 +125,7 @@ def _table(kind: Any, data: dict[str, Any], place: _Place, ranges: Mapping[str, 
     except InputError:
         raise
     except HitofudeError as error:
-        raise InputError(f"{'.'.join((place.file, *place.tables))}: {error}") from error
+        raise InputError(f"{place.begin()}: {error}") from error
 
 
 def _required(each: Field[Any]) -> bool:
@@ -117,11 +143,27 @@ def _value(kind: Any, value: Any, at: tuple[_Place, str], ranges: Mapping[str, R
         return kind(value)
     if typing.get_origin(kind) is tuple and isinstance(value, list) and _alike(typing.get_args(kind), value):
         return tuple(item if isinstance(item, str) else float(_in_range(item, at, ranges)) for item in value)
+    if (part := _repeated(kind)) is not None and isinstance(value, list):
+        return tuple(_item(part, item, at, (number, ranges)) for number, item in enumerate(value, 1))
     if kind in (int, float) and type(value) in (int, kind):
         return kind(_in_range(value, at, ranges))
     if kind in (str, bool) and isinstance(value, kind):
         return value
     raise place.error(key, f"is {value!r}; expected is {_expected(kind)}.")
+
+
+def _repeated(kind: Any) -> Any:
+    """Return what a tuple of any number of tables or of tuples holds; None for other types."""
+    parts = typing.get_args(kind) if typing.get_origin(kind) is tuple else ()
+    return parts[0] if parts[1:] == (...,) and (is_dataclass(parts[0]) or typing.get_origin(parts[0]) is tuple) else None
+
+
+def _item(kind: Any, value: Any, at: tuple[_Place, str], rest: tuple[int, Mapping[str, Range]]) -> Any:
+    """Return one table or one tuple of a list of them, of which it is the number-th."""
+    (place, key), (number, ranges) = at, rest
+    if is_dataclass(kind) and isinstance(value, dict):
+        return _table(kind, value, place.item(key, number), ranges)
+    return _value(kind, value, at, ranges)
 
 
 def _alike(parts: tuple[Any, ...], values: list[Any]) -> bool:
@@ -134,7 +176,7 @@ def _alike(parts: tuple[Any, ...], values: list[Any]) -> bool:
 def _in_range(value: float, at: tuple[_Place, str], ranges: Mapping[str, Range]) -> float:
     """Return a number if it is in the range of its key, or of the first table above it that has one."""
     place, key = at
-    path = (*place.tables, key)
+    path = [re.sub(r"\[\d+\]$", "", part) for part in (*place.tables, key)]
     found = [name for end in range(len(path), 0, -1) if (name := ".".join(path[:end])) in ranges]
     low, high = ranges[found[0]] if found else (float("-inf"), float("inf"))
     if not low <= value <= high:
@@ -150,6 +192,8 @@ def _expected(kind: Any) -> str:
         return f"a table with {', '.join(each.name for each in fields(kind))}"
     if isinstance(kind, type) and issubclass(kind, Enum):
         return " or ".join(repr(choice.value) for choice in kind)
+    if (part := _repeated(kind)) is not None:
+        return f"a list, and in it {_expected(part)} each time"
     return EXPECTED.get(kind) or f"a list of {len(typing.get_args(kind))} numbers"
 
 
@@ -165,7 +209,10 @@ def _lines(value: Any, table: str) -> list[str]:
         if is_dataclass(item):
             path = f"{table}.{each.name}" if table else each.name
             tables += ["", f"[{path}]", *_lines(item, path)]
-        elif item is not None:
+        elif isinstance(item, tuple) and item and is_dataclass(item[0]):
+            path = f"{table}.{each.name}" if table else each.name
+            tables += [line for one in item for line in ("", f"[[{path}]]", *_lines(one, path))]
+        elif item is not None and not item == () == each.default:
             plain.append(f"{each.name} = {_spelled(item)}")
     return plain + tables
 
