@@ -50,8 +50,7 @@ def _feed(control: Control, block: Block) -> None:
     value = block.get("f")
     inverse = control.modal.feed_mode is FeedMode.INVERSE_TIME
     if value is None:
-        if inverse and block.codes.get(Group.MOTION, control.motion) not in ("G0", "G80") and block.has("xyz"):
-            control.feed = math.nan
+        control.feed = math.nan if inverse else control.feed
         return
     if value < 0:
         raise Fault(f"the feed rate is {value:g}; it must be greater than 0.", letter="f")
