@@ -19,6 +19,9 @@ Grid = tuple[int, int]
 
 SAMPLES = 8
 
+FARTHEST_ROUNDED = math.sqrt(0.5)
+"""How far a point may be from the nearest grid point, in steps of the last decimal."""
+
 NEIGHBOURS = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1))
 
 
@@ -104,7 +107,8 @@ def written_pieces(arc: MeantArc, start: Grid, end: Grid, rules: ArcRules) -> li
 
 def _stretch(arc: MeantArc, span: tuple[float, float], ends: tuple[Grid, Grid], rules: ArcRules) -> Iterator[Piece]:
     """Yield the blocks of one stretch: a line where it is flat, one arc where that fits, else those of its halves."""
-    if _sagitta(arc, span) < 0.5 * 10.0**-rules.decimals:
+    step = 10.0**-rules.decimals
+    if _sagitta(arc, span) < min(0.5 * step, rules.tolerance - FARTHEST_ROUNDED * step):
         if ends[0] != ends[1]:
             yield Piece(ends[1], span[1])
         return

@@ -158,7 +158,8 @@ class _Writer:
         gaps = (round(gap / unit * self.z_scale) for gap in (post.drilling.peck_gap_mm, post.drilling.chip_gap_mm))
         self.cycle_rules = CycleRules(post.drilling, round(self.z_scale), *gaps)
         self.arc_rules = ArcRules(
-            digits.X, digits.I, writing_tolerance(job, post) / unit, math.radians(post.arcs.largest_sweep_deg),
+            digits.X, digits.I, math.sqrt((writing_tolerance(job, post) / unit) ** 2 - (0.5 / self.z_scale) ** 2),  # Z is rounded too
+            math.radians(post.arcs.largest_sweep_deg),
             post.arcs.smallest_radius_mm / unit, post.arcs.largest_radius_mm / unit, post.arcs.radius_mismatch_mm / unit,
         )  # fmt: skip
 

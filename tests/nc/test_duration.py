@@ -51,7 +51,8 @@ def test_a_right_corner_stops_where_the_path_is_exact_and_not_where_it_blends() 
     s = math.sqrt(0.5)
     v = math.sqrt(100 * math.sqrt(2) * 0.1 * s / (1 - s))  # both axes help to turn
     assert v < 10
-    assert seconds(corner, ModalState(path="G64", path_tolerance=0.1)) == pytest.approx(2 * (50 / 10 + (10**2 + (10 - v) ** 2) / (2 * 10 * 100)))
+    leg = 50 / 10 + (10**2 + (10 - v) ** 2) / (2 * 10 * 100)
+    assert seconds(corner, ModalState(path="G64", path_tolerance=0.1)) == pytest.approx(2 * leg)
 
 
 @pytest.mark.parametrize("plane", list(Plane))

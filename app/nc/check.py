@@ -1,0 +1,234 @@
+"""Are the bytes that were written the moves that were meant: read back as the control would, and compared move by move.
+
+Reader and writer share no code beyond the post's dialect, so that neither can hide what the other does wrong. Compared
+are the path (ends, and arcs all along), the kind and the feed of every motion, and what is in force while it is done:
+tool, length, spindle, coolant, work offset, blending. Motions that belong to no move may only lift the tool.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.errors import HitofudeError
+from app.model.job import Job
+from app.model.motion import MotionKind, Plane
+from app.model.moves import MoveKind, Moves, Program
+from app.model.stock_box import stock_box, work_origin
+from app.nc.check_lines import MeantPath, Owned, Rows, owned
+from app.nc.check_path import distances
+from app.nc.check_state import Expected, wrong_states
+from app.nc.post import Post
+from app.nc.read.options import ReadOptions
+from app.nc.read.program import EventKind, NcProgram, Problem
+from app.nc.read.reader import read_program
+from app.nc.write import NcFile, writing_tolerance
+from app.progress import NO_PROGRESS, Progress
+
+
+@dataclass(frozen=True, eq=False)
+class Check:
+    """What reading a text back has shown.
+
+    Attributes:
+        largest_distance_mm: the written path is nowhere farther from the moves, nor the moves from it.
+        tolerance_mm: how far it may be.
+        problems: every way in which the text differs from the moves, the first line of each; none = it is what was meant.
+        program: what the text was read as.
+        move: (n,) index of the program's move that each motion was written for; lifts count to the move before them, the
+            approach of a tool to its first move.
+    """
+
+    largest_distance_mm: float
+    tolerance_mm: float
+    problems: tuple[Problem, ...]
+    program: NcProgram
+    move: Rows
+
+    def require(self, name: str) -> None:
+        """Refuse a text that differs.
+
+        Args:
+            name: of the program's file.
+
+        Raises:
+            HitofudeError: the first difference, with its line.
+        """
+        if self.problems:
+            more = f" ({len(self.problems) - 1} more differences)" if len(self.problems) > 1 else ""
+            raise HitofudeError(f"{self.problems[0].told(name)}{more} What was written is not the path that was computed, so it is not "
+                                "kept; please report this with the drawing and the post.")  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class _Compared:
+    """One file and what it should hold."""
+
+    read: NcProgram
+    moves: Moves
+    meant: MeantPath
+    file: NcFile
+    expected: Expected
+    safe_z: float
+    tolerance: float
+
+    @property
+    def begins(self) -> Rows:
+        """Index of the first move of each tool."""
+        return np.flatnonzero(np.append(True, self.moves.tool[1:] != self.moves.tool[:-1]))
+
+
+@dataclass(frozen=True)
+class Meant:
+    """What files were written from."""
+
+    program: Program
+    job: Job
+    post: Post
+
+
+def check(data: bytes, file: NcFile, meant: Meant, progress: Progress = NO_PROGRESS) -> Check:
+    """Return how a text differs from the moves that it was written for.
+
+    Args:
+        data: the very bytes of the file.
+        file: which lines of them were written for which moves.
+        meant: program, job and post that it was written from.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    program, job, post = meant.program, meant.job, meant.post
+    read = read_program(data, ReadOptions(dialect=post.dialect), progress)
+    stop = file.first + len(file.nc.lines)
+    moves = Moves(**{name: column[file.first:stop] for name, column in program.moves.columns().items()})  # type: ignore[arg-type]
+    origin = work_origin(job, stock_box(job, program.regions))
+    step = writing_tolerance(job, post)
+    compared = _Compared(read, moves, MeantPath.of(moves, origin), file, Expected.of(job, post), job.safe_z - origin[2], step)
+    mine = owned(read.motions, file.nc.lines, compared.begins, compared.meant, step)
+    far = distances(read.motions, compared.meant, mine)
+    problems = (*read.problems, *sorted(_problems(compared, mine, far), key=lambda problem: problem.line))
+    move = np.minimum(np.searchsorted(file.nc.lines, read.motions.line), len(moves) - 1) + file.first
+    return Check(float(np.max(far)), step, problems, read, move)
+
+
+def _problems(compared: _Compared, mine: Owned, far: np.ndarray) -> Iterator[Problem]:
+    """Yield every difference."""
+    motions = compared.read.motions
+    if np.any(np.diff(motions.line) < 0):
+        row = int(np.argmax(np.diff(motions.line) < 0)) + 1
+        yield _problem(motions.line[row], "", "this line runs again behind a later one.")
+        return
+    yield from _path_problems(compared, far)
+    yield from _kind_problems(compared, mine)
+    yield from wrong_states(compared.read, compared.moves, mine, compared.expected)
+    yield from _lift_problems(compared, mine)
+    yield from _section_problems(compared, mine)
+    if compared.expected.ends and sum(event.kind is EventKind.END for event in compared.read.events) != 1:
+        yield _problem(compared.read.line_count, "", "the program has no end (M2, M30), or goes on behind it.")
+
+
+def _path_problems(compared: _Compared, far: np.ndarray) -> Iterator[Problem]:
+    """Yield what of the path is missing or elsewhere."""
+    wrong = np.flatnonzero(~(far <= compared.tolerance))
+    if len(wrong):
+        move = wrong[0]
+        yield _problem(compared.file.nc.lines[move], "", f"the written path is {far[move]:.4f} mm from the move to "
+                       f"X{compared.meant.end[move, 0]:.4f} Y{compared.meant.end[move, 1]:.4f} Z{compared.meant.end[move, 2]:.4f}, and so "
+                       f"in {len(wrong)} moves; {compared.tolerance:g} mm are allowed.")  # fmt: skip
+
+
+def _kind_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
+    """Yield motions of another kind than their moves, and those that are too many."""
+    motions, moves = compared.read.motions, compared.moves
+    kind, meant = motions.kind[mine.rows], moves.kind[mine.move]
+    arc = meant >= MoveKind.ARC_CW
+    wrong = (kind != meant) & ~(arc & (kind == MotionKind.LINE))
+    wrong |= (kind >= MotionKind.ARC_CW) & (motions.plane[mine.rows] != Plane.XY)
+    if wrong.any():
+        k = int(np.argmax(wrong))
+        names = ("G0", "G1", "G2", "G3", "a spline")
+        yield _problem(motions.line[mine.rows[k]], "", f"this is {names[kind[k]]} where {names[meant[k]]} was meant.")
+    many = (mine.count > 1) & (moves.kind < MoveKind.ARC_CW)
+    if many.any():
+        yield _problem(compared.file.nc.lines[np.argmax(many)], "", "there are more motions than were meant.")
+
+
+def _lift_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
+    """Yield motions that belong to no move and are no lifts."""
+    motions = compared.read.motions
+    free = np.ones(len(motions), bool)
+    free[mine.rows] = False
+    level = np.hypot(*(motions.end - motions.start)[:, :2].T) > 0
+    home = np.isin(motions.line, compared.file.nc.home_lines)
+    stays = motions.end[:, 2] == motions.start[:, 2]
+    last = np.append(motions.line[1:] != motions.line[:-1], True)
+    right = stays | np.where(home, last & (motions.end[:, 2] == 0), np.abs(motions.end[:, 2] - compared.safe_z) <= compared.tolerance)
+    wrong = free & ((motions.kind != MotionKind.RAPID) | level | ~right)
+    if wrong.any():
+        yield _problem(motions.line[np.argmax(wrong)], "", "this motion belongs to no move of the path and is no lift to clearance.")
+
+
+def _section_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
+    """Yield what is wrong between the tools: changes, dwells, stops, the approach."""
+    begins, lines = compared.begins, compared.file.nc.lines
+    missing = mine.count[begins] == 0
+    if missing.any():
+        yield _problem(lines[begins[np.argmax(missing)]], "", "the first motion of this tool is missing.")
+        return
+    first = mine.rows[mine.first[begins]]
+    last = np.append(mine.last[begins[1:] - 1], len(compared.read.motions) - 1)
+    if max(compared.read.motions.known_from) > first[0]:
+        yield _problem(lines[0], "", "the first motions do not say where each axis goes.")
+    sections = _Sections(compared, first, last)
+    yield from sections.problems()
+
+
+@dataclass(frozen=True, eq=False)
+class _Sections:
+    """The stretches between the motions of one tool and of the next.
+
+    Attributes:
+        first: (k,) row of each tool's first motion. last: (k,) of its last one.
+    """
+
+    compared: _Compared
+    first: Rows
+    last: Rows
+
+    def problems(self) -> Iterator[Problem]:
+        """Yield what is wrong."""
+        expected, numbers = self.compared.expected, self.compared.moves.tool[self.compared.begins].tolist()
+        changes: list[list[int]] = [[] for _ in numbers]
+        dwell = [0.0] * len(numbers)
+        for event in self.compared.read.events:
+            section = int(np.searchsorted(self.first, event.before))
+            between = section < len(numbers) and (section == 0 or event.before > self.last[section - 1])
+            if event.kind is EventKind.END:
+                continue
+            if event.kind is EventKind.TOOL_CHANGE and between:
+                changes[section].append(event.before)
+            elif event.kind is EventKind.DWELL and between:
+                dwell[section] += event.value
+            elif not (event.kind in (EventKind.STOP, EventKind.OPTIONAL_STOP) and expected.stops):
+                yield _problem(event.line, "", f"there is a {event.kind.value} here that was not meant.")
+        for section, tool in enumerate(numbers):
+            line = int(self.compared.file.nc.lines[self.compared.begins[section]])
+            if expected.changes and len(changes[section]) != 1:
+                yield _problem(line, "", f"T{tool} is changed to {len(changes[section])} times before its first motion.")
+            if expected.dwell_s is not None and abs(dwell[section] - expected.dwell_s) > 1e-3:
+                yield _problem(line, "", f"the spindle has {dwell[section]:g} s to reach its speed, not {expected.dwell_s:g}.")
+            if not self._clear(section, max(changes[section], default=0)):
+                yield _problem(line, "", f"T{tool} does not go to clearance height before it moves in X or Y.")
+
+    def _clear(self, section: int, changed: int) -> bool:
+        """Tell whether a tool goes to clearance by Z alone between its change and its first motion level."""
+        motions, row, safe = self.compared.read.motions, int(self.first[section]), self.compared.safe_z
+        level = bool(np.any(motions.end[row, :2] != motions.start[row, :2]))
+        return not level or (row > changed and abs(motions.end[row - 1, 2] - safe) <= self.compared.tolerance)
+
+
+def _problem(line: int, word: str, text: str) -> Problem:
+    return Problem(int(line), 0, word, text)
