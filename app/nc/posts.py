@@ -134,8 +134,8 @@ def _check_words(post: Post, file: str) -> None:
         raise InputError(f"{file}: words.motion has {len(post.words.motion)} texts; expected are rapid, line, clockwise and "
                          "counter-clockwise arc.")
     for name, digits in (("mm", post.decimals.mm), ("inch", post.decimals.inch)):
-        if digits.X != digits.Y or digits.I != digits.J or digits.I < digits.X:
-            raise InputError(f"{file}: decimals.{name} must be alike for X and Y, and for I and J, and I not less than X.")
+        if digits.X != digits.Y or digits.I != digits.J or digits.I < digits.X or digits.Z < digits.X:
+            raise InputError(f"{file}: decimals.{name} must be alike for X and Y, and for I and J, and I and Z not less than X.")
 
 
 def _check_nurbs(post: Post, file: str) -> None:

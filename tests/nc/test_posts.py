@@ -81,6 +81,7 @@ def test_unknown_post_names_the_known_ones() -> None:
         ('dialect = "linuxcnc"', 'dialect = "okuma"', "mill.toml: dialect is 'okuma'; expected is 'linuxcnc' or 'grbl'"),
         ("X = 4", "X = 9", "mill.toml: decimals.mm.X is 9; expected is a number from 0 to 6"),
         ("I = 4", "I = 3", "mill.toml: decimals.mm must be alike"),
+        ("Z = 4", "Z = 2", "mill.toml: decimals.mm must be alike for X and Y, and for I and J, and I and Z not less than X"),
         ('title = "LinuxCNC"', "title = ", "mill.toml: this is no TOML file"),
     ],
 )
