@@ -4,6 +4,7 @@ from __future__ import annotations
 
 THIN_SPACE = "\u2009"
 TIMES = "\u00d7"
+_MANY = 10_000
 
 
 def grouped(value: float, decimals: int = 3) -> str:
@@ -20,5 +21,5 @@ def clock(seconds: float) -> str:
 
 
 def counted(count: int, one: str, many: str | None = None) -> str:
-    """Return "1 stroke" or "2 strokes"."""
-    return f"{count} {one if count == 1 else many or one + 's'}"
+    """Return "1 stroke", "2 strokes" or "12 000 strokes"."""
+    return f"{grouped(count, 0) if count >= _MANY else count} {one if count == 1 else many or one + 's'}"

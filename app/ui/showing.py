@@ -89,6 +89,7 @@ class Showing(QObject):
         self.view = view
         self._window.actions_[view.value].setChecked(True)
         self._window.views.show_view(view)
+        self._window.status.show_message(self._standing())
         self.show_missing()
 
     def refresh(self, change: Change) -> None:
@@ -126,7 +127,7 @@ class Showing(QObject):
         self._window.views.show_missing(missing.sentence, missing.button, made is not None)
 
     def _missing(self) -> Missing:
-        if self._computation.made is not None or (self.view is View.NC and len(self._window.views.nc.text.text)):
+        if self._computation.made is not None or (self.view is View.NC and len(self._window.views.nc.pane.text.text)):
             return NOTHING
         if self._computation.state is State.RUNNING:
             return COMPUTING if self.view is not View.DRAW else NOTHING
@@ -138,7 +139,12 @@ class Showing(QObject):
 
     def show_hovered(self, text: str) -> None:
         """Show what the mouse is over, or else where the paths stand."""
-        self._window.status.show_message(text or self._computation.state.value)
+        self._window.status.show_message(text or self._standing())
+
+    def _standing(self) -> str:
+        """Return what the status bar says when nothing else is to be said."""
+        words = self._window.views.nc.summary if self.view is View.NC else ""
+        return words or self._computation.state.value
 
     def _on_computation(self) -> None:
         made, state = self._computation.made, self._computation.state

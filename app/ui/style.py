@@ -29,7 +29,8 @@ QWidget#sidePanel { border-left: 1px solid $hairline; }
 QWidget#logArea, QWidget#commandRow, QWidget#statusBar { border-top: 1px solid $hairline; }
 QFrame#hairline { background: $hairline; border: 0; }
 QWidget#ncBar { background: $paper; border-bottom: 1px solid $hairline; }
-QWidget#ncProblems { background: $paper; border-top: 1px solid $hairline; }
+QWidget#ncPlaces { background: $paper; border-top: 1px solid $hairline; }
+QAbstractScrollArea::corner { background: transparent; border: 0; }
 QSplitter::handle { background: $hairline; }
 QLabel { color: $ink; background: transparent; }
 QLabel[role="muted"] { color: $muted; }
@@ -86,7 +87,7 @@ QComboBox QAbstractItemView { background: $raised; color: $ink; border: 1px soli
 QListWidget { background: transparent; border: 0; outline: 0; padding: 0 4px; }
 QListWidget::item { padding: 3px 8px; border-radius: 4px; }
 QListWidget::item:hover { background: $hover; }
-QListWidget::item:selected { background: $chosen; }
+QListWidget::item:selected { background: $chosen; color: $ink; }
 QScrollArea, QScrollArea > QWidget > QWidget { background: transparent; border: 0; }
 QScrollBar:vertical { background: transparent; width: 8px; margin: 0; }
 QScrollBar:horizontal { background: transparent; height: 8px; margin: 0; }

@@ -88,7 +88,7 @@ class Views(QStackedWidget):
         self.view = view
         if view is View.NC:
             self.setCurrentWidget(self.nc)
-            self.nc.text.setFocus()
+            self.nc.setFocus()
         else:
             self.setCurrentWidget(self.canvas)
             self.canvas.set_mode(CanvasMode.PATHS if view is View.PATHS else CanvasMode.DRAW)

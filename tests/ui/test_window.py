@@ -91,7 +91,7 @@ def test_tabs_lead_from_drawing_to_nc(qtbot, computed):
     window = computed.window_
     qtbot.mouseClick(window.top_bar.tabs["view_nc"], Qt.MouseButton.LeftButton)
     assert window.views.currentWidget() is window.views.nc
-    assert window.views.nc.text.text.text == computed.computation.made.nc.text
+    assert window.views.nc.pane.text.text.text == computed.computation.made.nc.text
     assert not window.views.legend.isVisible()
     qtbot.mouseClick(window.top_bar.tabs["view_draw"], Qt.MouseButton.LeftButton)
     assert window.views.currentWidget() is window.canvas

@@ -151,7 +151,7 @@ class Canvas(Hands):
         theme = self._look.theme
         painter.setClipRect(self.area)
         if self._lit is not None:
-            overlay.paint_highlight(painter, self.view, self._lit_path, theme)
+            overlay.paint_highlight(painter, self.view, self._lit_path, (theme.accent, theme.accent_text))
         overlay.paint_findings(painter, self.view, self._findings, theme)
         if self.runner.tool is not None:
             self._paint_tool(painter)

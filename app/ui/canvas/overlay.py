@@ -114,15 +114,15 @@ def paint_band(painter: QPainter, start: QPointF, end: QPointF, theme: Theme) ->
     painter.drawRect(QRectF(start, end).normalized())
 
 
-def paint_highlight(painter: QPainter, view: View, path: QPainterPath, theme: Theme, width: float = 2.5) -> None:
-    """Paint a path in mm as the thing under the mouse: a broad band of the accent with a fine line in it."""
-    glow = QColor(theme.accent)
+def paint_highlight(painter: QPainter, view: View, path: QPainterPath, colours: tuple[QColor, QColor], width: float = 2.5) -> None:
+    """Paint a path in mm as the thing under the mouse: a broad band of the first colour with a fine line of the second in it."""
+    glow = QColor(colours[0])
     glow.setAlphaF(0.35)
     painter.save()
     painter.setTransform(view.transform(), True)
     painter.setBrush(Qt.BrushStyle.NoBrush)
-    for colour, broad in ((glow, width + 4), (theme.accent_text, width - 0.7)):
-        pen = screen_pen(painter, colour, broad)
+    for hue, broad in ((glow, width + 4), (colours[1], width - 0.7)):
+        pen = screen_pen(painter, hue, broad)
         pen.setCapStyle(Qt.PenCapStyle.RoundCap)
         pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
         painter.setPen(pen)

@@ -13,13 +13,15 @@ from app.atomic import write_atomically
 from app.errors import HitofudeError
 from app.nc.read.dialect import Dialect
 from app.nc.read.program import Severity
+from app.progress import Progress
 from app.ui.computation import State
 from app.ui.figures import counted
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
 from app.ui.nc.motion_shapes import Side
+from app.ui.nc.places import Compared, difference_places
 from app.ui.nc.program_text import program_text
-from app.ui.nc.reading import FILTER, Reading, Shown, Source
+from app.ui.nc.reading import FILTER, Reading, Shown, Source, read_shown
 from app.ui.views import View
 
 
@@ -47,8 +49,9 @@ class NcControl(QObject):
         window.status.cancelled.connect(self.reading.worker.cancel)
         self._computation.changed.connect(self._follow)
         self._view.side_wanted.connect(self._draw_side)
-        self._view.head.dialect_chosen.connect(self._read_as)
-        self._view.banner.pressed.connect(self._on_banner)
+        self._view.comparison_closed.connect(self.stop_comparing)
+        self._view.pane.head.dialect_chosen.connect(self._read_as)
+        self._view.pane.banner.pressed.connect(self._on_banner)
 
     @property
     def source(self) -> Source | None:
@@ -73,6 +76,34 @@ class NcControl(QObject):
         name, _ = QFileDialog.getOpenFileName(self._window, "Open NC program", self._window.settings.last_folder, FILTER)
         if name:
             self.open(Path(name))
+
+    def choose_to_compare(self) -> None:
+        """Ask for a second program and compare it with the one that is shown."""
+        name, _ = QFileDialog.getOpenFileName(self._window, "Compare with", self._window.settings.last_folder, FILTER)
+        if name:
+            self.compare(Path(name))
+
+    def compare(self, path: Path) -> None:
+        """Compare the shown program with that of a file, which is shown beside it."""
+        shown, side = self._view.shown, self._view.side
+        if shown is not None:
+            self.reading.start(partial(_compared, shown, Source(path.name, path=path), side), self._on_compared)
+
+    def stop_comparing(self) -> None:
+        """Take the second program away."""
+        self._view.show_comparison(None)
+        self.changed.emit()
+
+    def _on_compared(self, answer: tuple[Shown, Compared]) -> None:
+        shown, compared = answer
+        if shown is not self._view.shown:
+            return
+        title = difference_places(compared.differences)[0]
+        self._log.note(f"compare {compared.other.source.name}", title)
+        self._view.other.head.show_dialect(compared.other.guessed, compared.other.source.dialect, free=False)
+        self._window.actions_[View.NC.value].trigger()
+        self._view.show_comparison(compared)
+        self.changed.emit()
 
     def back(self) -> None:
         """Show the job's program again."""
@@ -118,7 +149,7 @@ class NcControl(QObject):
             window.notice.hide()
             self._log.note(f"open {source.name}", _sentence(shown), error=shown.program.error is not None)
             window.actions_[View.NC.value].trigger()
-            self._view.text.setFocus()
+            self._view.setFocus()
         self.changed.emit()
 
     def _read_as(self, dialect: Dialect | None) -> None:
@@ -160,10 +191,10 @@ class NcControl(QObject):
 
     def _show_heads(self, guessed: Dialect | None = None) -> None:
         """Say what is shown: another program, or one that the job has outgrown."""
-        source, banner = self.source, self._view.banner
+        source, banner = self.source, self._view.pane.banner
         dialect = source.dialect if source is not None else None
         if guessed is not None or not self.foreign:
-            self._view.head.show_dialect(guessed or dialect or Dialect.LINUXCNC, dialect, self.foreign)
+            self._view.pane.head.show_dialect(guessed or dialect or Dialect.LINUXCNC, dialect, self.foreign)
         if self.foreign:
             banner.say("Not the job's program.", "Back to the job's program")
         elif self._computation.outdated and self._computation.state is not State.RUNNING:
@@ -178,13 +209,20 @@ class NcControl(QObject):
             self._window.actions_["compute"].trigger()
 
     def _draw_side(self, side: Side) -> None:
-        shown = self._view.shown
-        if shown is not None:
-            self.reading.draw(shown.shapes, side, self._view.add_picture)
+        programs = [shown.shapes for shown in self._view.missing_pictures(side)]
+        self.reading.draw(programs, side, self._view.add_pictures)
 
     def _on_busy(self, busy: bool) -> None:
         if busy or not self._window.worker.busy:
             self._window.status.show_progress(0.0 if busy else None)
+
+
+def _compared(shown: Shown, other: Source, side: Side, progress: Progress) -> tuple[Shown, Compared]:
+    from app.nc.compare import compare
+
+    second = read_shown(other, side, progress.part(0.0, 0.5))
+    progress.step(0.5, "Comparing")
+    return shown, Compared(second, compare(shown.program, second.program, progress=progress.part(0.5, 1.0)))
 
 
 def _sentence(shown: Shown) -> str:

@@ -58,8 +58,6 @@ class FindBar(QWidget):
     def set_text(self, text: ProgramText) -> None:
         """Look in another program from now on."""
         self._text, self._at, self._from = text, None, 0
-        if self.isVisible():
-            self._mark()
 
     def begin(self, row: int, words: str | None = None) -> None:
         """Open the bar; look from a row on.
@@ -90,10 +88,14 @@ class FindBar(QWidget):
         here = self._at if self._at is not None else self._from
         self._go(self._text.find(words, here if back or self._at is None else here + 1, back))
 
-    def close_bar(self) -> None:
-        """Close the bar and take the marks away."""
+    def close_quietly(self) -> None:
+        """Close the bar and take the marks away; the focus stays where it is."""
         self.hide()
         self.marked.emit("", ())
+
+    def close_bar(self) -> None:
+        """Close the bar and take the marks away."""
+        self.close_quietly()
         self.closed.emit()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)

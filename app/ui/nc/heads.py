@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QWidget
 
 from app.nc.read.dialect import HABITS, Dialect
@@ -13,6 +14,7 @@ from app.ui.nc.motion_shapes import Side
 from app.ui.panels.fields import ChoiceField
 
 BAR_PX = 36
+_ROOM_PX = 320
 
 
 def _bar(widget: QWidget, spacing: int = 8) -> QHBoxLayout:
@@ -94,13 +96,12 @@ class Banner(QWidget):
     def __init__(self) -> None:
         super().__init__()
         row = _bar(self)
-        self.sentence, self.button = muted(), QPushButton()
+        self.sentence, self.button = Elided(role="muted"), QPushButton()
         self.button.setProperty("role", "link")
         self.button.setCursor(Qt.CursorShape.PointingHandCursor)
         self.button.clicked.connect(self.pressed)
         row.addWidget(self.sentence)
-        row.addWidget(self.button)
-        row.addStretch(1)
+        row.addWidget(self.button, 1)
         self.hide()
 
     def say(self, sentence: str, button: str) -> None:
@@ -138,3 +139,8 @@ class PathHead(QWidget):
         self.key = muted("Colour by")
         row.addWidget(self.key)
         row.addWidget(self.colour)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave out what explains itself where there is no room for it."""
+        super().resizeEvent(event)
+        self.key.setVisible(event.size().width() >= _ROOM_PX)

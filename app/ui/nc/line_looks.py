@@ -12,6 +12,8 @@ from app.model.motion import MotionKind
 from app.nc.read.program import Problem
 from app.ui.nc.motion_shapes import Look, MotionShapes, tools_of
 
+Ints = NDArray[np.int64]
+
 NOTHING, RAPID, PLUNGE, CUT = 0, 1, 2, 3
 """What a line moves: nothing, a rapid, straight down; CUT + k = cuts with the program's k-th tool (by kind: CUT + MotionKind)."""
 
@@ -29,7 +31,7 @@ class LineLooks:
     by_tool: NDArray[np.uint8]
     by_motion: NDArray[np.uint8]
     problems: dict[int, list[Problem]] = field(default_factory=dict)
-    differing: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, np.int64))
+    differing: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
 
 
 def line_looks(count: int, shapes: MotionShapes | None = None, problems: Sequence[Problem] = ()) -> LineLooks:

@@ -7,7 +7,7 @@ from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath
 
 from app.edit.sample import Box
@@ -19,12 +19,17 @@ from app.ui.canvas.program_geometry import RUN
 from app.ui.canvas.program_picture import CUT_WIDTH, RAPID_DOTS, RAPID_WIDTH, paint_plunges
 from app.ui.canvas.view import View
 from app.ui.nc.motion_shapes import Look, MotionShapes, Side, tools_of
-from app.ui.theme import Theme
+from app.ui.theme import Theme, text_font
 
 Floats = NDArray[np.float64]
 
 _MANY_RAPIDS = 1_500
 """So many dotted lines take Qt too long; they are painted faint instead."""
+
+
+_KEY_PX, _MOST_TOOLS = 18, 8
+_KIND_NAMES = {MotionKind.RAPID: "G0 rapid", MotionKind.LINE: "G1 line", MotionKind.ARC_CW: "G2 clockwise",
+               MotionKind.ARC_CCW: "G3 counter-clockwise", MotionKind.SPLINE: "Spline"}
 
 
 class PathColour(Enum):
@@ -39,12 +44,14 @@ class PathPaint:
     """How a picture is painted.
 
     Attributes:
-        one: a single hue for everything, for a program laid over another; None = colours that tell something.
+        one: a single hue for everything, for a program laid under another; None = colours that tell something.
+        width: of cuts, px, unless there are very many.
     """
 
     theme: Theme
     colour: PathColour = PathColour.TOOL
     one: QColor | None = None
+    width: float = CUT_WIDTH
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +74,21 @@ def motion_colour(kind: MotionKind, theme: Theme) -> QColor:
     """Return the colour of a kind of motion."""
     return {MotionKind.RAPID: theme.rapid, MotionKind.LINE: theme.pocket, MotionKind.ARC_CW: theme.contour,
             MotionKind.ARC_CCW: theme.rest, MotionKind.SPLINE: theme.parameter}[kind]
+
+
+def paint_key(painter: QPainter, area: QRectF, key: list[tuple[str, QColor]], theme: Theme) -> None:
+    """Paint what colours mean in the upper right corner of an area, px."""
+    painter.setFont(text_font(12))
+    wide = max((painter.fontMetrics().horizontalAdvance(words) for words, _ in key), default=0)
+    left, top = area.right() - wide - 48, area.top() + 10
+    ground = QColor(theme.canvas)
+    ground.setAlphaF(0.88)
+    painter.fillRect(QRectF(left - 8, top - 4, wide + 48, len(key) * _KEY_PX + 8), ground)
+    for at, (words, colour) in enumerate(key):
+        middle = top + (at + 0.5) * _KEY_PX
+        painter.fillRect(QRectF(left, middle - 1, 20, 2), colour)
+        painter.setPen(theme.muted)
+        painter.drawText(QRectF(left + 28, middle - _KEY_PX / 2, wide + 4, _KEY_PX), Qt.AlignmentFlag.AlignVCenter, words)
 
 
 class MotionPicture:
@@ -97,6 +119,13 @@ class MotionPicture:
         """x0, y0, x1, y1 of all that is seen, mm; None when there is nothing."""
         return self.box_of(None)
 
+    def key(self, how: PathPaint) -> list[tuple[str, QColor]]:
+        """Return what each colour means, of the first eight tools or of the kinds of motion that there are."""
+        if how.colour is PathColour.TOOL:
+            return [(f"T{tool}" if tool else "No tool", tool_colour(at, how.theme)) for at, tool in enumerate(self.tools[:_MOST_TOOLS])]
+        kinds = np.unique(self.shapes.program.motions.kind).tolist()
+        return [(_KIND_NAMES[MotionKind(kind)], motion_colour(MotionKind(kind), how.theme)) for kind in kinds]
+
     def box_of(self, motions: NDArray[np.int64] | None) -> Box | None:
         """Return x0, y0, x1, y1 of some motions seen from this side, mm."""
         corners = self.shapes.box(motions)
@@ -114,7 +143,7 @@ class MotionPicture:
         boxes = self._boxes
         near = (boxes[:, 0] <= box[2]) & (boxes[:, 2] >= box[0]) & (boxes[:, 1] <= box[3]) & (boxes[:, 3] >= box[1])
         seen = np.flatnonzero(near)
-        width = FINE if int(self._sizes[seen].sum()) > MANY else CUT_WIDTH
+        width = FINE if int(self._sizes[seen].sum()) > MANY else how.width
         for chunk in (self._chunks[k] for k in seen):
             painter.setPen(screen_pen(painter, self._colour(chunk, how), width))
             painter.drawPath(chunk.path)

@@ -1,4 +1,4 @@
-"""The NC view: text at the left, its path at the right; a click on either shows the other."""
+"""The NC view: text at the left, its path at the right; a click on either shows the other. A second program fits beside it."""
 
 from __future__ import annotations
 
@@ -7,165 +7,174 @@ from PySide6.QtCore import QEvent, QPoint, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
-from app.nc.read.program import Problem
-from app.ui.figures import counted
-from app.ui.nc.find_bar import FindBar
-from app.ui.nc.heads import Banner, PathHead, TextHead
+from app.ui.figures import clock, counted, grouped
+from app.ui.nc.heads import PathHead
+from app.ui.nc.line_looks import Ints
 from app.ui.nc.motion_picture import MotionPicture, PathColour
 from app.ui.nc.motion_shapes import Side
 from app.ui.nc.path_view import PathView
-from app.ui.nc.problems_list import ProblemsList
-from app.ui.nc.program_text import ProgramText, program_text
+from app.ui.nc.places import Compared, difference_places, differing_rows, rows_of
+from app.ui.nc.places_panel import PlacesPanel
+from app.ui.nc.program_text import ProgramText
 from app.ui.nc.reading import Shown
 from app.ui.nc.state_strip import StateStrip
 from app.ui.nc.state_words import state_items
-from app.ui.nc.text_view import NcTextView
+from app.ui.nc.text_pane import TextPane
 
-_PARTS = (440, 560)
-
-
-def _column(*widgets: QWidget, stretch: QWidget) -> QWidget:
-    made = QWidget()
-    column = QVBoxLayout(made)
-    column.setContentsMargins(0, 0, 0, 0)
-    column.setSpacing(0)
-    for widget in widgets:
-        column.addWidget(widget, 1 if widget is stretch else 0)
-    return made
+_NONE = np.zeros(0, np.int64)
+_SHARES, _SHARES_OF_TWO = (440, 0, 560), (320, 320, 400)
 
 
 class NcView(QWidget):
-    """Shows one program; whoever owns it decides which.
+    """Shows one program, or two that are compared; whoever owns it decides which.
 
     Signals:
-        side_wanted(Side): the picture of this side is missing.
+        side_wanted(Side): the picture of this side is missing. menu_asked(point): of the text, on the screen.
+        comparison_closed(): the user has seen enough of the second program.
 
     Attributes:
-        shown: the program with everything that was read from it; None while only its text is known.
-        side: from where the path is seen.
+        pane: the program's text. other: the second one's. side: from where the path is seen.
+        compared: what the second program is; None = there is none.
     """
 
     side_wanted = Signal(Side)
     menu_asked = Signal(QPoint)
+    comparison_closed = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.shown: Shown | None = None
         self.side = Side.XY
-        self.head, self.banner, self.finder, self.text = TextHead(), Banner(), FindBar(), NcTextView()
-        self.problems, self.path_head, self.path, self.state = ProblemsList(), PathHead(), PathView(), StateStrip()
+        self.compared: Compared | None = None
+        self.pane, self.other, self.state = TextPane(), TextPane(closable=True), StateStrip()
+        self.path_head, self.path = PathHead(), PathView()
+        self.differences = PlacesPanel("difference", "F7")
+        right = QWidget()
+        column = QVBoxLayout(right)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.path_head)
+        column.addWidget(self.path, 1)
         self.splitter = QSplitter(Qt.Orientation.Horizontal)
         self.splitter.setHandleWidth(1)
         self.splitter.setChildrenCollapsible(False)
-        self.splitter.addWidget(_column(self.head, self.banner, self.finder, self.text, self.problems, stretch=self.text))
-        self.splitter.addWidget(_column(self.path_head, self.path, stretch=self.path))
-        self.splitter.setSizes(list(_PARTS))
-        self.splitter.setStretchFactor(0, 0)
-        self.splitter.setStretchFactor(1, 1)
+        for at, widget in enumerate((self.pane, self.other, right)):
+            self.splitter.addWidget(widget)
+            self.splitter.setStretchFactor(at, 1 if widget is right else 0)
+        self.splitter.setSizes(list(_SHARES))
+        self.other.hide()
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addWidget(self.splitter, 1)
+        column.addWidget(self.differences)
         column.addWidget(self.state)
-        self.setFocusProxy(self.text)
+        self.setFocusProxy(self.pane)
         self._connect()
 
     def _connect(self) -> None:
-        self.text.rows_picked.connect(self._on_rows)
-        self.text.menu_asked.connect(self.menu_asked)
+        self.pane.rows_picked.connect(lambda first, last: self._on_rows(self.pane, first, last))
+        self.other.rows_picked.connect(lambda first, last: self._on_rows(self.other, first, last))
+        self.pane.menu_asked.connect(self.menu_asked)
+        self.other.head.closed.connect(self.comparison_closed)
+        self.differences.picked.connect(self._go_to_difference)
         self.path.motion_picked.connect(self.pick_motion)
-        self.problems.picked.connect(self.go_to_problem)
-        self.head.find_asked.connect(self.begin_find)
-        self.finder.reached.connect(self._on_found)
-        self.finder.marked.connect(self.text.show_found)
-        self.finder.closed.connect(self.text.setFocus)
         self.path_head.side_chosen.connect(self.set_side)
         self.path_head.colour_chosen.connect(self.set_colour)
 
+    @property
+    def shown(self) -> Shown | None:
+        """The program with everything that was read of it; None while only its text is known."""
+        return self.pane.shown
+
+    @property
+    def active(self) -> TextPane:
+        """The text that the keys are for: the second one only while it has the focus."""
+        focus = self.focusWidget()
+        return self.other if focus is not None and self.other.isVisible() and self.other.isAncestorOf(focus) else self.pane
+
+    @property
+    def summary(self) -> str:
+        """What there is to say about the program as a whole, or ""."""
+        if self.shown is None:
+            return ""
+        length, seconds = float(self.shown.shapes.length.sum()), self.shown.times.total
+        return f"{counted(len(self.shown.shapes), 'motion')} · {grouped(length, 0)} mm · {clock(seconds)}"
+
     def show_text(self, name: str, text: ProgramText) -> None:
         """Show a text whose motions are not known yet."""
-        self.shown = None
-        self.head.show_program(name, counted(len(text), "line"))
-        self.text.show_text(text)
-        self.finder.set_text(text)
-        self.problems.show_problems(())
-        self.path.show_picture(None)
+        self.show_comparison(None)
+        self.pane.show_text(name, text)
+        self.path.show_pictures(None)
         self.state.show_items([])
 
     def show_program(self, shown: Shown) -> None:
         """Show a program that was read; of the same text, the picked line stays."""
-        if shown.text.text != self.text.text.text:
-            self.show_text(shown.source.name, shown.text)
-        self.shown = shown
-        self.head.show_program(shown.source.name, counted(len(shown.text), "line"))
-        self.text.show_looks(shown.looks)
-        self.problems.show_problems(shown.program.problems)
+        self.show_comparison(None)
+        self.pane.show_program(shown)
         self._show_side()
         self.path.fit_now()
-        error = shown.program.error
-        if error is not None:
-            self.go_to_problem(error)
-        elif self.text.current >= 0:
-            self._on_rows(*self.text.selection)
+        if shown.program.error is not None:
+            self.pane.go_to_problem(shown.program.error)
+        elif self.pane.text.current >= 0:
+            self._on_rows(self.pane, *self.pane.text.selection)
+        else:
+            self.state.show_items([])
 
-    def clear(self) -> None:
-        """Show nothing."""
-        self.show_text("", program_text(b""))
+    def show_comparison(self, compared: Compared | None) -> None:
+        """Show a second program beside the first and what differs, or take it away."""
+        if compared is None and self.compared is None:
+            return
+        self.compared = compared
+        self.other.setVisible(compared is not None)
+        self.splitter.setSizes(list(_SHARES if compared is None else _SHARES_OF_TWO))
+        items = compared.differences.items if compared is not None else ()
+        if compared is None:
+            self.differences.show_places("", ())
+        else:
+            self.other.show_program(compared.other)
+            self.other.mark_differing(differing_rows([item.b for item in items]))
+            self.differences.show_places(*difference_places(compared.differences))
+        self.pane.mark_differing(differing_rows([item.a for item in items]))
+        self._show_side()
+        self.path.fit_now()
 
-    def add_picture(self, picture: MotionPicture) -> None:
-        """Take the picture of a side that was missing."""
-        if self.shown is not None and picture.shapes is self.shown.shapes:
-            self.shown.pictures[picture.side] = picture
-            if picture.side is self.side:
-                self._show_side()
-                self.path.fit_now()
+    def add_pictures(self, pictures: tuple[MotionPicture, ...]) -> None:
+        """Take the pictures of a side that was missing."""
+        for shown in self._programs():
+            for picture in pictures:
+                if picture.shapes is shown.shapes:
+                    shown.pictures[picture.side] = picture
+        self.set_side(self.side)
+
+    def missing_pictures(self, side: Side) -> list[Shown]:
+        """Return the programs that have no picture of a side yet."""
+        return [shown for shown in self._programs() if side not in shown.pictures]
 
     def set_side(self, side: Side) -> None:
         """Look at the path from above or from a side."""
         self.side = side
         self.path_head.side.show_value(side)
-        if self.shown is None:
-            return
-        if side in self.shown.pictures:
+        if self.missing_pictures(side):
+            self.side_wanted.emit(side)
+        elif self.shown is not None:
             self._show_side()
             self.path.fit_now()
-        else:
-            self.side_wanted.emit(side)
 
     def set_colour(self, colour: PathColour) -> None:
         """Let colours tell the tool or the kind of motion."""
         self.path_head.colour.show_value(colour)
         self.path.set_colour(colour)
-        self.text.set_colour(colour)
+        self.pane.text.set_colour(colour)
+        self.other.text.set_colour(colour)
 
     def pick_motion(self, motion: int) -> None:
         """Mark the line of a motion, light the motion up and say what is in force."""
         if self.shown is None:
             return
         row = int(self.shown.program.motions.line[motion]) - 1
-        self.text.pick(row, tell=False)
+        self.pane.text.pick(row, tell=False)
         self.path.light(np.array([motion]))
         self.state.show_items(state_items(self.shown.shapes, row, motion, self.shown.times))
-
-    def go_to_problem(self, problem: Problem) -> None:
-        """Go to the place of a problem."""
-        self.text.pick(problem.line - 1)
-        self.text.bring_into_sight(problem.line - 1, max(problem.column - 1, 0))
-
-    def go_to_line(self, line: int) -> None:
-        """Go to a line, 1-based."""
-        self.text.pick(line - 1)
-
-    def begin_find(self, words: str | None = None) -> None:
-        """Open the find bar."""
-        self.finder.begin(self.text.current, words)
-
-    def find_next(self, back: bool = False) -> None:
-        """Go to the next place of what was looked for, or ask what to look for."""
-        if self.finder.edit.text():
-            self.finder.step(back)
-        else:
-            self.begin_find()
 
     def event(self, event: QEvent) -> bool:
         """Keep F3 from the drawing: here it finds the next place."""
@@ -175,31 +184,48 @@ class NcView(QWidget):
         return super().event(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """F3 finds, F fits the path."""
+        """F3 finds, F fits the path, Escape closes the find bar."""
         if event.key() == Qt.Key.Key_F3:
-            self.find_next(back=bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
+            self.active.find_next(back=bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
         elif event.key() == Qt.Key.Key_F and not event.modifiers():
             self.path.fit()
-        elif event.key() == Qt.Key.Key_Escape and self.finder.isVisible():
-            self.finder.close_bar()
+        elif event.key() == Qt.Key.Key_Escape and self.active.finder.isVisible():
+            self.active.finder.close_bar()
         else:
             super().keyPressEvent(event)
 
+    def _programs(self) -> list[Shown]:
+        both = (self.shown, self.compared.other if self.compared is not None else None)
+        return [shown for shown in both if shown is not None]
+
     def _show_side(self) -> None:
-        if self.shown is not None:
-            self.path.show_picture(self.shown.pictures.get(self.side))
-            if self.text.current >= 0:
-                self.path.light(self.shown.shapes.of_rows(*self.text.selection))
+        self.path.show_pictures(*(shown.pictures.get(self.side) for shown in self._programs()))
+        if self.shown is not None and self.pane.text.current >= 0:
+            self.path.light(self.shown.shapes.of_rows(*self.pane.text.selection))
 
-    def _on_found(self, row: int, column: int) -> None:
-        self.text.pick(row)
-        self.text.bring_into_sight(row, column)
-
-    def _on_rows(self, first: int, last: int) -> None:
+    def _on_rows(self, pane: TextPane, first: int, last: int) -> None:
         """Light up what picked lines move, and say what is in force at the last of them."""
-        if self.shown is None:
+        if pane.shown is None:
             return
-        self.path.light(self.shown.shapes.of_rows(first, last))
+        motions = pane.shown.shapes.of_rows(first, last)
+        self._light(pane, motions)
         self.path.bring_into_sight()
-        self.state.show_items(state_items(self.shown.shapes, self.text.current, None, self.shown.times))
+        self.state.show_items(state_items(pane.shown.shapes, pane.text.current, None, pane.shown.times))
 
+    def _light(self, pane: TextPane, motions: Ints) -> None:
+        if pane is self.pane:
+            self.path.light(motions)
+        else:
+            self.path.light(_NONE, motions)
+
+    def _go_to_difference(self, index: int) -> None:
+        """Show a difference in both texts and on both paths."""
+        if self.compared is None or not self.compared.differences.items:
+            return
+        item = self.compared.differences.items[index]
+        self.pane.go_to_rows(*rows_of(item.a), tell=False)
+        self.other.go_to_rows(*rows_of(item.b), tell=False)
+        self.path.light(np.arange(item.a.first, item.a.stop), np.arange(item.b.first, item.b.stop))
+        self.path.bring_into_sight()
+        if self.shown is not None:
+            self.state.show_items(state_items(self.shown.shapes, self.pane.text.current, None, self.shown.times))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,17 +10,23 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPainterPath, QPen
 from PySide6.QtWidgets import QWidget
 
+from app.edit.sample import Box, union
 from app.model.curves import Point
 from app.ui.canvas import overlay
 from app.ui.canvas.grid import paint_origin, paint_paper, paint_ruler_marks, paint_rulers
 from app.ui.canvas.view import fitted
 from app.ui.canvas.viewport import Viewport
+from app.ui.nc.line_looks import Ints
 from app.ui.nc.motion_hover import describe_motion, nearest_motion
-from app.ui.nc.motion_picture import MotionPicture, PathColour, PathPaint
+from app.ui.nc.motion_picture import MotionPicture, PathColour, PathPaint, paint_key
 from app.ui.nc.motion_shapes import Side
 from app.ui.theme import LIGHT, Theme, text_font
 
-_PICK_PX, _CLICK_PX, _BLEED_PX = 6.0, 4.0, 8.0
+_PICK_PX, _CLICK_PX, _BLEED_PX, _EDGE_PX = 6.0, 4.0, 8.0, 16.0
+_HALO_PX = 4.6
+"""Width of another program's path, which shows as a rim where the two are alike."""
+
+_NONE: Ints = np.zeros(0, np.int64)
 _FRAME = (0.0, 0.0, 100.0, 100.0)
 
 
@@ -41,7 +47,8 @@ class PathView(Viewport):
         self._how = PathPaint(LIGHT)
         self.picture: MotionPicture | None = None
         self.other: MotionPicture | None = None
-        self._lit, self._under, self._band = QPainterPath(), QPainterPath(), np.zeros(0, np.int64)
+        self._lit, self._lit_other, self._under = QPainterPath(), QPainterPath(), QPainterPath()
+        self._band, self._band_other = _NONE, _NONE
         self._hover: int | None = None
         self._ends_at: Point | None = None
         self._mouse: QPointF | None = None
@@ -52,7 +59,7 @@ class PathView(Viewport):
         self.setAccessibleName("Path of the NC program")
 
     @property
-    def lit(self) -> NDArray[np.int64]:
+    def lit(self) -> Ints:
         """The motions that are lit up."""
         return self._band
 
@@ -66,11 +73,11 @@ class PathView(Viewport):
         self._how = PathPaint(self._how.theme, colour)
         self.repaint_scene()
 
-    def show_picture(self, picture: MotionPicture | None, other: MotionPicture | None = None) -> None:
-        """Show a program's motions, and perhaps another program's over them; what was lit up is not any more."""
+    def show_pictures(self, picture: MotionPicture | None = None, other: MotionPicture | None = None) -> None:
+        """Show a program's motions, and perhaps another program's under them; what was lit up is not any more."""
         self.picture, self.other = picture, other
         self._hover, self._under = None, QPainterPath()
-        self.light(np.zeros(0, np.int64))
+        self.light(_NONE)
         problem = picture.shapes.program.error if picture is not None else None
         ended = picture is not None and problem is not None and len(picture.shapes)
         self._ends_at = self._seen(picture.shapes.program.motions.end[-1]) if picture is not None and ended else None
@@ -84,35 +91,36 @@ class PathView(Viewport):
         """Show everything at once, and again when the size changes."""
         self.fit_to(self._whole())
 
-    def light(self, motions: NDArray[np.int64]) -> None:
-        """Light up some motions, by number."""
-        self._band = motions
-        self._lit = self.picture.shapes.path(motions, self.picture.side) if self.picture is not None else QPainterPath()
+    def light(self, motions: Ints, of_other: Ints = _NONE) -> None:
+        """Light up some motions, by number, and some of the other program."""
+        self._band, self._band_other = motions, of_other
+        self._lit, self._lit_other = (
+            picture.shapes.path(rows, picture.side) if picture is not None else QPainterPath()
+            for picture, rows in ((self.picture, motions), (self.other, of_other)))
         self.update()
 
     def bring_into_sight(self) -> None:
         """Move the picture so that what is lit up is seen, no farther than needed."""
-        box = self.picture.box_of(self._band) if self.picture is not None and len(self._band) else None
+        both = ((self.picture, self._band), (self.other, self._band_other))
+        box = _union(picture.box_of(rows) for picture, rows in both if picture is not None and len(rows))
         if box is None:
             return
-        free = self.area.adjusted(24, 24, -24, -24)
-        seen = QRectF(self.view.to_screen((box[0], box[3])), self.view.to_screen((box[2], box[1]))).normalized()
-        middle = ((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
-        if seen.width() > free.width() or seen.height() > free.height():
-            if not seen.intersects(free):
+        x0, y0, x1, y1 = self.view.world_box(self.area.adjusted(_EDGE_PX, _EDGE_PX, -_EDGE_PX, -_EDGE_PX))
+        if box[2] - box[0] > x1 - x0 or box[3] - box[1] > y1 - y0:
+            if not (box[0] < x1 and box[2] > x0 and box[1] < y1 and box[3] > y0):
                 self.glide_to(fitted(box, self.area))
-        elif not free.contains(seen):
-            self.glide_to(self.view.centred(middle, self.area))
+        elif not (x0 <= box[0] and box[2] <= x1 and y0 <= box[1] and box[3] <= y1):
+            self.glide_to(self.view.centred(((box[0] + box[2]) / 2, (box[1] + box[3]) / 2), self.area))
 
     def paint_scene(self, painter: QPainter, area: QRectF) -> None:
         """Paint raster and motions within a screen rectangle."""
         theme = self._how.theme
         box = self.view.world_box(area.adjusted(-_BLEED_PX, -_BLEED_PX, _BLEED_PX, _BLEED_PX))
         paint_paper(painter, self.view, area, None, theme)
+        if self.other is not None:
+            self.other.paint(painter, self.view, box, PathPaint(theme, one=theme.left, width=_HALO_PX))
         if self.picture is not None:
             self.picture.paint(painter, self.view, box, self._how)
-        if self.other is not None:
-            self.other.paint(painter, self.view, box, PathPaint(theme, one=theme.left))
         paint_origin(painter, self.view, theme)
         self._name_axes(painter)
 
@@ -124,13 +132,17 @@ class PathView(Viewport):
         """Paint what is lit up, what is under the mouse, and where reading ended."""
         painter.setClipRect(self.area)
         theme = self._how.theme
+        accent = (theme.accent, theme.accent_text)
         if not self._lit.isEmpty():
-            overlay.paint_highlight(painter, self.view, self._lit, theme)
+            overlay.paint_highlight(painter, self.view, self._lit, accent)
             self._paint_end(painter, theme)
+        if not self._lit_other.isEmpty():
+            overlay.paint_highlight(painter, self.view, self._lit_other, (theme.left, theme.left))
         if not self._under.isEmpty():
-            overlay.paint_highlight(painter, self.view, self._under, theme, 1.5)
+            overlay.paint_highlight(painter, self.view, self._under, accent, 1.5)
         if self._ends_at is not None:
             overlay.paint_place(painter, self.view.to_screen(self._ends_at), theme.error)
+        paint_key(painter, self.area, self._key(), theme)
         painter.setClipping(False)
         if self._mouse is not None and self.area.contains(self._mouse):
             paint_ruler_marks(painter, self._mouse, theme)
@@ -180,16 +192,19 @@ class PathView(Viewport):
         else:
             super().keyPressEvent(event)
 
-    def _whole(self) -> tuple[float, float, float, float]:
-        boxes = [b for b in (p.box for p in (self.picture, self.other) if p is not None) if b is not None]
-        if not boxes:
-            return _FRAME
-        x0, y0, x1, y1 = zip(*boxes, strict=True)
-        return (min(x0), min(y0), max(x1), max(y1))
+    def _whole(self) -> Box:
+        return _union(picture.box for picture in (self.picture, self.other) if picture is not None) or _FRAME
 
     def _seen(self, point: NDArray[np.float64]) -> Point:
         side = self.picture.side if self.picture is not None else Side.XY
         return (float(point[side.value[0]]), float(point[side.value[1]]))
+
+    def _key(self) -> list[tuple[str, QColor]]:
+        """Return what the colours mean."""
+        if self.picture is None:
+            return []
+        key = self.picture.key(self._how)
+        return [*key, ("The second program", self._how.theme.left)] if self.other is not None else key
 
     def _paint_end(self, painter: QPainter, theme: Theme) -> None:
         """Paint where the last of the lit motions ends: this is where the tool is."""
@@ -224,3 +239,7 @@ class PathView(Viewport):
         self._under = shapes.path(np.array([motion]), self.picture.side) if motion is not None else QPainterPath()
         self.hovered.emit(describe_motion(shapes, motion) if motion is not None else "")
         self.update()
+
+
+def _union(boxes: Iterable[Box | None]) -> Box | None:
+    return union([box for box in boxes if box is not None])

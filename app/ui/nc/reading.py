@@ -141,9 +141,9 @@ class Reading(QObject):
         """Read a program, then show it."""
         self.start(lambda progress: read_shown(source, side, progress), then)
 
-    def draw(self, shapes: MotionShapes, side: Side, then: Callable[[MotionPicture], None]) -> None:
-        """Prepare the picture of another side."""
-        self.start(lambda progress: _drawn(shapes, side, progress), then)
+    def draw(self, programs: list[MotionShapes], side: Side, then: Callable[[tuple[MotionPicture, ...]], None]) -> None:
+        """Prepare pictures of another side."""
+        self.start(lambda progress: _drawn(programs, side, progress), then)
 
     def _on_done(self, answer: Answer) -> None:
         if answer.job_id == self._job:
@@ -154,9 +154,9 @@ class Reading(QObject):
             self.failed.emit(answer.error or "")
 
 
-def _drawn(shapes: MotionShapes, side: Side, progress: Progress) -> MotionPicture:
+def _drawn(programs: list[MotionShapes], side: Side, progress: Progress) -> tuple[MotionPicture, ...]:
     progress.step(0.0, "Preparing the picture")
-    return MotionPicture(shapes, side)
+    return tuple(MotionPicture(shapes, side) for shapes in programs)
 
 
 def _nothing(_: object) -> None:

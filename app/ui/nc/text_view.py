@@ -107,10 +107,11 @@ class NcTextView(QAbstractScrollArea):
         if tell:
             self.rows_picked.emit(*self.selection)
 
-    def pick_rows(self, first: int, last: int) -> None:
-        """Mark lines (0-based, both included) and tell."""
-        self._change(anchor=first, cursor=last)
-        self.rows_picked.emit(*self.selection)
+    def pick_rows(self, anchor: int, cursor: int, tell: bool = True) -> None:
+        """Mark lines from one (0-based) to another, where the cursor is; `tell`: emit `rows_picked`."""
+        self._change(anchor=anchor, cursor=cursor)
+        if tell:
+            self.rows_picked.emit(*self.selection)
 
     def bring_into_sight(self, row: int, column: int = 0, centred: bool = False) -> None:
         """Scroll until a line, and a column of it, can be seen; a far line comes to the middle."""
@@ -136,9 +137,12 @@ class NcTextView(QAbstractScrollArea):
         return self._look.lines.problems.get(row, [])
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
-        """Keep the scroll ranges in step."""
+        """Keep the scroll ranges in step, and the picked line in sight."""
         super().resizeEvent(event)
+        top, height = self.current * LINE_PX - self.verticalScrollBar().value(), event.oldSize().height()
         self._set_ranges()
+        if self.current >= 0 and -LINE_PX < top < max(height, 0):
+            self.bring_into_sight(self.current)
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Draw the lines in sight."""

@@ -28,12 +28,16 @@ class NcWiring(QObject):
         self._on("nc_back", control.back)
         self._on("nc_save", control.save_as)
         view = self._view
-        self._in_view("nc_find", view.begin_find)
-        self._in_view("nc_line", partial(view.begin_find, ":"))
-        self._in_view("nc_find_next", view.find_next)
-        self._in_view("nc_find_before", partial(view.find_next, back=True))
-        self._in_view("nc_problem", partial(view.problems.step, 1))
-        self._in_view("nc_problem_before", partial(view.problems.step, -1))
+        self._in_view("nc_find", lambda: view.active.begin_find())
+        self._in_view("nc_line", lambda: view.active.begin_find(":"))
+        self._in_view("nc_find_next", lambda: view.active.find_next())
+        self._in_view("nc_find_before", lambda: view.active.find_next(back=True))
+        self._in_view("nc_problem", lambda: view.active.panel.step(1))
+        self._in_view("nc_problem_before", lambda: view.active.panel.step(-1))
+        self._on("nc_compare", control.choose_to_compare)
+        self._on("nc_compare_end", control.stop_comparing)
+        self._in_view("nc_difference", partial(view.differences.step, 1))
+        self._in_view("nc_difference_before", partial(view.differences.step, -1))
         for name, side in _SIDES.items():
             self._in_view(name, partial(view.set_side, side))
         view.menu_asked.connect(self._open_menu)
@@ -59,9 +63,14 @@ class NcWiring(QObject):
         actions["nc_back"].setEnabled(control.foreign)
         for name in ("nc_save", "nc_find", "nc_find_next", "nc_find_before", "nc_line"):
             actions[name].setEnabled(control.source is not None)
+        comparing = self._view.compared is not None
+        for name in ("nc_difference", "nc_difference_before", "nc_compare_end"):
+            actions[name].setEnabled(comparing)
+        actions["nc_compare"].setEnabled(self._view.shown is not None)
         for name in ("nc_problem", "nc_problem_before"):
-            actions[name].setEnabled(bool(self._view.problems.problems))
+            actions[name].setEnabled(bool(self._view.pane.problems or (comparing and self._view.other.problems)))
         self._showing.show_missing()
+        self._showing.show_hovered("")
 
     def _open_menu(self, at: QPoint) -> None:
         menu = QMenu(self._view)

@@ -1,0 +1,116 @@
+"""The path that is painted is the path that the program moves: arcs in every plane, helices, splines, jumps."""
+
+import math
+
+import numpy as np
+import pytest
+
+from app.model.motion import MotionKind, Nurbs, Plane
+from app.nc.read.program import ModalState, NcProgram
+from app.nc.read.reader import read_program
+from app.ui.canvas.curve_path import ELEMENT
+from app.ui.nc.motion_hover import describe_motion, nearest_motion, outline
+from app.ui.nc.motion_picture import MotionPicture
+from app.ui.nc.motion_shapes import Look, Side, shape_motions
+from tests.ui.nc.hand_made import motions_of, program_of
+
+CCW, CW, LINE, RAPID = MotionKind.ARC_CCW, MotionKind.ARC_CW, MotionKind.LINE, MotionKind.RAPID
+
+
+@pytest.mark.parametrize("plane", list(Plane))
+@pytest.mark.parametrize("kind", [CW, CCW])
+def test_full_circle_in_each_plane_keeps_its_radius(plane, kind):
+    u, v, w = plane.axes
+    start, centre = np.zeros(3), np.zeros(3)
+    start[u], centre[v] = 3.0, 4.0
+    start[w] = centre[w] = 1.0
+    shapes = shape_motions(NcProgram(motions_of([(kind, start, 1, {"centre": centre, "plane": plane})], start)))
+    points = outline(shapes, 0)
+    assert np.allclose(np.linalg.norm(points - centre, axis=1), 5.0, atol=3e-5)
+    assert np.allclose(points[:, w], 1.0)
+    assert np.allclose(points[-1], start)
+    before, after = points[0] - centre, points[1] - centre
+    turn = before[u] * after[v] - before[v] * after[u]
+    assert (turn > 0) == (kind == CCW)
+
+
+def test_helix_climbs_evenly_through_all_its_turns():
+    rows = [(CCW, (5.0, 0.0, 6.0), 1, {"centre": (0.0, 0.0, 0.0), "turns": 3})]
+    shapes = shape_motions(NcProgram(motions_of(rows, (5.0, 0.0, 0.0))))
+    points = outline(shapes, 0)
+    angle = np.unwrap(np.arctan2(points[:, 1], points[:, 0]))
+    assert angle[-1] == pytest.approx(3 * math.tau)
+    assert np.allclose(points[:, 2], angle / (3 * math.tau) * 6.0, atol=1e-3)
+    assert shapes.length[0] == pytest.approx(math.hypot(3 * math.tau * 5, 6))
+
+
+def test_spline_runs_through_its_ends_and_its_middle():
+    curve = Nurbs(np.array([[0, 0, 0], [5, 10, 0], [10, 0, 0]], float), np.ones(3), np.array([0, 0, 0, 1, 1, 1], float), 2)
+    motions = motions_of([(MotionKind.SPLINE, (10.0, 0.0, 0.0), 1)])
+    object.__setattr__(motions, "splines", {0: curve})
+    points = outline(shape_motions(NcProgram(motions)), 0)
+    assert np.allclose(points[0], (0, 0, 0))
+    assert np.allclose(points[-1], (10, 0, 0))
+    assert np.min(np.linalg.norm(points - (5, 5, 0), axis=1)) < 1e-9
+
+
+def test_looks_tell_rapids_plunges_and_cuts():
+    shapes = shape_motions(program_of([
+        (RAPID, (0, 0, 5), 1), (LINE, (0, 0, -1), 2), (LINE, (9, 0, -1), 3), (LINE, (9, 0, 5), 4), (LINE, (9, 5, 0), 5)]))
+    assert shapes.look.tolist() == [Look.RAPID, Look.PLUNGE, Look.CUT, Look.CUT, Look.CUT]
+
+
+def test_elements_begin_anew_after_a_gap_and_after_a_jump():
+    motions = motions_of([(LINE, (1, 0, 0), 1), (LINE, (2, 0, 0), 2), (LINE, (3, 0, 0), 3)])
+    motions.start.setflags(write=True)
+    motions.start[2] = (2, 7, 0)
+    elements, at = shape_motions(NcProgram(motions)).elements(np.arange(3), Side.XY)
+    assert elements["kind"].tolist() == [0, 1, 1, 0, 1]
+    assert elements.dtype == ELEMENT
+    assert at.tolist() == [0, 2, 3, 5]
+    assert (elements["x"][3], elements["y"][3]) == (2, 7)
+
+
+def test_lines_of_loops_find_all_their_motions():
+    shapes = shape_motions(program_of([(LINE, (1, 0, 0), 5), (LINE, (2, 0, 0), 6), (LINE, (3, 0, 0), 5), (LINE, (4, 0, 0), 9)]))
+    assert shapes.of_rows(4, 4).tolist() == [0, 2]
+    assert shapes.of_rows(4, 5).tolist() == [0, 2, 1]
+    assert shapes.of_rows(6, 7).tolist() == []
+    assert shapes.before_row(6) == 1
+    assert shapes.before_row(3) is None
+
+
+@pytest.mark.parametrize(("side", "at", "found"), [
+    (Side.XY, (5, 0.2), 0), (Side.XZ, (10.1, 2), 1), (Side.YZ, (3, 5.1), 2), (Side.XY, (5, 3), None)])
+def test_nearest_motion_as_seen_from_a_side(side, at, found):
+    shapes = shape_motions(program_of([(LINE, (10, 0, 0), 1), (LINE, (10, 0, 5), 2), (LINE, (10, 6, 5), 3)]))
+    assert nearest_motion(shapes, side, at, 0.5) == found
+
+
+def test_of_motions_on_one_another_the_nearest_to_the_eye_is_picked():
+    shapes = shape_motions(program_of([(LINE, (10, 0, 0), 1), (LINE, (10, 0, -5), 2), (LINE, (0, 0, -5), 3)]))
+    assert nearest_motion(shapes, Side.XY, (5, 0), 0.5) == 0
+
+
+def test_arc_is_found_on_its_curve_only():
+    shapes = shape_motions(NcProgram(motions_of([(CCW, (-5, 0, 0), 1, {"centre": (0, 0, 0)})], (5, 0, 0))))
+    assert nearest_motion(shapes, Side.XY, (3.536, 3.536), 0.01) == 0
+    assert nearest_motion(shapes, Side.XY, (3.536, -3.536), 0.5) is None
+
+
+def test_a_motion_is_told_in_words():
+    program = program_of([(RAPID, (3, 4, 0), 7), (LINE, (3, 4, -2), 8)], (ModalState(tool=3),))
+    shapes = shape_motions(program)
+    assert describe_motion(shapes, 0) == "Rapid · line 7 · T3 · 5.000 mm · Z 0.000"
+    assert describe_motion(shapes, 1) == "Line · line 8 · T3 · F 600 · 2.000 mm · Z 0.000 to -2.000"
+
+
+def test_picture_of_a_read_program_reaches_as_far_as_its_arcs():
+    program = read_program(b"G21 G90 G17\nG0 X0 Y0 Z0\nG2 X0 Y0 I10 J0 F100\nM2\n")
+    box = MotionPicture(shape_motions(program), Side.XY).box
+    assert box == pytest.approx((0, -10, 20, 10), abs=0.3)
+
+
+def test_a_program_without_motions_has_a_picture():
+    picture = MotionPicture(shape_motions(read_program(b"(nothing)\n")), Side.YZ)
+    assert picture.box is None
