@@ -45,9 +45,9 @@ def test_a_machine_that_is_not_there_names_those_that_are() -> None:
     ("largest_feed", "fastest_feed", r"m\.toml:2: fastest_feed is not known; expected are title, x, y, z"),
     ("corner = 0.01", "work_origin = [1, 2]", r"m\.toml:4: work_origin is \[1, 2\]; expected is a list of 3 numbers"),
     ("corner = 0.01", "corner = nan", r"m\.toml:4: corner is nan; expected is a number from 0 to 10"),
-    ("low = -100.0", "low = 100.0", r"m\.toml\.z: Travel goes from 100 to 0 mm; the low end must be less"),
+    ("low = -100.0", "low = 100.0", r"m\.toml:\d+: Travel goes from 100 to 0 mm; the low end must be less"),
     ("acceleration = 150.0", "acceleration = 0.5", r"m\.toml:\d+: z\.acceleration is 0\.5; expected is a number from 1"),
-    ("low = 6000.0", "low = 60000.0", r"m\.toml\.spindle: Spindle range is 60000 to 24000 rpm"),
+    ("low = 6000.0", "low = 60000.0", r"m\.toml:\d+: Spindle range is 60000 to 24000 rpm"),
     ("[z]", "[w]", r"w is not known"),
     ("[z]", "[z", r"m\.toml: this is no TOML file"),
 ])  # fmt: skip
