@@ -217,8 +217,9 @@ def seconds(data: bytes) -> float:
 
 
 PARTS = [
-    "(", ")", ";", "\n", "\r", "tool", "T1", "M6", "D=", "6", ".5", "1/4", "1/0", "mm", " in", '"', " ", "x", "stock", "X", "-", "=",
-    "mill", "dia", "ball", "R", "minx", "G20", "hitofude:", "tool=", "stock_mm=", ",", "radius", "°", "taper=", "top of stock", "material size",
+    "(", ")", ";", "\n", "\r", "tool", "T1", "M6", "D=", "6", ".5", "1/4", "1/0", "mm", " in", '"', " ", "x", "stock", "X", "-",
+    "=", "mill", "dia", "ball", "R", "minx", "G20", "hitofude:", "tool=", "stock_mm=", ",", "radius", "°", "taper=", "top of stock",
+    "material size",
 ]  # fmt: skip
 
 
