@@ -32,7 +32,11 @@ _ENDS = ("M2", "M30")
 
 
 class Run:
-    """One reading of a program."""
+    """One reading of a program.
+
+    Attributes:
+        stopped: whether the reading ended at the line of `stop_at`. inside: ... within a subroutine or a loop.
+    """
 
     def __init__(self, data: bytes, options: ReadOptions, progress: Progress) -> None:
         """Stand before the first line."""
@@ -46,6 +50,23 @@ class Run:
         self._problems: list[Problem] = []
         self._percent = False
         self._furthest = self._told = 0
+        self._stop = len(self._text.data) + 1
+        self.stopped = self.inside = False
+
+    @property
+    def control(self) -> Control:
+        """The control as it stands; after `read`, where the reading ended."""
+        return self._control
+
+    def stop_at(self, line: int) -> None:
+        """Let the reading end where it comes to a line, before it does what stands there.
+
+        Args:
+            line: 1-based, not beyond the last one.
+        """
+        self._stop = 0
+        for _ in range(line - 1):
+            self._stop = self._text.line_end(self._stop) + 1
 
     def read(self) -> NcProgram:
         """Read all that can be read.
@@ -62,6 +83,7 @@ class Run:
         except RecursionError:
             self._problems.append(self._located(Fault("the block is too long or too deep to be read."), Severity.ERROR))
         control = self._control
+        control.end_compensation()
         warnings = [Problem(line, 0, letter.upper(), text, Severity.WARNING) for text, (letter, line) in control.warnings.items()]
         tools, stock = (), None
         known = [row if row >= 0 else control.columns.count for row in control.known]
@@ -84,6 +106,9 @@ class Run:
     def _step(self) -> bool:
         """Do plain lines, or one line of any kind; False at the end of the program."""
         flow = self._flow
+        if flow.next.offset == self._stop:
+            self.stopped, self.inside = True, flow.nested
+            return False
         self._count()
         if _PLAIN.match(self._text.data, flow.next.offset) is not None and self._plain_lines():
             return True
@@ -107,7 +132,9 @@ class Run:
         """Let the lane do what it can; False where that is nothing."""
         control, plain, flow = self._control, self._plain, self._flow
         modal = control.modal
-        if control.curve is not None or modal.feed_mode is not FeedMode.PER_MINUTE or modal.rotation != 0.0:
+        if control.curve is not None or control.compensation is not None or control.stray is not None:
+            return False
+        if modal.feed_mode is not FeedMode.PER_MINUTE or modal.rotation != 0.0:
             return False
         room = self._options.limits.motions - control.columns.count
         plain.position[:], plain.feed, plain.known[:] = control.at, control.feed, control.known
@@ -116,7 +143,8 @@ class Run:
         plain.absolute, plain.arc_absolute, plain.plane = modal.absolute, modal.arc_absolute, int(modal.plane)
         plain.shift[:], plain.state = modal.shift, control.state()
         begin = flow.next
-        offset, line = plain_blocks(self._bytes, (begin.offset, begin.line), plain, control.columns, min(room, LINES_A_STEP))
+        text = self._bytes if begin.offset > self._stop else self._bytes[: self._stop]
+        offset, line = plain_blocks(text, (begin.offset, begin.line), plain, control.columns, min(room, LINES_A_STEP))
         if line == begin.line:
             return False
         x, y, z = plain.position.tolist()
