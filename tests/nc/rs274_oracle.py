@@ -15,8 +15,10 @@ import re
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 import pytest
@@ -99,13 +101,18 @@ def own_home(folder: str) -> dict[str, str]:
     return os.environ | {"HOME": folder}
 
 
-def canonical_calls(text: str) -> list[tuple[str, list[str]]]:
-    """Run `rs274` on a program; fail if it refuses it. Return its canonical calls with their arguments."""
+def canonical_calls(text: str, lengths: Mapping[int, float] = MappingProxyType({})) -> list[tuple[str, list[str]]]:
+    """Run `rs274` on a program; fail if it refuses it. Return its canonical calls with their arguments.
+
+    Args:
+        text: the program.
+        lengths: of its tools, mm; 0 for those that are not there.
+    """
     needs_rs274()
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "in.ngc").write_text(text, "ascii")
         tools = sorted({int(number) for number in re.findall(r"\bT(\d+) M6", text, re.M)})
-        (Path(folder) / "tool.tbl").write_text("".join(f"T{n} P{n} Z0.0 D0.1\n" for n in tools))
+        (Path(folder) / "tool.tbl").write_text("".join(f"T{n} P{n} Z{lengths.get(n, 0.0) / 25.4:.8f} D0.1\n" for n in tools))
         command = [RS274, "-g", "-t", "tool.tbl", "-v", "scratch.var", "in.ngc"]
         run = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=own_home(folder))
     assert run.returncode == 0, run.stderr

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from pathlib import Path as FilePath
 
 import numpy as np
 import pytest
 
 from app.errors import Cancelled, ParameterError
-from app.model.job import Job, OriginXY
+from app.model.job import Job
 from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.model.part import Part, Units
 from app.model.tool import Tool, ToolKind
@@ -22,7 +21,6 @@ from tests.nc.programs import Path, job, square, two_tools
 from tests.nc.rs274_oracle import canonical_calls
 
 LINUXCNC = load_post("linuxcnc")
-GOLDEN = FilePath(__file__).parent / "golden"
 
 
 def write(path: Path, **changes: object) -> NcText:
@@ -32,15 +30,6 @@ def write(path: Path, **changes: object) -> NcText:
 def body(nc: NcText) -> list[str]:
     """Blocks behind the header, without comments."""
     return [line for line in nc.text.splitlines() if not line.startswith("(")]
-
-
-@pytest.mark.parametrize("units", [Units.MM, Units.INCH], ids=["mm", "inch"])
-def test_golden(units: Units, tmp_path: FilePath) -> None:
-    """The whole text of a small program with two tools; what is written now is left in a file beside the golden one when they differ."""
-    text = write(two_tools(), out_units=units, origin_xy=OriginXY.LOWER_LEFT).text
-    golden = GOLDEN / f"two_tools_{units.name.lower()}.ngc"
-    (tmp_path / golden.name).write_text(text, "ascii")
-    assert text == golden.read_text("ascii"), f"see {tmp_path / golden.name}"
 
 
 def test_same_input_same_bytes() -> None:

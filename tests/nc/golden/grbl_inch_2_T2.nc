@@ -1,0 +1,46 @@
+(Part plate)
+(Hitofude for grbl, lengths in inch)
+(File 2 of 2, with T2 alone, X and Y zero as in the others)
+(Set Z zero with this tool in the spindle)
+(Stock 1.732283 in x 1.338583 in x 0.314961 in)
+(Work origin: lower left of stock, top of stock)
+(It is at X -0.07874 in, Y -0.07874 in, Z 0 in of the drawing,)
+(whose Z 0 is the top of stock)
+(T2 flat 0.11811 in, 18000 rpm)
+(Contour T2: depth 0.07874 in, stepdown 0.07874 in, stock to leave)
+(0 in, climb)
+(Path within 0.000059 in of the exact offset of the drawing)
+(Exact path: the control does not blend)
+(hitofude: program=1)
+(hitofude: part=plate)
+(hitofude: drawing_units=mm)
+(hitofude: join_tolerance_mm=0.01)
+(hitofude: units=in)
+(hitofude: origin_mm=-2,-2,0)
+(hitofude: stock_mm=-2,-2,-8,42,32,0)
+(hitofude: tool=2,flat,3)
+(hitofude: operation=contour,2,2,0)
+(hitofude: path_tolerance_mm=0.001508)
+(hitofude: blend_mm=0)
+G17 G20 G90 G94 G40 G49 G80
+G91.1
+G54
+G61
+(T2 flat 0.11811 in)
+S18000 M3
+G4 P2
+(Contour T2: depth 0.07874 in, stepdown 0.07874 in, stock to leave)
+(0 in, climb)
+G0 Z0.19685
+X0.39370 Y0.27559
+Z0.03937
+G1 Z-0.03937 F7.87
+X1.33858 F17.72
+G3 X1.45669 Y0.39370 I0.00000 J0.11811
+G1 Y0.94488
+G2 X1.06299 Y0.94488 I-0.19685 J0.00000
+X1.45669 Y0.94488 I0.19685 J0.00000
+G3 X1.06299 Y0.94488 Z-0.07874 I-0.19685 J0.00000
+G0 Z0.19685
+M5
+M30
