@@ -39,6 +39,8 @@ def notes(data: bytes) -> tuple[tuple[ToolNote, ...], StockNote | None]:
     comments = Comments(text.data, text.data.lower(), text.encoding)
     if comments.lower.find(b"hitofude:") >= 0:
         return _own_tools(comments), _own_stock(comments)
+    if not any(mark in comments.data for mark in (b"(", b";")):
+        return (), None
     units = ProgramUnits(comments)
     return _tools(comments, units), _stock(comments, units)
 

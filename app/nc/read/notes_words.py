@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import bisect
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -13,14 +12,13 @@ MOST_HITS = 1000
 """Places of one word that are looked at."""
 MOST_BYTES = 1 << 25
 """How much of a program is looked at."""
-MOST_UNITS = 64
 
 NUMBER = r"(?:\d{1,3}[ -])?\d{1,3}/\d{1,3}(?![\d/])|\d{1,7}(?:\.(?!\.)\d{0,9})?|\.\d{1,9}"
 UNIT = r"""mm\b|millim\w{0,7}|cm\b|inch(?:es)?\b|in\b|"|''|″"""
 LENGTH = rf"({NUMBER})\s{{0,3}}({UNIT})?"
 """Two groups: number and unit, for `length_mm`."""
 
-_CHANGES_UNITS = re.compile(rb"g0?2[01](?![\d.])")
+_GOES_ON = {b".", *(b"%d" % digit for digit in range(10))}
 
 
 def length_mm(number: str, unit: str | None, program_mm: float) -> float:
@@ -110,15 +108,15 @@ class ProgramUnits:
     """What a length of the program means, place by place: G20 and G21 outside of comments."""
 
     def __init__(self, comments: Comments) -> None:
-        """Look for the first changes of units."""
-        self._at: list[int] = []
-        self._mm: list[float] = []
-        for hit in _CHANGES_UNITS.finditer(comments.lower):
-            if comments.around(hit.start()) is None:
-                self._at.append(hit.start())
-                self._mm.append(25.4 if b"20" in hit[0] else 1.0)
-            if len(self._at) >= MOST_UNITS:
-                break
+        """Look for the changes of units."""
+        found = sorted(at for at in comments.places((b"g20", b"g21")) if self._changes(comments, at))
+        self._at = found
+        self._mm = [25.4 if comments.lower[at : at + 3] == b"g20" else 1.0 for at in found]
+
+    @staticmethod
+    def _changes(comments: Comments, at: int) -> bool:
+        """Tell whether a word is G20 or G21, not G210 or G20.1, and not in a comment."""
+        return comments.lower[at + 3 : at + 4] not in _GOES_ON and comments.around(at) is None
 
     def mm_at(self, at: int) -> float:
         """Return the mm of a unit: by the change before a place, else by the first after it; 1 where there is none."""
