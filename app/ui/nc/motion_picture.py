@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +30,7 @@ _MANY_RAPIDS = 1_500
 
 
 _KEY_PX, _MOST_TOOLS = 18, 8
+_MIX = np.uint64(0x9E3779B97F4A7C15)
 _KIND_NAMES = {MotionKind.RAPID: "G0 rapid", MotionKind.LINE: "G1 line", MotionKind.ARC_CW: "G2 clockwise",
                MotionKind.ARC_CCW: "G3 counter-clockwise", MotionKind.SPLINE: "Spline"}
 
@@ -109,12 +112,12 @@ class MotionPicture:
         columns = list(side.value)
         motions = shapes.program.motions
         plunge = shapes.look == Look.PLUNGE
-        self._plunges = np.unique(motions.end[plunge][:, columns], axis=0) if side is Side.XY else np.zeros((0, 2))
+        self._plunges = _once(motions.end[plunge][:, columns]) if side is Side.XY else np.zeros((0, 2))
         rapid = np.hstack([motions.start[:, columns], motions.end[:, columns]])[shapes.look == Look.RAPID]
-        self._rapids = np.unique(rapid[np.any(rapid[:, :2] != rapid[:, 2:], axis=1)], axis=0)
+        self._rapids = _once(rapid[np.any(rapid[:, :2] != rapid[:, 2:], axis=1)])
         self._cut(shapes)
 
-    @property
+    @cached_property
     def box(self) -> Box | None:
         """x0, y0, x1, y1 of all that is seen, mm; None when there is nothing."""
         return self.box_of(None)
@@ -173,14 +176,35 @@ class MotionPicture:
         if self.side is Side.XY:
             seen &= shapes.look != Look.PLUNGE
         rows = np.flatnonzero(seen)
-        keys = np.stack([shapes.look[rows], shapes.tool[rows], shapes.program.motions.kind[rows]], axis=1).astype(np.int64)
-        styles, which = np.unique(keys, axis=0, return_inverse=True)
-        boxes, sizes = [], []
-        for number, (look, tool, kind) in enumerate(styles.tolist()):
-            own = rows[which.ravel() == number]
-            for part in np.array_split(own, max(1, len(own) // RUN)):
-                elements, at = shapes.elements(part, self.side)
-                self._chunks.append(_Chunk(path_of(elements.tobytes()), Look(look), tool, MotionKind(kind)))
-                boxes.append(self.box_of(part))
-                sizes.append(int(at[-1]))
-        self._boxes, self._sizes = np.array(boxes).reshape(-1, 4), np.array(sizes, dtype=np.int64)
+        tools, tool = np.unique(shapes.tool[rows], return_inverse=True)
+        codes = (tool * len(Look) + shapes.look[rows]) * len(MotionKind) + shapes.program.motions.kind[rows]
+        boxes, sizes = [np.zeros((0, 4))], [np.zeros(0, np.int64)]
+        for code in np.unique(codes).tolist():
+            own = rows[codes == code]
+            look, kind = Look(code // len(MotionKind) % len(Look)), MotionKind(code % len(MotionKind))
+            elements, at = shapes.elements(own, self.side, RUN)
+            edges = np.append(at[:-1:RUN], at[-1])
+            data = elements.tobytes()
+            for first, last in pairwise((edges * elements.itemsize).tolist()):
+                self._chunks.append(_Chunk(path_of(data[first:last]), look, int(tools[code // len(MotionKind) // len(Look)]), kind))
+            boxes.append(self._boxes_of(own))
+            sizes.append(np.diff(edges))
+        self._boxes, self._sizes = np.concatenate(boxes), np.concatenate(sizes)
+
+    def _boxes_of(self, motions: NDArray[np.int64]) -> Floats:
+        """Return (k, 4) boxes of every 96 of some motions, mm."""
+        columns, first = list(self.side.value), np.arange(0, len(motions), RUN)
+        low, high = self.shapes.low[motions][:, columns], self.shapes.high[motions][:, columns]
+        return np.hstack([np.minimum.reduceat(low, first), np.maximum.reduceat(high, first)])
+
+
+def _once(rows: Floats) -> Floats:
+    """Return (n, k) rows, each once, sorted by nothing in particular.
+
+    Rows are told apart by 64 bits mixed from their numbers: numpy's own way through rows stops every thread.
+    """
+    mixed = np.zeros(len(rows), np.uint64)
+    for column in (rows + 0.0).T:
+        mixed = (mixed ^ np.ascontiguousarray(column).view(np.uint64)) * _MIX
+        mixed ^= mixed >> np.uint64(29)
+    return rows[np.unique(mixed, return_index=True)[1]]

@@ -150,6 +150,7 @@ class NcTextView(QAbstractScrollArea):
         shift = (self.horizontalScrollBar().value(), self.verticalScrollBar().value())
         paint_lines(painter, self.viewport().rect(), shift, self._look)
         paint_marks(painter, self.viewport().rect(), self._look)
+        painter.end()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Pick the line under the mouse; with Shift all lines up to it. Beside the scroll bar: go to that place of the program."""
