@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import NamedTuple
 
 from app.nc.read.codes import AXES, GROUP_OF, ROTARY, TAKES, Group
 from app.nc.read.expression import NUMBER, Value, Values, evaluated
@@ -17,8 +20,12 @@ ALWAYS = AXES + ROTARY + "fstn"
 """Words that need no code in their block to take them."""
 
 
-@dataclass(frozen=True, slots=True)
-class Word:
+_ALWAYS = frozenset(ALWAYS)
+_NUMBERED = re.compile(rf"([a-z])({NUMBER.pattern})")
+"""A word as most are: a letter and a number."""
+
+
+class Word(NamedTuple):
     """A letter and its value.
 
     Attributes:
@@ -67,6 +74,10 @@ def parse(code: str, nesting: int) -> Parsed:
     settings: list[tuple[Setting, Value]] = []
     words: list[Word] = []
     while values.at < len(code):
+        numbered = _NUMBERED.match(code, values.at)
+        if numbered is not None:
+            words.append(_numbered(numbered, values))
+            continue
         letter, begin = code[values.at], values.at
         values.at += 1
         if letter == "#":
@@ -76,16 +87,16 @@ def parse(code: str, nesting: int) -> Parsed:
             values.at += 1
             settings.append((key, values.value()))
         elif "a" <= letter <= "z":
-            words.append(_word(letter, begin, values))
+            words.append(Word(letter, values.value(), begin, values.at, False))
         else:
             raise Fault(f"{letter!r} begins no word; expected a letter with a number.", column=-1 - begin, word=letter)
     return Parsed(code, deleted, tuple(settings), tuple(words))
 
 
-def _word(letter: str, begin: int, values: Values) -> Word:
-    number = NUMBER.match(values.code, values.at)
-    value = values.value()
-    return Word(letter, value, begin, values.at, number is not None and "." not in number[0])
+def _numbered(found: re.Match[str], values: Values) -> Word:
+    """Return a word that is a letter and a number, and go on behind it."""
+    values.at, number = found.end(), found[2]
+    return Word(found[1], values.finite(float(number)), found.start(), found.end(), "." not in number)
 
 
 @dataclass(slots=True)
@@ -107,7 +118,7 @@ class Block:
 
     def has(self, letters: str) -> bool:
         """Tell whether any of the letters is there."""
-        return any(letter in self.values for letter in letters)
+        return not self.values.keys().isdisjoint(letters)
 
     def get(self, letter: str) -> float | None:
         """Return a word's value, None without the word."""
@@ -125,15 +136,20 @@ class Block:
 
     def unused(self) -> str:
         """Return the first letter that no code of the block takes, or ""."""
-        codes = [*self.codes.values(), *self.coolant]
-        if not self.values.keys() - set(ALWAYS):
+        if _ALWAYS.issuperset(self.values):
             return ""
-        taken = set(ALWAYS).union(*(TAKES.get(code, "") for code in codes))
+        taken = _ALWAYS.union(*(TAKES.get(code, "") for code in [*self.codes.values(), *self.coolant]))
         return next((letter for letter in self.values if letter not in taken), "")
 
 
 def _letter(code: str) -> str:
     return code[:1].lower()
+
+
+@lru_cache(1024)
+def _code(letter: str, number: float) -> str:
+    """Return a code as it is usually written: G1, G5.1."""
+    return f"{letter.upper()}{round(number, 2):g}"
 
 
 def block_of(parsed: Parsed, parameters: Parameters) -> Block:
@@ -146,7 +162,7 @@ def block_of(parsed: Parsed, parameters: Parameters) -> Block:
     for word in parsed.words:
         value = evaluated(word.value, parameters)
         if word.letter in "gm":
-            _add_code(block, f"{word.letter.upper()}{round(value, 2):g}", word)
+            _add_code(block, _code(word.letter, value), word)
         elif word.letter in block.values:
             raise Fault(f"a block takes one word {word.letter.upper()} only.", column=-1 - word.begin)
         elif word.letter != "n":

@@ -111,7 +111,7 @@ class Values:
         number = NUMBER.match(self.code, self.at)
         if number is not None:
             self.at = number.end()
-            return self._finite(float(number[0]))
+            return self.finite(float(number[0]))
         self._left -= 1
         if self._left < 0:
             raise self._fault("brackets or parameters stand too deep within one another")
@@ -193,7 +193,12 @@ class Values:
     def _peek(self) -> str:
         return self.code[self.at : self.at + 1]
 
-    def _finite(self, value: float) -> float:
+    def finite(self, value: float) -> float:
+        """Return a number that was read.
+
+        Raises:
+            Fault: it is too large.
+        """
         if not abs(value) < 1e15:
             raise self._fault("the number is too large")
         return value
