@@ -11,6 +11,7 @@ from app.model.part import Units
 from app.nc.read.block import Block
 from app.nc.read.codes import AXES, Group
 from app.nc.read.columns import Columns, Motion
+from app.nc.read.compensation import Compensation
 from app.nc.read.cycles import Cycle
 from app.nc.read.dialect import HABITS, Dialect
 from app.nc.read.fault import Fault
@@ -41,6 +42,8 @@ class Control:
         cycle: the last canned cycle with its words, None after another motion. initial: the height at which their run began,
             program coordinates and units.
         curve: the spline over several blocks that is being written, None outside of one. last_offset: P, Q of the last G5, mm.
+        compensation: G41 or G42, None = G40. stray: where the tool itself is when that is not where the program takes it to be,
+            after G40.
         line: 1-based, of the block that is running. unrolled: blocks that were done again.
         columns, splines, events, warnings: what comes out; a warning is a text, its letter and its line.
     """
@@ -48,7 +51,7 @@ class Control:
     def __init__(self, options: ReadOptions) -> None:
         """Stand at the start, as a control does when it is switched on."""
         self.options, self.habits = options, HABITS[options.dialect]
-        self.modal = ModalState()
+        self.modal = ModalState(retract_to_r=options.dialect is Dialect.LINUXCNC)
         self.motion = "G80" if options.dialect is Dialect.LINUXCNC else "G0"
         self.feed = math.nan
         self.at: Place = options.start
@@ -60,6 +63,8 @@ class Control:
         self.cycle: Cycle | None = None
         self.initial = 0.0
         self.curve: OpenNurbs | OpenFanucNurbs | None = None
+        self.compensation: Compensation | None = None
+        self.stray: Place | None = None
         self.last_offset = (0.0, 0.0)
         self.line = self.unrolled = 0
         self.columns = Columns()
@@ -98,8 +103,9 @@ class Control:
         return self.offsets.to_program(self.at)
 
     def change(self, **values: object) -> None:
-        """Change what is in force."""
-        self.modal = replace(self.modal, **values)  # type: ignore[arg-type]
+        """Change what is in force; what stays as it is costs little."""
+        if any(getattr(self.modal, name) != value for name, value in values.items()):
+            self.modal = replace(self.modal, **values)  # type: ignore[arg-type]
 
     def offsets_changed(self) -> None:
         """Take the offsets into what is in force."""
@@ -116,7 +122,7 @@ class Control:
         value = block.values.get(letter)
         if value is None:
             return None
-        return value * (self.least if letter in block.whole else 1.0) * self.unit
+        return value * (self.unit * self.least if letter in block.whole else self.unit)
 
     def axis_words(self, block: Block) -> Iterator[tuple[int, float]]:
         """Yield the axis words of a block: axis, mm."""
@@ -147,7 +153,7 @@ class Control:
         """Note that the motion to come sets the axes of the block's words."""
         for axis, letter in enumerate(AXES):
             if letter in block.values and self.known[axis] < 0:
-                self.known[axis] = self.columns.count
+                self.known[axis] = self.row
 
     def move(self, kind: MotionKind, end: Place, feed: float = 0.0, arc: tuple[Place, int] | None = None) -> None:
         """Add a motion from where the point is.
@@ -163,11 +169,26 @@ class Control:
         """
         if self.columns.count >= self.options.limits.motions:
             raise Fault(f"the program makes more than {self.options.limits.motions} motions; the reader stops here.")
-        motion = Motion(kind, self.at, end, feed, self.line, self.state(), self.modal.plane)
+        motion = Motion(kind, self.stray or self.at, end, feed, self.line, self.state(), self.modal.plane)
         if arc is not None:
             motion.centre, motion.turns = arc
-        self.columns.add(motion)
-        self.at = end
+        if self.compensation is not None:
+            self.compensation.take(motion, self.columns)
+        else:
+            self.columns.add(motion)
+        self.at, self.stray = end, None
+
+    @property
+    def row(self) -> int:
+        """How many motions there are, those that wait for the next one included."""
+        return self.columns.count + (len(self.compensation.waiting) if self.compensation is not None else 0)
+
+    def end_compensation(self) -> None:
+        """Obey G40: the tool stays where it is until the next motion."""
+        if self.compensation is not None:
+            self.compensation.flush(self.columns)
+            self.stray = self.compensation.place
+            self.compensation = None
 
     def feed_along(self, length: float) -> float:
         """Return the feed of a motion of some length, mm/min.
@@ -206,7 +227,7 @@ class Control:
         """
         if len(self.events) >= MOST_EVENTS:
             raise Fault(f"the program stops, dwells and changes tools more than {MOST_EVENTS} times; the reader stops here.")
-        self.events.append(Event(kind, self.columns.count, self.line, value))
+        self.events.append(Event(kind, self.row, self.line, value))
 
     def own_parameter(self, key: Key) -> float | None:
         """Return a parameter that the control itself sets, None if it is another; those of tables are in mm."""

@@ -56,6 +56,8 @@ def move(control: Control, block: Block) -> None:
         control.cycle = None
     if control.motion not in CURVES:
         drop_curve(control)
+    if control.compensation is not None and control.motion in CYCLES:
+        raise Fault("a canned cycle cannot be while cutter compensation is on; write G40 before.", letter="g")
     _MOTIONS[control.motion](control, block)
 
 
@@ -93,13 +95,18 @@ def _target(control: Control, block: Block) -> Place:
     return place
 
 
+def _goes(control: Control, block: Block) -> bool:
+    """Tell whether a G0 or G1 moves at all; without axis words LinuxCNC goes where it stands."""
+    return block.has(AXES + ROTARY) or control.options.dialect is Dialect.LINUXCNC
+
+
 def _rapid(control: Control, block: Block) -> None:
-    if block.has(AXES + ROTARY):
+    if _goes(control, block):
         control.move(MotionKind.RAPID, _target(control, block))
 
 
 def _line(control: Control, block: Block) -> None:
-    if block.has(AXES + ROTARY):
+    if _goes(control, block):
         end = _target(control, block)
         control.move(MotionKind.LINE, end, control.feed_along(math.dist(control.at, end)))
 

@@ -10,6 +10,7 @@ from app.model.motion import Plane
 from app.model.part import Units
 from app.nc.read.block import Block
 from app.nc.read.codes import Group
+from app.nc.read.compensation import Compensation
 from app.nc.read.control import Control
 from app.nc.read.expression import whole
 from app.nc.read.fault import Fault
@@ -28,6 +29,8 @@ def before_motion(control: Control, block: Block) -> None:
     Raises:
         Fault: a word is missing or out of range, or there is something that no milling machine can do.
     """
+    if control.compensation is not None and Group.RADIUS not in block.codes:
+        _check_compensation(control, block)
     if Group.FEED in block.codes:
         _feed_mode(control, block)
     _feed(control, block)
@@ -126,9 +129,47 @@ def _units(control: Control, block: Block) -> None:
 
 
 def _radius(control: Control, block: Block) -> None:
-    if block.codes[Group.RADIUS] != "G40":
-        raise Fault("cutter compensation is not followed: the path depends on the control's tool table; "
-                    "let the program be written for the tool's centre.", letter="g")
+    code = block.codes[Group.RADIUS]
+    if code == "G40":
+        control.end_compensation()
+        return
+    if control.compensation is not None:
+        raise Fault(f"{code}: cutter compensation is on already; write G40 before.", letter="g")
+    if control.modal.plane is Plane.YZ:
+        raise Fault(f"{code} works in the planes G17 and G18.", letter="g")
+    radius = _cutter_diameter(control, block, code) / 2
+    if radius:
+        sign = 1 if code.startswith("G41") else -1
+        control.compensation = Compensation(sign * radius, control.modal.plane, control.stray or control.at)
+
+
+def _cutter_diameter(control: Control, block: Block, code: str) -> float:
+    """Return the diameter that G41 or G42 means, mm."""
+    if code.endswith(".1"):
+        value = control.length(block, "d")
+        if value is None:
+            raise Fault(f"{code} needs a word D with the diameter.", letter="g")
+        return value
+    number = whole(block.values.get("d", float(control.modal.tool)), "the D number")
+    if number == 0:
+        return 0.0
+    row = control.tool_table.get(number)
+    if row is None or not row.diameter:
+        raise Fault(
+            f"{code} needs the diameter of tool {number}, which is in no tool table; read the program with one.", "d" if block.has("d") else "g"
+        )
+    return row.diameter
+
+
+def _check_compensation(control: Control, block: Block) -> None:
+    """Refuse what cannot be done while cutter compensation is on."""
+    for group in (Group.PLANE, Group.OFFSET, Group.LENGTH, Group.TOOL):
+        code = block.codes.get(group)
+        if code not in (None, "G17", "G18", "G19") or (code is not None and PLANES.get(code) is not control.modal.plane):
+            raise Fault(f"{code} cannot be while cutter compensation is on; write G40 before.", letter=code[0].lower())
+    once = block.codes.get(Group.ONCE)
+    if once not in (None, "G4", "G9"):
+        raise Fault(f"{once} cannot be while cutter compensation is on; write G40 before.", letter="g")
 
 
 def _length(control: Control, block: Block) -> None:

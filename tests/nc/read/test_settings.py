@@ -129,7 +129,7 @@ def test_what_only_some_controls_know() -> None:
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("G41 D1", "a.ngc:1:1: G41: cutter compensation is not followed"),
+        ("G41 D1", "a.ngc:1:5: D1: G41 needs the diameter of tool 1, which is in no tool table"),
         ("G0 X1 G1", "a.ngc:1:7: G0 and G1 in one block contradict one another (motion)"),
         ("G90 G91", "contradict one another (distance mode)"),
         ("M3 M5", "contradict one another (spindle)"),
