@@ -155,9 +155,8 @@ def _cutter_diameter(control: Control, block: Block, code: str) -> float:
         return 0.0
     row = control.tool_table.get(number)
     if row is None or not row.diameter:
-        raise Fault(
-            f"{code} needs the diameter of tool {number}, which is in no tool table; read the program with one.", "d" if block.has("d") else "g"
-        )
+        letter = "d" if block.has("d") else "g"
+        raise Fault(f"{code} needs the diameter of tool {number}, which is in no tool table; read the program with one.", letter)
     return row.diameter
 
 
