@@ -83,7 +83,8 @@ class Run:
         except RecursionError:
             self._problems.append(self._located(Fault("the block is too long or too deep to be read."), Severity.ERROR))
         control = self._control
-        control.end_compensation()
+        if control.compensation is not None:
+            control.compensation.flush(control.columns)
         warnings = [Problem(line, 0, letter.upper(), text, Severity.WARNING) for text, (letter, line) in control.warnings.items()]
         tools, stock = (), None
         known = [row if row >= 0 else control.columns.count for row in control.known]
