@@ -15,6 +15,7 @@ from app.nc.read.flow import Flow
 from app.nc.read.lane import Plain, plain_blocks
 from app.nc.read.macro import call_or_return, is_macro, obey_macro
 from app.nc.read.moves import move
+from app.nc.read.notes import notes
 from app.nc.read.options import ReadOptions
 from app.nc.read.places import Cursor, Places
 from app.nc.read.program import EventKind, FeedMode, NcProgram, Problem, Severity
@@ -86,7 +87,7 @@ class Run:
         if control.compensation is not None:
             control.compensation.flush(control.columns)
         warnings = [Problem(line, 0, letter.upper(), text, Severity.WARNING) for text, (letter, line) in control.warnings.items()]
-        tools, stock = (), None
+        tools, stock = notes(self._text.data)
         known = [row if row >= 0 else control.columns.count for row in control.known]
         motions = control.columns.motions(control.splines, (known[0], known[1], known[2]))
         return NcProgram(motions, control.states, tuple(control.events), (*warnings, *self._problems), tools, stock, self._text.line_count)
