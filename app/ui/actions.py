@@ -110,6 +110,8 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         Spec("nc_difference_before", "Previous difference", "Shift+F7"),
         Spec("nc_compare_end", "&End comparing"),
         SEPARATOR,
+        Spec("nc_restart", "&Restart from this line…", "Ctrl+R"),
+        SEPARATOR,
         Spec("nc_xy", "Seen from above: &XY", "Alt+1"),
         Spec("nc_xz", "Seen from the front: X&Z", "Alt+2"),
         Spec("nc_yz", "Seen from the side: &YZ", "Alt+3"),

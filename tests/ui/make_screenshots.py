@@ -10,6 +10,7 @@ import os
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
@@ -20,11 +21,14 @@ from PySide6.QtWidgets import QApplication
 from app.settings import ThemeChoice
 from app.ui.computation import State
 from app.ui.memory import choose_theme
+from app.ui.nc.motion_picture import PathColour
+from app.ui.nc.motion_shapes import Side
 from app.ui.start import build
 from app.ui.views import View
 from app.ui.wiring import Wiring
 
 SIZES = ((1280, 800), (1920, 1080))
+PROGRAMS = Path(__file__).resolve().parents[1] / "data" / "nc"
 DOCUMENT = Path(__file__).resolve().parents[2] / "resources" / "docs" / "window.png"
 
 
@@ -56,6 +60,61 @@ def take(wiring: Wiring, path: Path) -> None:
     print(path)
 
 
+def wait_until(done: Callable[[], bool]) -> None:
+    """Let the window live until something is so."""
+    end = time.monotonic() + 60
+    while not done():
+        if time.monotonic() > end:
+            raise SystemExit("what the picture should show did not come")
+        wait(20)
+
+
+def open_program(wiring: Wiring, path: Path) -> None:
+    """Show a program in the NC view."""
+    wiring.nc.open(path)
+    wait_until(lambda: wiring.window_.views.nc.shown is not None and wiring.window_.views.nc.shown.source.path == path)
+
+
+def nc_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
+    """Return what the NC view is photographed with: own program, foreign ones, a side, an error, find, two programs."""
+    nc = wiring.window_.views.nc
+    changed = folder / "changed.ngc"
+    changed.write_bytes((PROGRAMS / "tux.ngc").read_bytes().replace(b"Y 2.500000", b"Y 2.650000").replace(b"F     200", b"F 250"))
+
+    def own() -> None:
+        wiring.nc.back()
+        wait_until(lambda: nc.shown is not None and nc.shown.source.path is None)
+        nc.set_side(Side.XY)
+        nc.pane.text.pick(95)
+
+    def foreign() -> None:
+        open_program(wiring, PROGRAMS / "test_pycam.ngc")
+        nc.pane.text.pick(5000)
+
+    def front() -> None:
+        nc.set_side(Side.XZ)
+        wait_until(lambda: nc.path.picture is not None and nc.path.picture.side is Side.XZ)
+        nc.set_colour(PathColour.MOTION)
+
+    def find() -> None:
+        nc.set_colour(PathColour.TOOL)
+        nc.set_side(Side.XY)
+        nc.pane.begin_find("X22.9")
+        nc.pane.find_next()
+
+    def error() -> None:
+        open_program(wiring, PROGRAMS / "helical-thread-milling.gcode")
+
+    def compare() -> None:
+        open_program(wiring, PROGRAMS / "tux.ngc")
+        wiring.nc.compare(changed)
+        wait_until(lambda: nc.compared is not None)
+        nc.differences.step(1)
+        nc.differences.step(1)
+
+    return {"own": own, "foreign": foreign, "front": front, "find": find, "error": error, "compare": compare}
+
+
 def main() -> None:
     """Take the pictures."""
     os.environ["HITOFUDE_CONFIG"] = tempfile.mkdtemp()
@@ -76,6 +135,10 @@ def main() -> None:
                 wait(50)
                 wiring.window_.canvas.fit()
                 take(wiring, folder / f"{view.name.lower()}-{theme.value}-{width}.png")
+            for name, arrange in nc_states(wiring, Path(os.environ["HITOFUDE_CONFIG"])).items():
+                arrange()
+                take(wiring, folder / f"nc-{name}-{theme.value}-{width}.png")
+            wiring.nc.back()
     application.quit()
 
 

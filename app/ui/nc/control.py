@@ -39,7 +39,8 @@ class NcControl(QObject):
         super().__init__(window)
         self._window, self._log, self._view = window, log, window.views.nc
         self._computation = window.computation
-        self._own: Source | None = None
+        self._own: tuple[Source, ...] = ()
+        self._own_at = 0
         self._foreign: Source | None = None
         self._made: object = None
         self.reading = Reading(self)
@@ -52,11 +53,12 @@ class NcControl(QObject):
         self._view.comparison_closed.connect(self.stop_comparing)
         self._view.pane.head.dialect_chosen.connect(self._read_as)
         self._view.pane.banner.pressed.connect(self._on_banner)
+        self._view.pane.head.file_chosen.connect(self._show_file)
 
     @property
     def source(self) -> Source | None:
         """What is shown, or is about to be."""
-        return self._foreign or self._own
+        return self._foreign or (self._own[self._own_at] if self._own else None)
 
     @property
     def foreign(self) -> bool:
@@ -67,15 +69,19 @@ class NcControl(QObject):
         """Show the program of a file; until it is read, what was there stays."""
         self._read(Source(path.name, path=path), remember=True)
 
-    def show_text(self, name: str, text: str) -> None:
-        """Show a program that was made just now and is in no file yet."""
-        self._read(Source(name, data=text.encode()))
-
     def choose(self) -> None:
         """Ask for a program and open it."""
         name, _ = QFileDialog.getOpenFileName(self._window, "Open NC program", self._window.settings.last_folder, FILTER)
         if name:
             self.open(Path(name))
+
+    def restart_here(self) -> None:
+        """Make a program that leads in to the picked line and goes on from there, and show it."""
+        shown, row = self._view.shown, self._view.pane.text.selection[0]
+        if shown is None or row < 0:
+            self._window.status.show_message("Pick the line to start from first.")
+        else:
+            self.reading.start(partial(_restarted, shown, row + 1, self._view.side), partial(self._on_foreign, False))
 
     def choose_to_compare(self) -> None:
         """Ask for a second program and compare it with the one that is shown."""
@@ -161,23 +167,27 @@ class NcControl(QObject):
         made = self._computation.made
         if made is not self._made:
             self._made = made
-            self._own = self._own_source()
+            self._own, self._own_at = self._own_sources(), 0
             if self._foreign is None:
                 self._show_own()
         self._show_heads()
 
-    def _own_source(self) -> Source | None:
+    def _own_sources(self) -> tuple[Source, ...]:
         from app.nc.posts import load_post
 
         made = self._computation.made
-        if made is None or not made.nc.text:
-            return None
+        if made is None:
+            return ()
         post, document = load_post(made.job.post), self._window.document
         stem = document.path.stem if document.path else made.job.part.name
-        return Source(f"{stem}{post.extension}", data=made.nc.text.encode(), dialect=post.dialect)
+        return tuple(Source(f"{stem}{file.suffix}{post.extension}", file.nc.text.encode(), dialect=post.dialect) for file in made.files)
+
+    def _show_file(self, index: int) -> None:
+        self._own_at = index
+        self._show_own()
 
     def _show_own(self) -> None:
-        source = self._own
+        source = self.source
         self._view.show_text(source.name if source is not None else "", program_text(source.bytes() if source is not None else b""))
         self._show_heads()
         if source is not None:
@@ -195,6 +205,7 @@ class NcControl(QObject):
         dialect = source.dialect if source is not None else None
         if guessed is not None or not self.foreign:
             self._view.pane.head.show_dialect(guessed or dialect or Dialect.LINUXCNC, dialect, self.foreign)
+        self._view.pane.head.show_files([] if self.foreign else [own.name for own in self._own], self._own_at)
         if self.foreign:
             banner.say("Not the job's program.", "Back to the job's program")
         elif self._computation.outdated and self._computation.state is not State.RUNNING:
@@ -215,6 +226,16 @@ class NcControl(QObject):
     def _on_busy(self, busy: bool) -> None:
         if busy or not self._window.worker.busy:
             self._window.status.show_progress(0.0 if busy else None)
+
+
+def _restarted(shown: Shown, line: int, side: Side, progress: Progress) -> Shown:
+    from app.nc.read.options import ReadOptions
+    from app.nc.restart import RestartOptions, restart
+
+    data = restart(shown.source.bytes(), line, RestartOptions(ReadOptions(shown.dialect)), progress.part(0.0, 0.5))
+    name = Path(shown.source.name)
+    source = Source(f"{name.stem}-from-{line}{name.suffix}", data, dialect=shown.dialect)
+    return read_shown(source, side, progress.part(0.5, 1.0))
 
 
 def _compared(shown: Shown, other: Source, side: Side, progress: Progress) -> tuple[Shown, Compared]:

@@ -31,17 +31,24 @@ class TextHead(QWidget):
     """Name of the program, its dialect, find.
 
     Signals:
-        dialect_chosen(Dialect or None): how to read it; None = as it looks. find_asked(). closed(): take this program away.
+        dialect_chosen(Dialect or None): how to read it; None = as it looks. file_chosen(index): of a program in several
+            files. find_asked(). closed(): take this program away.
     """
 
     dialect_chosen = Signal(object)
+    file_chosen = Signal(int)
     find_asked = Signal()
     closed = Signal()
 
     def __init__(self, closable: bool = False) -> None:
         super().__init__()
         self.name, self.detail = Elided(), muted()
-        self.dialect = QComboBox()
+        self.files, self.dialect = QComboBox(), QComboBox()
+        self.files.setAccessibleName("File of the program")
+        self.files.setToolTip("This control takes one file for each tool")
+        self.files.setFixedHeight(24)
+        self.files.activated.connect(self.file_chosen)
+        self.files.hide()
         self.dialect.setAccessibleName("Control that the program is for")
         self.dialect.setToolTip("How the program is read")
         self.dialect.setFixedHeight(24)
@@ -49,6 +56,7 @@ class TextHead(QWidget):
         self._offer("as it looks")
         row = _bar(self)
         row.addWidget(self.name, 1)
+        row.addWidget(self.files, 1)
         row.addWidget(self.detail)
         row.addWidget(self.dialect)
         find = IconButton("find", "Find (Ctrl+F)")
@@ -64,6 +72,14 @@ class TextHead(QWidget):
         self.name.setText(name)
         self.name.setToolTip(name)
         self.detail.setText(detail)
+
+    def show_files(self, names: list[str], current: int) -> None:
+        """Offer the files of a program that has several; one alone is only named."""
+        self.files.clear()
+        self.files.addItems(names)
+        self.files.setCurrentIndex(current)
+        self.files.setVisible(len(names) > 1)
+        self.name.setVisible(len(names) < 2)
 
     def show_dialect(self, guessed: Dialect, chosen: Dialect | None, free: bool) -> None:
         """Show how the program is read.

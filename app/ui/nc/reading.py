@@ -63,7 +63,8 @@ class Shown:
 
     Attributes:
         source: where it came from, with its bytes. dialect: in which it was read.
-        text, looks, shapes: lines, their looks, the motions. times: when each motion ends.
+        text, looks, shapes: lines, their looks, the motions; where the tool stands before them nobody knows, so the first
+            ones begin where the program sends each axis. times: when each motion ends.
         pictures: of the sides that were asked for.
     """
 
@@ -90,6 +91,7 @@ def read_shown(source: Source, side: Side, progress: Progress) -> Shown:
         Cancelled: the job was asked to stop.
     """
     from app.files.machine_toml import DEFAULT_MACHINE, load_machine
+    from app.model.motion_path import anchored
     from app.nc.duration import duration
     from app.nc.read.guess import guess_dialect
     from app.nc.read.options import ReadOptions
@@ -101,6 +103,7 @@ def read_shown(source: Source, side: Side, progress: Progress) -> Shown:
     guessed = guess_dialect(data)
     dialect = source.dialect or guessed
     program = read_program(data, ReadOptions(dialect), progress.part(0.05, 0.6))
+    program = replace(program, motions=anchored(program.motions))
     progress.step(0.6, "Preparing the picture")
     shapes = shape_motions(program)
     progress.step(0.7, "Preparing the picture")

@@ -14,7 +14,7 @@ from app.ui.nc.motion_shapes import Side
 from app.ui.showing import Showing
 from app.ui.views import View
 
-_CONTEXT = ("nc_find", "nc_line", "", "nc_save", "nc_back")
+_CONTEXT = ("nc_restart", "", "nc_find", "nc_line", "", "nc_compare", "nc_save", "nc_back")
 _SIDES = {"nc_xy": Side.XY, "nc_xz": Side.XZ, "nc_yz": Side.YZ}
 
 
@@ -34,6 +34,7 @@ class NcWiring(QObject):
         self._in_view("nc_find_before", lambda: view.active.find_next(back=True))
         self._in_view("nc_problem", lambda: view.active.panel.step(1))
         self._in_view("nc_problem_before", lambda: view.active.panel.step(-1))
+        self._in_view("nc_restart", control.restart_here)
         self._on("nc_compare", control.choose_to_compare)
         self._on("nc_compare_end", control.stop_comparing)
         self._in_view("nc_difference", partial(view.differences.step, 1))
@@ -66,7 +67,8 @@ class NcWiring(QObject):
         comparing = self._view.compared is not None
         for name in ("nc_difference", "nc_difference_before", "nc_compare_end"):
             actions[name].setEnabled(comparing)
-        actions["nc_compare"].setEnabled(self._view.shown is not None)
+        for name in ("nc_compare", "nc_restart"):
+            actions[name].setEnabled(self._view.shown is not None)
         for name in ("nc_problem", "nc_problem_before"):
             actions[name].setEnabled(bool(self._view.pane.problems or (comparing and self._view.other.problems)))
         self._showing.show_missing()

@@ -1,6 +1,7 @@
 """The NC view in the window, on real programs and the real reader: line to path and back, find, problems, files, compare."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -280,3 +281,42 @@ def test_programs_that_do_the_same_are_said_to(qtbot, wiring, small, tmp_path):
     wiring.nc.compare(other)
     qtbot.waitUntil(lambda: small.compared is not None, timeout=WAIT_MS)
     assert small.differences.title.text() == "Both programs do the same."
+
+
+def test_restart_from_a_line_is_shown_and_goes_on_with_the_same_text(qtbot, wiring, small, tmp_path):
+    small.pane.text.pick(6)
+    qtbot.keyClick(small.pane.text, Qt.Key.Key_R, CTRL)
+    qtbot.waitUntil(lambda: small.shown.source.name == "small-from-7.ngc", timeout=WAIT_MS)
+    assert small.pane.banner.isVisible()
+    assert small.shown.program.error is None
+    assert small.pane.text.text.text.endswith("".join(SMALL.splitlines(keepends=True)[6:]))
+    wiring.nc.save(tmp_path / "rest.ngc")
+    assert (tmp_path / "rest.ngc").read_bytes() == small.shown.source.data
+
+
+def test_restart_that_cannot_be_safe_says_why(qtbot, wiring, tmp_path):
+    path = tmp_path / "loop.ngc"
+    path.write_text("G21 G90 G17\nG0 X0 Y0 Z5\no1 repeat [3]\nG1 X1 F100\no1 endrepeat\nM2\n")
+    nc = open_file(qtbot, wiring, path)
+    nc.pane.text.pick(3)
+    with qtbot.waitSignal(wiring.nc.failed, timeout=WAIT_MS) as caught:
+        wiring.window_.actions_["nc_restart"].trigger()
+    assert "ine 4" in caught.args[0]
+    assert wiring.window_.notice.text.text() == caught.args[0]
+    assert nc.shown.source.path == path
+
+
+def test_a_post_with_a_file_for_each_tool_offers_its_files(qtbot, computed):
+    computed.document.change_job("Change post", replace(computed.document.job, post="grbl"))
+    computed.compute()
+    nc = nc_of(computed)
+    qtbot.waitUntil(lambda: computed.computation.state is State.CURRENT and nc.shown is not None, timeout=WAIT_MS)
+    computed.showing.show_view(View.NC)
+    files = nc.pane.head.files
+    assert files.isVisible()
+    assert files.count() == 2
+    first = nc.pane.text.text.text
+    files.setCurrentIndex(1)
+    files.activated.emit(1)
+    qtbot.waitUntil(lambda: nc.shown is not None and nc.shown.source.name == files.itemText(1), timeout=WAIT_MS)
+    assert nc.pane.text.text.text == computed.computation.made.files[1].nc.text != first
