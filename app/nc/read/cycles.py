@@ -159,9 +159,9 @@ def cycle_steps(cycle: Cycle, position: Point, initial: float) -> Iterator[Step]
     if not cycle.absolute:
         r, depth = initial + r, initial + r + depth
     if r < depth:
-        raise Fault(f"R lies below the bottom of the hole ({_normal(cycle)}); a cycle bores from R downwards", "R")
+        raise Fault(f"R at {r:g} lies below the bottom of the hole at {_normal(cycle)} {depth:g}; a cycle bores from R downwards.", "R")
     if cycle.code in _PECKS and r - depth > MOST_PECKS * _known(cycle.peck, "Q"):
-        raise Fault(f"more than {MOST_PECKS:,} pecks for one hole; Q is too small", "Q")
+        raise Fault(f"more than {MOST_PECKS:,} pecks for one hole; Q is too small.", "Q")
     return _steps(cycle, position, initial, (r, depth))
 
 
@@ -172,7 +172,7 @@ def _normal(cycle: Cycle) -> str:
 def _known(value: float | None, letter: str) -> float:
     """Return the value of a word that the cycle cannot do without."""
     if value is None:
-        raise Fault(f"the cycle has no {letter} word, and none stays from the block before", letter)
+        raise Fault(f"the cycle has no {letter} word, and none stays from the block before.", letter)
     return value
 
 
@@ -181,13 +181,13 @@ def _check_words(cycle: Cycle) -> None:
     _known(cycle.depth, _normal(cycle))
     _known(cycle.r, "R")
     if cycle.repeats < 0 or (cycle.repeats == 0 and not cycle.fanuc):
-        raise Fault(f"a cycle cannot be repeated {cycle.repeats} times; L counts from 1", "L")
+        raise Fault(f"a cycle cannot be repeated {cycle.repeats} times; L counts from 1.", "L")
     if cycle.code in _NEEDS_DWELL and not cycle.fanuc:
         _known(cycle.dwell, "P")
     if cycle.dwell is not None and cycle.dwell < 0:
-        raise Fault("a dwell cannot be negative", "P")
+        raise Fault("a dwell cannot be negative.", "P")
     if cycle.code in _PECKS and _known(cycle.peck, "Q") <= 0:
-        raise Fault("the depth of a peck must be above 0", "Q")
+        raise Fault("the depth of a peck must be above 0.", "Q")
     if cycle.code == "G87":
         for letter, value in zip("IJK", cycle.shift, strict=True):
             _known(value, letter)
@@ -197,9 +197,9 @@ def _check_spindle(cycle: Cycle) -> None:
     """Refuse a cycle that needs another spindle; Fanuc's tapping cycles start it themselves."""
     needed = _TAPS.get(cycle.code, 0)
     if needed and cycle.spindle != needed and not cycle.fanuc:
-        raise Fault(f"{cycle.code} needs the spindle turning {_WAYS[needed]}, and it {_turns(cycle)}")
+        raise Fault(f"{cycle.code} needs the spindle turning {_WAYS[needed]}, and it {_turns(cycle)}.")
     if cycle.code in _TURNING and not cycle.spindle:
-        raise Fault(f"{cycle.code} needs a turning spindle (M3 or M4), and it stands")
+        raise Fault(f"{cycle.code} needs a turning spindle (M3 or M4), and it stands.")
 
 
 def _turns(cycle: Cycle) -> str:
@@ -283,23 +283,27 @@ def _pecks(hole: _Hole) -> Iterator[float]:
         depth -= hole.cycle.peck or math.inf
 
 
+def _above_chips(hole: _Hole, depth: float) -> float:
+    """Return the height a little above a peck's end; LinuxCNC goes there even where that is above R."""
+    height = depth + CHIP_CLEARANCE_MM / hole.cycle.unit_mm
+    return min(height, hole.r) if hole.cycle.fanuc else height
+
+
 def _deep_drill(hole: _Hole) -> Iterator[Step]:
     """G83: out to R after each peck, and back to a little above where it ended."""
-    clearance = CHIP_CLEARANCE_MM / hole.cycle.unit_mm
     for depth in _pecks(hole):
         yield hole.feed(depth)
         yield hole.rapid(hole.r)
-        yield hole.rapid(depth + clearance)
+        yield hole.rapid(_above_chips(hole, depth))
     yield hole.feed(hole.bottom)
     yield hole.rapid(hole.clear)
 
 
 def _break_chips(hole: _Hole) -> Iterator[Step]:
     """G73: up a little after each peck."""
-    clearance = CHIP_CLEARANCE_MM / hole.cycle.unit_mm
     for depth in _pecks(hole):
         yield hole.feed(depth)
-        yield hole.rapid(depth + clearance)
+        yield hole.rapid(_above_chips(hole, depth))
     yield hole.feed(hole.bottom)
     yield hole.rapid(hole.clear)
 

@@ -57,7 +57,9 @@ def interpreted(text: str) -> Run:
         run = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60)
     calls = [(number, name, arguments.split(",")) for number, name, arguments in CALL.findall(run.stdout)]
     motions = [_motion(int(number), name, arguments) for number, name, arguments in calls if name in KINDS]
-    refused = int(re.search(r"^N(\d+)", run.stderr, re.M)[1]) if run.returncode else None
+    place = re.search(r"^N(\d+)", run.stderr, re.M)
+    assert (place is not None) == (run.returncode != 0), (run.returncode, run.stderr, run.stdout[-300:])
+    refused = int(place[1]) if place else None
     return Run([m for m in motions if m[0] and (refused is None or m[0] < refused)], refused)
 
 
