@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
+from collections.abc import Iterator
 from dataclasses import dataclass
 
+from app.nc.read.fault import Fault
 from app.nc.read.text import Text, code_of
 
 KEYWORDS = (
@@ -21,6 +23,9 @@ _O_LINE = re.compile(
 )
 _N_LINE = re.compile(rb"^[ \t]*(?:/[ \t]*)?n[ \t]*([0-9]{1,9})(?![0-9.])", re.IGNORECASE | re.MULTILINE)
 _DO_END = re.compile(rb"^[ \t]*(?:n[ \t]*[0-9]+[ \t]*)?(?:while[^\n(]*\]do|(end))[ \t]*([0-9])", re.IGNORECASE | re.MULTILINE)
+
+
+MOST_PLACES = 500_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,14 +98,19 @@ class Places:
                 self._by_label.setdefault(name, []).append(Statement(Cursor(found.start(), line), name, keyword))
         return self._by_label.get(label, [])
 
-    def _found(self, pattern: re.Pattern[bytes]) -> list[tuple[re.Match[bytes], int]]:
-        """Return every match with the number of its line."""
-        data, line, counted, found = self._text.data, 1, 0, []
-        for match in pattern.finditer(data):
+    def _found(self, pattern: re.Pattern[bytes]) -> Iterator[tuple[re.Match[bytes], int]]:
+        """Yield every match with the number of its line.
+
+        Raises:
+            Fault: there are more than any program has.
+        """
+        data, line, counted = self._text.data, 1, 0
+        for index, match in enumerate(pattern.finditer(data)):
+            if index >= MOST_PLACES:
+                raise Fault(f"the program has more than {MOST_PLACES} places to go on at; the reader stops here.")
             line += data.count(b"\n", counted, match.start())
             counted = match.start()
-            found.append((match, line))
-        return found
+            yield match, line
 
 
 def label_of(text: str) -> str:
