@@ -26,7 +26,12 @@ from app.progress import Progress
 LINES_A_STEP = 20_000
 """Lines between two looks at whether the job was cancelled."""
 
+LEADER = 4096
+"""Bytes before the per cent sign that may be something else."""
+
 _PLAIN = re.compile(rb"[ \tgxyzijkrfnGXYZIJKRFN0-9.+\-]*(?:[(;][^\n]*)?\n")
+_LEADER = re.compile(rb"[ \t\n\v\f\0]*%")
+_PERCENT = re.compile(rb"^[ \t]*%", re.MULTILINE)
 _O_WORD = re.compile(r"/?(?:n[0-9.]+)?[o:]")
 _MOTIONS = ("G0", "G1", "G2", "G3")
 _ENDS = ("M2", "M30")
@@ -49,7 +54,6 @@ class Run:
         self._plain = Plain(semicolon_comments=True)
         self._parsed: dict[int, Parsed] = {}
         self._problems: list[Problem] = []
-        self._percent = False
         self._furthest = self._told = 0
         self._stop = len(self._text.data) + 1
         self.stopped = self.inside = False
@@ -94,16 +98,11 @@ class Run:
 
     def _skip_leader(self) -> None:
         """Begin behind the per cent sign of a program that has one; Fanuc's and Haas' readers skip what stands before it."""
-        at = Cursor(0, 1)
-        while at.offset < len(self._text.data):
-            line = self._text.data[at.offset : min(self._text.line_end(at.offset), at.offset + 1000)].strip()
-            if line.startswith(b"%"):
-                self._percent = True
-                self._flow.next = Cursor(self._text.line_end(at.offset) + 1, at.line + 1)
-                return
-            if line and (not self._habits.fanuc_flow or at.line > 20):
-                return
-            at = Cursor(self._text.line_end(at.offset) + 1, at.line + 1)
+        data = self._text.data
+        found = _LEADER.match(data) or (_PERCENT.search(data, 0, LEADER) if self._habits.fanuc_flow else None)
+        if found is not None:
+            offset = self._text.line_end(found.end()) + 1
+            self._flow.next = Cursor(offset, data.count(b"\n", 0, offset) + 1)
 
     def _step(self) -> bool:
         """Do plain lines, or one line of any kind; False at the end of the program."""
