@@ -74,6 +74,10 @@ class Parameters:
             if len(place) > MOST:
                 raise Fault(f"the program sets more than {MOST} parameters; the reader stops here.")
 
+    def values(self) -> tuple[tuple[Key, float], ...]:
+        """Return every parameter that the program has set and can use here."""
+        return (*self._everywhere.items(), *self._here.items())
+
     def enter(self, arguments: dict[Key, float]) -> None:
         """Begin a subroutine with parameters of its own."""
         self._callers.append(self._here)
