@@ -98,11 +98,22 @@ def written_pieces(arc: MeantArc, start: Grid, end: Grid, rules: ArcRules) -> li
     """
     parts = math.ceil(abs(arc.sweep) / rules.largest_sweep)
     done: list[Piece] = []
+    begun = 0.0
     for part in range(parts):
-        stop = end if part == parts - 1 else _nearest(arc.at((part + 1) / parts), rules.decimals)
-        done += _stretch(arc, (part / parts, (part + 1) / parts), (start, stop), rules)
-        start = stop
+        fraction, stop = (1.0, end) if part == parts - 1 else _between(arc, (part / parts, (part + 2) / parts), rules)
+        done += _stretch(arc, (begun, fraction), (start, stop), rules)
+        begun, start = fraction, stop
     return done
+
+
+def _between(arc: MeantArc, span: tuple[float, float], rules: ArcRules) -> tuple[float, Grid]:
+    """Return the grid point nearest to the middle of a stretch, and how far along the arc it is by its own angle."""
+    middle = (span[0] + span[1]) / 2
+    point = _nearest(arc.at(middle), rules.decimals)
+    from_centre = complex(*point) / 10**rules.decimals - arc.centre
+    beyond = cmath.phase(from_centre / cmath.rect(1.0, arc.start_angle + arc.sweep * middle))
+    fraction = middle + beyond / arc.sweep
+    return fraction if span[0] < fraction < span[1] else middle, point
 
 
 def _stretch(arc: MeantArc, span: tuple[float, float], ends: tuple[Grid, Grid], rules: ArcRules) -> Iterator[Piece]:
@@ -116,10 +127,9 @@ def _stretch(arc: MeantArc, span: tuple[float, float], ends: tuple[Grid, Grid], 
         if _fits(arc, span, (ends, centre), rules):
             yield Piece(ends[1], span[1], centre)
             return
-    middle = (span[0] + span[1]) / 2
-    between = _nearest(arc.at(middle), rules.decimals)
-    yield from _stretch(arc, (span[0], middle), (ends[0], between), rules)
-    yield from _stretch(arc, (middle, span[1]), (between, ends[1]), rules)
+    fraction, between = _between(arc, span, rules)
+    yield from _stretch(arc, (span[0], fraction), (ends[0], between), rules)
+    yield from _stretch(arc, (fraction, span[1]), (between, ends[1]), rules)
 
 
 def _sagitta(arc: MeantArc, span: tuple[float, float]) -> float:
@@ -158,15 +168,16 @@ def _largest_distance(written: MeantArc, arc: MeantArc, span: tuple[float, float
     """Return an upper bound of the distance between two arcs swept in step, the second over a stretch of it.
 
     The distance vector is sampled; between two samples it leaves their chord by at most h^2 / 8 times its second
-    derivative, which is bounded by the arcs' own: each is sweep^2 times the vector from its centre, and a spiral term.
+    derivative. That is at most sweep^2 times the distance itself, which goes to the other side of the inequality, and what
+    the difference of centres, of sweeps and of radii adds.
     """
     size = span[1] - span[0]
     gaps = [abs(written.at(k / SAMPLES) - arc.at(span[0] + size * k / SAMPLES)) for k in range(SAMPLES + 1)]
     sweep, shift = arc.sweep * size, abs(written.centre - arc.centre)
     radius = max(arc.start_radius, arc.end_radius)
     spiral = 2 * (abs(written.sweep * (written.end_radius - written.start_radius)) + abs(arc.sweep * (arc.end_radius - arc.start_radius)))
-    bend = written.sweep**2 * (max(gaps) + shift) + abs(written.sweep**2 - sweep**2) * radius + spiral
-    return max(gaps) + bend / (8 * SAMPLES**2)
+    bend = written.sweep**2 * shift + abs(written.sweep**2 - sweep**2) * radius + spiral
+    return (max(gaps) + bend / (8 * SAMPLES**2)) / (1 - written.sweep**2 / (8 * SAMPLES**2))
 
 
 def _nearest(point: complex, decimals: int) -> Grid:

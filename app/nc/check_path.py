@@ -83,8 +83,8 @@ def _written_arcs(motions: Motions, rows: Rows) -> Floats:
 def _fractions(motions: Motions, meant: MeantPath, at: tuple[Rows, Rows], sweep: Floats) -> tuple[Floats, Floats]:
     """Return at which fractions of its arc each motion ends and begins.
 
-    Where a motion ends, the angle it has gone round the meant centre and the height it has risen both tell how far along
-    the arc it is; each counts by the square of what it is worth in length. The last motion of a move has to end at 1.
+    Where a motion ends, its angle round the meant centre from where the arc was to begin, and the height it has risen, both
+    tell how far along the arc it is; each counts by the square of what it is worth in length. The last motion of a move has to end at 1.
     """
     rows, move = at
     centre = meant.centre[move]
@@ -93,7 +93,10 @@ def _fractions(motions: Motions, meant: MeantPath, at: tuple[Rows, Rows], sweep:
     turn += 2 * np.pi * np.rint((sweep - turn) / (2 * np.pi))
     done = np.cumsum(turn)
     new = np.append(True, move[1:] != move[:-1])
-    base = (done - turn)[new][np.cumsum(new) - 1]
+    meant_first = meant.start[move, :2] - centre
+    begun = np.arctan2(first[:, 1], first[:, 0]) - np.arctan2(meant_first[:, 1], meant_first[:, 0])
+    begun -= 2 * np.pi * np.rint(begun / (2 * np.pi))
+    base = (done - turn - begun)[new][np.cumsum(new) - 1]
     rise = meant.end[move, 2] - meant.start[move, 2]
     around = meant.sweep[move] * _sizes(meant.start[move, :2] - centre)
     worth = np.maximum(around**2 + rise**2, NOTHING**2)

@@ -17,7 +17,6 @@ from app.nc.arcs import ArcRules, written_pieces
 from app.nc.blocks import Blocks
 from app.nc.drilling import CycleRules, hole_at
 from app.nc.header import Heading, heading_lines, heading_notes, operation_words, tool_words
-from app.nc.motions import Motions
 from app.nc.post import Post
 from app.nc.sequence import check_sequence
 from app.nc.template_fields import Fields, program_fields, tool_fields
@@ -38,13 +37,11 @@ class NcText:
         text: ASCII, lines ended by a line feed.
         lines: (n,) 1-based line that brings the tool to the end of each move of the program; a move that is nothing
             after rounding has the line of the one before.
-        motions: what the text moves, block by block.
         home_lines: 1-based lines that send the tool to the machine's own home along Z (G28, G53), which no move means.
     """
 
     text: str
     lines: NDArray[np.int32]
-    motions: Motions
     home_lines: tuple[int, ...] = ()
 
 
@@ -122,9 +119,8 @@ def _written(program: Program, job: Job, post: Post, file: tuple[int, int], prog
     moves = work_moves(program.moves, work_origin(job, box), job.out_units, post.digits(job.out_units))
     sheet = Blocks(post, job.out_units)
     heading = Heading(program, job, post, box, blend_mm(job, post), writing_tolerance(job, post), *file)
-    writer = _Writer(job, post, sheet, moves)
-    lines = writer.write(heading, progress)
-    return NcText("\n".join(sheet.lines) + "\n", np.array(lines, dtype=np.int32), writer.motions(), tuple(sheet.home_lines))
+    lines = _Writer(job, post, sheet, moves).write(heading, progress)
+    return NcText("\n".join(sheet.lines) + "\n", np.array(lines, dtype=np.int32), tuple(sheet.home_lines))
 
 
 def blend_mm(job: Job, post: Post) -> float:
@@ -149,7 +145,6 @@ class _Writer:
 
     def __init__(self, job: Job, post: Post, sheet: Blocks, moves: WorkMoves) -> None:
         self.job, self.post, self.sheet, self.moves = job, post, sheet, moves
-        self.done: list[int] = []
         self.fields = program_fields(job, post, blend_mm(job, post))
         self.digits = digits = post.digits(job.out_units)
         unit = job.out_units.value
@@ -184,25 +179,19 @@ class _Writer:
                 self.sheet.comment(operation_words(self.job.operations[moves.operation[i]], self.job))
             if new_tool:
                 self.sheet.rapid_z(moves.end[i][2])
-            stop = self._hole(i) or self._move(i)
+            stop = (0 if new_tool else self._hole(i)) or self._move(i)
             lines += [self.sheet.motion_line] * (stop - i)
-            self.done += [len(self.sheet.motions)] * (stop - i)
             i = stop
         self._leave_tool(len(moves) - 1)
         self._home()
         self._blocks(self.post.program.end)
         return lines
 
-    def motions(self) -> Motions:
-        """Return what was written; behind the last move's blocks there is only its lift."""
-        kinds, lengths = zip(*self.sheet.motions, strict=True)
-        move = np.searchsorted(self.done, np.arange(len(kinds)), side="right")
-        return Motions(
-            np.array(kinds, np.uint8), np.array(lengths) * self.job.out_units.value, np.minimum(move, len(self.moves) - 1).astype(np.int32),
-        )  # fmt: skip
-
     def _hole(self, i: int) -> int:
-        """Write the hole that begins with move i as a canned cycle; return the index behind it, or 0 where it is none."""
+        """Write the hole that begins with move i as a canned cycle; return the index behind it, or 0 where it is none.
+
+        The first move of a tool, from wherever it was, is no part of a cycle.
+        """
         sheet, moves = self.sheet, self.moves
         if moves.kind[i] is not MoveKind.RAPID:
             return 0

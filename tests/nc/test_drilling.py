@@ -107,11 +107,12 @@ def test_a_row_of_holes() -> None:
     file = written(path, load_post("linuxcnc"))
     body = blocks(file)
     start = body.index("G0 Z5.0000")
-    assert body[start + 1 : start + 6] == [
-        "G98 G81 X10.0000 Y10.0000 Z-6.0000 R1.0000 F120",
+    assert body[start + 1 : start + 7] == [
+        "X10.0000 Y10.0000", "G98 G81 X10.0000 Y10.0000 Z-6.0000 R1.0000 F120",
         "X20.0000 Y10.0000 Z-6.0000 R1.0000", "X20.0000 Y20.0000 Z-7.5000 R1.0000", "G80", "M5",
     ]  # fmt: skip
-    assert file.nc.lines.tolist() == [line for line in file.nc.lines[::4] for _ in range(4)]
+    lines = file.nc.lines.tolist()
+    assert lines[1:] == [lines[0] + 1] * 3 + [lines[0] + 2] * 4 + [lines[0] + 3] * 4, "the first move of a tool stands alone"
 
 
 def test_a_row_that_stays_low_between() -> None:

@@ -78,9 +78,9 @@ arc_steps = st.tuples(st.just("arc"), radii, angles, sweeps, st.booleans(), st.s
 line_steps = st.tuples(st.just("line"), st.one_of(st.floats(0, 2e-4), st.floats(0, 30)), angles)
 
 
-def random_path(steps: list[tuple[object, ...]]) -> Path:
-    """Chain steps; each begins where the one before ended. Arcs longer than 200 mm are cut short."""
-    path = Path().into_work(1.23456, -6.54321)
+def random_path(steps: list[tuple[object, ...]], path: Path | None = None) -> Path:
+    """Chain steps, behind a path if there is one; each begins where the one before ended. Arcs longer than 200 mm are cut short."""
+    path = (path or Path()).into_work(1.23456, -6.54321)
     for step in steps:
         x, y, z = path.rows[-1][0]
         if step[0] == "line":
