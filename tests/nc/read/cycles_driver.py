@@ -1,4 +1,4 @@
-"""Programs of canned cycles, driven block by block through `cycle_steps` and through LinuxCNC's own interpreter."""
+"""Programs of canned cycles, through our reader and through LinuxCNC's own interpreter."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from app.model.motion import MotionKind, Plane
-from app.nc.read.cycles import Cycle, Move, Point, cycle_steps, with_sticky
-from app.nc.read.fault import Fault
+from app.model.motion import MotionKind
+from app.nc.read.cycles import Point
+from app.nc.read.reader import read_program
 from tests.nc.rs274_oracle import KINDS, RS274, needs_rs274
 
 CALL = re.compile(r"^\s*\d+ N(\d+|\.+)\s+(\w+)\((.*)\)\s*$", re.M)
-PLANES = {"G17": Plane.XY, "G18": Plane.ZX, "G19": Plane.YZ}
 START = (1.0, 2.0, 3.0)
+HEAD_LINES = 2
 Motion = tuple[int, MotionKind, Point]
 
 
@@ -68,60 +68,25 @@ def _motion(number: int, name: str, arguments: list[str]) -> Motion:
     return number, MotionKind(int(KINDS[name])), (x, y, z)
 
 
-def driven(blocks: list[Block], spindle: int = 1, units: str = "G21") -> Run:
-    """Return what `cycle_steps` makes of the blocks."""
-    state, motions = _State(spindle, 25.4 if units == "G20" else 1.0), []
-    for number, block in enumerate(blocks, 1):
-        try:
-            motions += [(number, *move) for move in state.run(block)]
-        except Fault:
-            return Run(motions, number)
-    return Run(motions)
-
-
-class _State:
-    """The little that a cycle needs from what was before it."""
-
-    def __init__(self, spindle: int, unit_mm: float) -> None:
-        self.spindle, self.unit_mm = spindle, unit_mm
-        self.position, self.initial, self.code = START, 0.0, ""
-        self.before: Cycle | None = None
-        self.plane, self.absolute, self.retract_to_r = Plane.XY, True, False
-
-    def run(self, block: Block) -> list[tuple[MotionKind, Point]]:
-        self._modes(block)
-        self.code = block.code or self.code
-        cycle = with_sticky(self.cycle(block.words), self.before)
-        if self.before is None:
-            self.initial = self.position[self.plane.axes[2]]
-        moves = [step for step in cycle_steps(cycle, self.position, self.initial) if isinstance(step, Move)]
-        self.position, self.before = moves[-1].meant, cycle
-        return [(move.kind, _rounded(move.target)) for move in moves]
-
-    def _modes(self, block: Block) -> None:
-        for mode in block.modes:
-            self.plane = PLANES.get(mode, self.plane)
-            self.absolute = {"G90": True, "G91": False}.get(mode, self.absolute)
-            self.retract_to_r = {"G98": False, "G99": True}.get(mode, self.retract_to_r)
-
-    def cycle(self, words: dict[str, float]) -> Cycle:
-        first, second, normal = (words.get("XYZ"[axis]) for axis in self.plane.axes)
-        shift = (words.get("I"), words.get("J"), words.get("K"))
-        return Cycle(
-            self.code, self.plane, (first, second), normal, words.get("R"), int(words.get("L", 1)), words.get("P"), words.get("Q"), shift,
-            self.absolute, self.retract_to_r, self.spindle, self.unit_mm,
-        )  # fmt: skip
-
-
-def _rounded(point: Point) -> Point:
-    x, y, z = (round(value, 4) + 0.0 for value in point)
-    return x, y, z
+def read(text: str) -> Run:
+    """Return what our reader makes of a program, in its units."""
+    done = read_program(text.encode())
+    unit = 25.4 if text.startswith("G20") else 1.0
+    numbers = done.motions.line - HEAD_LINES
+    refused = None if done.error is None else done.error.line - HEAD_LINES
+    ends = (done.motions.end / unit).round(4) + 0.0
+    motions = [(int(n), MotionKind(k), (x, y, z)) for n, k, (x, y, z) in zip(numbers, done.motions.kind, ends.tolist(), strict=True)]
+    return Run([m for m in motions if m[0] > 0 and (refused is None or m[0] < refused)], refused)
 
 
 def assert_same(blocks: list[Block], spindle: int = 1, units: str = "G21") -> Run:
     """Assert that both do the same: count, kinds and ends of motions to 4 decimals, and the block refused, if one is."""
-    text = program(blocks, spindle, units)
-    theirs, mine = interpreted(text), driven(blocks, spindle, units)
+    return assert_same_text(program(blocks, spindle, units))
+
+
+def assert_same_text(text: str) -> Run:
+    """Assert the same of a text whose lines behind the head are numbered from 1; positions are in the units of the head."""
+    theirs, mine = interpreted(text), read(text)
     assert mine.refused == theirs.refused, text
     assert [m[:2] for m in mine.motions] == [m[:2] for m in theirs.motions], text
     for a, b in zip(mine.motions, theirs.motions, strict=True):

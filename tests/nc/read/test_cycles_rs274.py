@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.nc.read.cycles import CYCLE_WORDS
-from tests.nc.read.cycles_driver import Block, assert_same, interpreted, program
+from tests.nc.read.cycles_driver import Block, assert_same, assert_same_text, interpreted, program, read
 
 PLANES = ("G17", "G18", "G19")
 NORMAL = {"G17": "Z", "G18": "Y", "G19": "X"}
@@ -112,3 +112,25 @@ def test_the_run_of_another_plane_keeps_the_initial_height() -> None:
     blocks = [Block("G81", (), full("G81")), Block("G82", ("G18", "G91"), {"X": 1.0, "Y": -3.0, "R": 1.0, "P": 0.0})]
     run = assert_same(blocks)
     assert run.motions[-2][2][1] == 3.0 + 1.0 - 3.0
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["G81 X1 Z-3 R1", "G0 Z9", "G81 X2 Z-3 R1", "X3"], ["G81 X1 Z-3 R1", "G0 Z9", "G81 X2"], ["G81 X1 Z-3 R1", "G80", "X3"],
+        ["G81 X1 Z-3 R1", "G4 P1", "F200", "X2", "M5", "X3"], ["G81"], ["G80 X1"], ["G81 X1 Z-3 R1", "G1 X4", "G98 X5"],
+        ["G93 G81 X1 Z-3 R1 F2"], ["F0 G81 X1 Z-3 R1"], ["G53 G81 X1 Z-3 R1"], ["G81 X1 Z-3 R1", "G80", "G81 X2 Z-3 R1"],
+        ["G84 G18 X1 Y-3 R1", "G91 X1 Z1 L3", "G0 X1 Z1"], ["G88 X1 Z-3 R1 P0", "G91 G1 X1", "G0 Z1"],
+    ],
+)  # fmt: skip
+def test_cycles_among_other_words(lines: list[str]) -> None:
+    assert_same_text("\n".join([program([]).rsplit("M2", 1)[0].strip(), *(f"N{k} {line}" for k, line in enumerate(lines, 1)), "M2\n"]))
+
+
+@pytest.mark.parametrize(("units", "other"), [("G21", "G20"), ("G20", "G21")])
+def test_numbers_that_stay_are_those_written_over_a_change_of_units(units: str, other: str) -> None:
+    lines = [f"{units} G17 G90 G98 F100 M3 S100", "N0 G0 X1 Y2 Z3", "N1 G83 X1 Z-.3 R1 Q.4", f"N2 {other} X2", f"N3 {units} X3", "M2", ""]
+    factor = 25.4 if other == "G20" else 1 / 25.4
+    theirs, mine = interpreted("\n".join(lines)), read("\n".join(lines))
+    meant = [[value * (factor if n == 2 else 1.0) for value in end] for n, _, end in theirs.motions]
+    assert [end for _, _, end in mine.motions] == [pytest.approx(end, abs=2e-3) for end in meant]
