@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from app.fit.nurbs import nurbs_points
 from app.model.motion import Nurbs, Plane
 from app.nc.read.fault import Fault
+from app.nc.read.reader import read_program
 from app.nc.read.splines import OpenFanucNurbs, OpenNurbs, check_plane, cubic, first_offset, quadratic, second_offset
 from tests.nc.rs274_oracle import exact_motions
 
@@ -22,13 +23,25 @@ weight = st.integers(20, 400).map(lambda k: k / 100)
 
 
 def assert_driven(curve: Nurbs, text: str, line: int) -> None:
-    """Assert that the interpreter's points of a line are the curve's, at evenly spread parameters."""
-    theirs = np.array([motion.end for motion in exact_motions(f"{HEAD}{text}\nM2\n") if motion.line == line])
+    """Assert that the curve of a line is this one for our reader, and its points those of the interpreter, evenly spread."""
+    program = f"{HEAD}{text}\nM2\n"
+    assert_read(curve, program, line)
+    theirs = np.array([motion.end for motion in exact_motions(program) if motion.line == line])
     count = POINTS_OF_A_CONTROL_POINT * len(curve.points)
     parameters = curve.knots[0] + (curve.knots[-1] - curve.knots[0]) * np.arange(1, count + 1) / count
     assert len(theirs) - count in (0, 1)  # rounding may give it one more at the end
     assert np.abs(nurbs_points(curve, parameters) - theirs[:count]).max() < 1e-8, text
     assert np.abs(curve.points[-1] - theirs[-1]).max() < 1e-8, text
+
+
+def assert_read(curve: Nurbs, program: str, line: int) -> None:
+    """Assert that our reader makes this curve of a line."""
+    done = read_program(program.encode())
+    assert done.error is None, done.error
+    (read,) = (done.motions.splines[row] for row in np.flatnonzero(done.motions.line == line).tolist())
+    assert read.degree == curve.degree
+    for name in ("points", "weights", "knots"):
+        assert getattr(read, name) == pytest.approx(getattr(curve, name), abs=1e-9)
 
 
 @settings(max_examples=25, deadline=None)
@@ -76,6 +89,14 @@ def test_a_cubic_goes_on_after_other_motions() -> None:
 @given(place, place, place, place)
 def test_quadratics(x: float, y: float, i: float, j: float) -> None:
     assert_driven(quadratic(START, (x, y, 3.0), (i, j)), f"G5.1 X{x} Y{y} I{i} J{j}", 3)
+
+
+def test_lengths_in_inches_with_offsets() -> None:
+    text = "G20 G17 G90 F100 G64\nG92 X0 Y0 Z0\nG0 X1 Y2 Z3\nG5 X2 Y2 I.1 J.5 P-.2 Q.25\nM2\n"
+    curve = cubic((25.4, 50.8, 76.2), (50.8, 50.8, 76.2), (2.54, 12.7), (-5.08, 6.35))
+    assert_read(curve, text, 4)
+    theirs = np.array([motion.end for motion in exact_motions(text) if motion.line == 4])
+    assert np.abs(nurbs_points(curve, np.arange(1, 61) / 60) - theirs[:60]).max() < 1e-8
 
 
 @pytest.mark.parametrize(
