@@ -10,6 +10,7 @@ from app.model.job import Job, OriginXY
 from app.model.operation import ContourOperation, Cut, Order, PocketOperation
 from app.model.part import Part
 from app.model.tool import Tool
+from app.nc.posts import post_titles
 from app.ui.panels.changes import Subject, SubjectKind, with_tool
 from app.ui.panels.side_panel import WIDTH, SidePanel
 
@@ -35,6 +36,17 @@ def enter(qtbot, field, text: str) -> None:
     field.edit.selectAll()
     qtbot.keyClicks(field.edit, text)
     qtbot.keyClick(field.edit, Qt.Key.Key_Return)
+
+
+def test_every_post_can_be_chosen_by_its_title(qtbot, document, panel):
+    panel.choose(Subject(SubjectKind.JOB))
+    box = panel.job_form.post.box
+    assert [box.itemText(k) for k in range(box.count())] == list(post_titles().values())
+    assert box.currentText() == "LinuxCNC"
+    box.activated.emit(list(post_titles()).index("haas"))
+    assert document.job.post == "haas" and box.currentText() == "Haas"
+    document.undo()
+    assert document.job.post == "linuxcnc" and box.currentText() == "LinuxCNC"
 
 
 def test_arithmetic_and_units_are_read(qtbot, document, panel):

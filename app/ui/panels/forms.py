@@ -13,6 +13,7 @@ from app.model.job import LARGEST_JOIN, Job, OriginXY, OriginZ
 from app.model.operation import Direction, Operation, Order, PocketOperation
 from app.model.part import Units
 from app.model.tool import LEAST_RATE, Tool, ToolKind
+from app.nc.posts import post_titles
 from app.ui.figures import counted
 from app.ui.icons import IconButton
 from app.ui.labels import muted
@@ -60,7 +61,7 @@ class Form(Section):
 
 
 class JobForm(Form):
-    """Stock, origin, heights, how drawings are joined, units of the NC text."""
+    """Stock, origin, heights, how drawings are joined, post and units of the NC text."""
 
     def __init__(self) -> None:
         super().__init__("Stock and origin")
@@ -82,6 +83,9 @@ class JobForm(Form):
             lambda job, v: replace(job, join_tolerance=v))
         self.order = ChoiceField("Cut first", [(Order.POCKET_FIRST, "Pocket"), (Order.PATENT_1986, "Contour (1986)")])
         self.add_choice("Order", self.order, lambda job, v: in_cutting_order(replace(job, order=Order(v))))
+        self._posts = post_titles()
+        self.post = ListField("Post", list(self._posts.items()))
+        self.add_choice("Post", self.post, lambda job, v: replace(job, post=str(v)))
         self.units = ChoiceField("NC units", [(Units.MM, "mm"), (Units.INCH, "inch")])
         self.add_choice("NC units", self.units, lambda job, v: replace(job, out_units=Units(v)))
 
@@ -94,6 +98,9 @@ class JobForm(Form):
         self.safe_z.show_value(job.safe_z)
         self.join.show_value(job.join_tolerance)
         self.order.show_value(job.order)
+        unknown = {} if job.post in self._posts else {job.post: f"{job.post} (unknown)"}
+        self.post.set_choices(list((self._posts | unknown).items()))
+        self.post.show_value(job.post)
         self.units.show_value(job.out_units)
 
 
