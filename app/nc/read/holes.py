@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from app.nc.read.block import Block
 from app.nc.read.control import Control
-from app.nc.read.cycles import Cycle, Dwell, Move, Spindle, Stop, cycle_steps, with_sticky
+from app.nc.read.cycles import Cycle, Dwell, Move, Spindle, Stop, cycle_steps, taps_astray, with_sticky
 from app.nc.read.expression import whole
 from app.nc.read.offsets import Place
 from app.nc.read.program import EventKind
@@ -23,6 +23,8 @@ def bore(control: Control, block: Block) -> None:
     control.cycle = cycle
     if control.modal.absolute:
         control.note_known(block)
+    if taps_astray(cycle):
+        control.warn(f"LinuxCNC (2.9) feeds {cycle.code} along the wrong axes in G18 and G19; it is shown as it would move.", "g")
     place = control.program_place
     for step in cycle_steps(cycle, (place[0] / unit, place[1] / unit, place[2] / unit), control.initial):
         if isinstance(step, Move):

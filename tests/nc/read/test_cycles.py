@@ -8,7 +8,11 @@ import pytest
 
 from app.model.motion import MotionKind, Plane
 from app.nc.read.cycles import CYCLE_WORDS, Cycle, Dwell, Move, Spindle, Stop, cycle_steps, taps_astray, with_sticky
+from app.nc.read.dialect import Dialect
 from app.nc.read.fault import Fault
+from app.nc.read.options import ReadOptions
+from app.nc.read.program import Severity
+from app.nc.read.reader import read_program
 
 HERE = (0.0, 0.0, 5.0)
 DRILL = Cycle("G81", Plane.XY, (1.0, 2.0), -3.0, 1.0)
@@ -36,6 +40,14 @@ def test_tapping_goes_astray_on_linuxcnc_alone() -> None:
         astray = any(move.target != move.meant for move in moves if code != "G88")
         assert astray == taps_astray(cycle) == (code in ("G74", "G84") and plane is not Plane.XY and not fanuc)
         assert all(sorted(move.target) == sorted(move.meant) for move in moves if code != "G88")
+
+
+def test_who_taps_astray_is_told() -> None:
+    text = b"G21 G90 F100 M3 S9 {} G84 X0. Y0. Z-3. R1.\nM30\n"
+    for plane, dialect, told in (("G18", Dialect.LINUXCNC, 1), ("G17", Dialect.LINUXCNC, 0), ("G18", Dialect.FANUC, 0)):
+        program = read_program(text.replace(b"{}", plane.encode()), ReadOptions(dialect))
+        assert [problem.severity for problem in program.problems] == [Severity.WARNING] * told
+        assert all("wrong axes" in problem.text for problem in program.problems)
 
 
 def test_on_fanuc_words_stay_from_code_to_code() -> None:
