@@ -1,11 +1,12 @@
-"""Files appear whole or not at all."""
+"""Files appear whole or not at all, several together."""
 
 from __future__ import annotations
 
 import os
 import stat
 import tempfile
-from contextlib import suppress
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from app.errors import InputError
@@ -20,32 +21,96 @@ def write_atomically(path: Path, data: bytes) -> None:
     Raises:
         InputError: the file cannot be written; what was there before is untouched.
     """
+    write_together({path: data})
+
+
+def write_together(files: Mapping[Path, bytes]) -> None:
+    """Write files as `write_atomically` does, all or none: where one cannot be written, all are as they were before.
+
+    Args:
+        files: bytes by path.
+
+    Raises:
+        InputError: naming the first file that cannot be written.
+    """
+    staged: list[_Staged] = []
     try:
-        target = Path(os.path.realpath(path))
-        if target.is_dir():
-            raise IsADirectoryError("it is a folder; name a file in it")
-        if target.exists() and not target.is_file():
-            path.write_bytes(data)
-        else:
-            _replace(target, data)
+        for path, data in files.items():
+            with _told(path):
+                target = Path(os.path.realpath(path))
+                if target.is_dir():
+                    raise IsADirectoryError("it is a folder; name a file in it")
+                if target.exists() and not target.is_file():
+                    path.write_bytes(data)
+                else:
+                    staged.append(_Staged(path, target, data))
+        for each in staged:
+            with _told(each.path):
+                each.take_place()
+    except BaseException:
+        for each in reversed(staged):
+            each.put_back()
+        raise
+    finally:
+        for each in staged:
+            each.clean()
+
+
+@contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Turn what the system says into a sentence that names the file."""
+    try:
+        yield
     except OSError as error:
         raise InputError(f"Cannot write {path}: {error.strerror or error}.") from error
 
 
-def _replace(target: Path, data: bytes) -> None:
-    mode = stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask()
-    handle, name = tempfile.mkstemp(prefix=f".{target.name[:32]}.", suffix=".part", dir=target.parent)
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        os.chmod(name, mode)
-        os.replace(name, target)
-    except BaseException:
-        with suppress(OSError):
-            os.unlink(name)
-        raise
+class _Staged:
+    """New content that waits beside its file to take its place, and the old content until all is well."""
+
+    def __init__(self, path: Path, target: Path, data: bytes) -> None:
+        """Write the new content beside the file.
+
+        Raises:
+            OSError: it cannot be written; nothing is left behind.
+        """
+        self.path, self._target = path, target
+        self._old = ""
+        self._placed, self._existed = False, target.exists()
+        mode = stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask()
+        handle, self._new = tempfile.mkstemp(prefix=f".{target.name[:32]}.", suffix=".part", dir=target.parent)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())
+            os.chmod(self._new, mode)
+        except BaseException:
+            self.clean()
+            raise
+
+    def take_place(self) -> None:
+        """Replace the file in one step; keep the old one under another name, where the file system can."""
+        if self._existed:
+            old = f"{self._new}.old"
+            with suppress(OSError):
+                os.link(self._target, old)
+                self._old = old
+        os.replace(self._new, self._target)
+        self._placed = True
+
+    def put_back(self) -> None:
+        """Make the file what it was before."""
+        if self._placed and self._old:
+            os.replace(self._old, self._target)
+        elif self._placed and not self._existed:
+            os.unlink(self._target)
+
+    def clean(self) -> None:
+        """Take away what is left of both."""
+        for name in (self._new, self._old):
+            with suppress(OSError):
+                os.unlink(name)
 
 
 def _umask() -> int:

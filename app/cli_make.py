@@ -8,16 +8,17 @@ import sys
 import threading
 import time
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from app.atomic import write_atomically
+from app.atomic import write_together
 from app.cli_options import make_options, read_arguments
 from app.cli_output import tell
 from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.model.finding import FindingKind
+from app.nc.write import NcFile
 from app.progress import Progress
 from app.workflow.make import Made, make
 from app.workflow.options import MakeOptions
@@ -51,10 +52,11 @@ def make_command(argv: Sequence[str], stopped: threading.Event) -> int:
     arguments = read_arguments(argv)
     outputs = _check_outputs(arguments)
     options = _with_job(make_options(arguments), arguments.job)
-    made = make(arguments.drawing.name, _read(arguments.drawing), options, _progress(arguments.quiet, stopped))
-    _write(made, outputs)
+    made = make(arguments.drawing.name, read_input(arguments.drawing), options, shown_progress(arguments.quiet, stopped))
+    names = program_files(arguments.output, made.files)
+    _write(made, outputs, names)
     if not arguments.quiet:
-        _summary(made, arguments.output)
+        _summary(made, names)
     return 0 if made.clean else 1
 
 
@@ -64,11 +66,11 @@ def _with_job(options: MakeOptions, path: Path | None) -> MakeOptions:
         return options
     from app.files.job_toml import read_job
 
-    file = read_job(path.name, _read(path))
+    file = read_job(path.name, read_input(path))
     return replace(options, job=file.job, units=options.units or file.units)
 
 
-def _read(path: Path) -> bytes:
+def read_input(path: Path) -> bytes:
     """Return a file's bytes.
 
     Raises:
@@ -78,14 +80,14 @@ def _read(path: Path) -> bytes:
         if path.is_dir():
             raise InputError(f"{path} is a folder; name a file in it")
         if path.stat().st_size > LARGEST_INPUT:
-            raise InputError(f"{path} is larger than {LARGEST_INPUT // 2**20} MB; export less of the drawing")
+            raise InputError(f"{path} is larger than {LARGEST_INPUT // 2**20} MB; part it, or export less of the drawing")
         data = path.read_bytes()
     except FileNotFoundError as error:
         raise InputError(f"{path} does not exist; check the name") from error
     except (OSError, ValueError) as error:
         raise InputError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}; check name and permissions") from error
     if not data:
-        raise InputError(f"{path} is empty; export the drawing again")
+        raise InputError(f"{path} is empty; export it again")
     return data
 
 
@@ -94,7 +96,20 @@ def _check_outputs(arguments: argparse.Namespace) -> dict[str, Path]:
     outputs = {name: path for name in ("output", "report", "image") if (path := getattr(arguments, name)) is not None}
     if "image" in outputs and outputs["image"].suffix.lower() not in (".svg", ".png"):
         raise InputError(f"--image {outputs['image']}: a picture is .svg or .png; change the name")
-    inputs = [path for path in (arguments.drawing, arguments.job) if path is not None]
+    check_outputs(outputs, [path for path in (arguments.drawing, arguments.job) if path is not None])
+    return outputs
+
+
+def check_outputs(outputs: Mapping[str, Path], inputs: Sequence[Path]) -> None:
+    """Refuse files to write that cannot be, or that are inputs or one another.
+
+    Args:
+        outputs: by the name of their option.
+        inputs: what is read.
+
+    Raises:
+        InputError: naming the option and the file.
+    """
     taken = [_identity(path) for path in inputs]
     for name, path in outputs.items():
         if path.is_dir():
@@ -107,7 +122,11 @@ def _check_outputs(arguments: argparse.Namespace) -> dict[str, Path]:
             raise InputError(f"--{name} {path} is named twice or is also an input; give every file its own name")
         if not path.is_char_device():
             taken.append(_identity(path))
-    return outputs
+
+
+def program_files(path: Path, files: Sequence[NcFile]) -> list[Path]:
+    """Return where each file of a program goes: to the path, or beside it, as part_1_T1.nc, part_2_T2.nc."""
+    return [path.with_name(f"{path.stem}{file.suffix}{path.suffix}") if file.suffix else path for file in files]
 
 
 def _identity(path: Path) -> object:
@@ -119,22 +138,23 @@ def _identity(path: Path) -> object:
     return (status.st_dev, status.st_ino)
 
 
-def _write(made: Made, outputs: dict[str, Path]) -> None:
-    """Make every picture and text first, then write; the NC program last."""
+def _write(made: Made, outputs: dict[str, Path], names: list[Path]) -> None:
+    """Make every picture and text first, then write all files together."""
     texts = {"report": made.report.text().encode()}
     if "image" in outputs:
         from app.files.plot import plot
         from app.workflow.picture import picture_of
 
         texts["image"] = plot(picture_of(made.job.part.name, made.program, made.coverage), outputs["image"].suffix.lower())
-    texts["output"] = made.nc.text.encode("ascii", "replace")
+    others = {outputs[name]: text for name, text in texts.items() if name in outputs}
+    if {_identity(path) for path in names} & {_identity(path) for path in others}:
+        raise InputError(f"--output {outputs['output']} makes {', '.join(map(str, names))}, and one of these is another output; "
+                         "give every file its own name")
     with undisturbed():
-        for name in ("report", "image", "output"):
-            if name in outputs:
-                write_atomically(outputs[name], texts[name])
+        write_together(others | {name: file.nc.text.encode("ascii") for name, file in zip(names, made.files, strict=True)})
 
 
-def _progress(quiet: bool, stopped: threading.Event) -> Progress:
+def shown_progress(quiet: bool, stopped: threading.Event) -> Progress:
     """Return a progress that shows itself on stderr where that is a terminal."""
     if quiet or not sys.stderr.isatty():
         return Progress(None, stopped)
@@ -149,9 +169,9 @@ def _progress(quiet: bool, stopped: threading.Event) -> Progress:
     return Progress(show, stopped)
 
 
-def _summary(made: Made, output: Path) -> None:
+def _summary(made: Made, names: list[Path]) -> None:
     """Say in a few lines what was made and what there is to know about it, the first few of each kind."""
-    lines = [made.report.summary(str(output))]
+    lines = [made.report.summary(", ".join(map(str, names)))]
     shown: Counter[FindingKind] = Counter()
     for finding in made.findings:
         shown[finding.kind] += 1

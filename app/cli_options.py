@@ -15,6 +15,7 @@ from app.edit.numbers import length
 from app.errors import InputError
 from app.files.job_toml import ORIGIN_HELP, parse_origin, read_out_units, read_units
 from app.model.job import LARGEST_JOIN
+from app.model.machine import Machine
 from app.model.operation import LEAST_LENGTH, Direction, Order
 from app.model.tool import LEAST_RATE
 from app.workflow.options import LEAST_PER_CENT, MakeOptions, Stepover
@@ -24,6 +25,9 @@ D is a diameter: 6, 6mm, 0.25in, 1/4in. Lengths are mm unless a unit is written.
 with none, the job's tools or 6 mm (pocket) and 3 mm (contour). Z 0 is the top of the stock, the depth goes down from it.
 """
 
+
+MACHINE_HELP = ("the machine that the program has to fit and is timed on: router, bench_mill, vmc, one of your own in the settings' folder "
+                "machines, or a TOML file (default: timed on a router, held against none)")
 
 PHRASES = (
     (r"^argument ([^:]*/)?([^:]*): ", r"\2 "),
@@ -91,6 +95,12 @@ def _join_tolerance(text: str) -> float:
     return value
 
 
+def _machine(name: str) -> Machine:
+    from app.files.machine_toml import load_machine
+
+    return load_machine(name)
+
+
 def _typed(read: Callable[[str], object]) -> Callable[[str], object]:
     """Return a reader whose InputError argparse shows."""
 
@@ -122,6 +132,7 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--report", metavar="R.json", type=Path, help="everything that was measured, as JSON")
     group.add_argument("--image", metavar="OUT.svg|png", type=Path, help="a picture of part and paths")
     group.add_argument("--post", metavar="NAME", help="the control that the program is for (default linuxcnc)")
+    group.add_argument("--machine", metavar="NAME|FILE", type=_typed(_machine), help=MACHINE_HELP)
     group.add_argument("--out-units", metavar="mm|in", type=_typed(read_out_units), help="units of the NC program (default mm)")
     group.add_argument("--exact-path", action="store_true", help="tell the control to stop at corners rather than blend (G61)")
     group.add_argument("--quiet", action="store_true", help="say nothing but errors")
@@ -195,7 +206,7 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         depth=arguments.depth, stepdown=arguments.stepdown, stock_to_leave=arguments.stock_to_leave,
         safe_z=arguments.safe_z, feed=arguments.feed, plunge=arguments.plunge, speed=arguments.speed,
         direction=arguments.direction, order=Order(arguments.order) if arguments.order else None,
-        post=arguments.post, out_units=arguments.out_units, units=arguments.units,
+        post=arguments.post, machine=arguments.machine, out_units=arguments.out_units, units=arguments.units,
         origin_xy=origin_xy, origin_z=origin_z, layers=tuple(arguments.layer),
         join_tolerance=arguments.join_tolerance, exact_path=arguments.exact_path,
     )

@@ -24,6 +24,7 @@ class FindingKind(Enum):
     RAPID_IN_MATERIAL = "rapid_in_material"
     TOLERANCE = "tolerance"
     ENGAGEMENT = "engagement"
+    MACHINE = "machine"
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -156,3 +156,18 @@ def reach(motions: Motions) -> tuple[Floats, Floats]:
     for row, spline in motions.splines.items():
         low[row], high[row] = spline.points.min(axis=0), spline.points.max(axis=0)
     return low, high
+
+
+def anchored(motions: Motions) -> Motions:
+    """Return motions that follow one another and begin where the program first sends each axis.
+
+    Nobody knows where the machine stands before, so the way there has no length along that axis; nor has the jump of the
+    controlled point to another tool's tip. Motions that are not straight keep their start.
+    """
+    start, end = motions.start.copy(), motions.end.copy()
+    straight = np.flatnonzero((motions.kind[1:] == MotionKind.RAPID) | (motions.kind[1:] == MotionKind.LINE)) + 1
+    start[straight] = end[straight - 1]
+    for axis, row in enumerate(motions.known_from):
+        if 0 <= row < len(motions) and motions.kind[row] in (MotionKind.RAPID, MotionKind.LINE):
+            start[: row + 1, axis] = end[: row + 1, axis] = motions.end[row, axis]
+    return replace(motions, start=start, end=end)

@@ -6,7 +6,6 @@ from app.model.moves import MoveKind
 from app.model.part import Units
 from app.nc.drilling import Hole
 from app.nc.grid import Position, numeral, spelled
-from app.nc.motions import arc_length, straight_length
 from app.nc.post import ArcCentre, Post
 
 CONTINUED = "hitofude+"
@@ -22,7 +21,6 @@ class Blocks:
     Attributes:
         lines: the text so far.
         motion_line: 1-based line of the last motion block; 0 before the first.
-        motions: kind and length, out units, of each motion block; a tool change leaves the tool where it was.
         home_lines: 1-based lines that send the tool to the machine's own home, where no move of the program goes.
     """
 
@@ -30,9 +28,7 @@ class Blocks:
         """Begin an empty program."""
         self.lines: list[str] = []
         self.motion_line = 0
-        self.motions: list[tuple[MoveKind, float]] = []
         self.home_lines: list[int] = []
-        self._reached: Reached = (None, None, None)
         self._post = post
         self._digits = post.digits(units)
         self._number = post.numbers.start
@@ -106,15 +102,11 @@ class Blocks:
             feed: count of the last decimal of F.
         """
         digits = self._digits
-        offset = complex(*centre) / 10**digits.I
         if self._post.arcs.centre is ArcCentre.ABSOLUTE:
             finer = 10 ** (digits.I - digits.X)
             centre = (centre[0] + (self._position[0] or 0) * finer, centre[1] + (self._position[1] or 0) * finer)
         words = {"X": self.number(end[0], digits.X), "Y": self.number(end[1], digits.Y)}
-        start = self._lengths(self._reached)
         self._write(kind, end, words | {"I": self.number(centre[0], digits.I), "J": self.number(centre[1], digits.J)}, feed)
-        length = arc_length(start, self._lengths(end), offset, kind is MoveKind.ARC_CW)
-        self.motions[-1] = (kind, length)
 
     def hole(self, hole: Hole, steps: list[tuple[MoveKind, Position]]) -> None:
         """Write a hole as a canned cycle; its G words and its feed are left out where they are in force.
@@ -169,20 +161,12 @@ class Blocks:
     def _moved(self, kind: MoveKind, end: Reached) -> None:
         """Remember what the last line did."""
         self._motion, self._position, self.motion_line = self._post.words.motion[kind], end, len(self.lines)
-        self.motions.append((kind, straight_length(self._lengths(self._reached), self._lengths(end))))
-        x, y, z = self._reached
-        self._reached = (x if end[0] is None else end[0], y if end[1] is None else end[1], z if end[2] is None else end[2])
 
     def _rate(self, feed: int) -> str:
         """Return a feed rate without the zeros behind its point; and without the point, if the control can do so."""
         text = spelled(feed, self._digits.F)
         short = text.rstrip("0") if "." in text else f"{text}."
         return short if self._post.words.feed_point else short.rstrip(".")
-
-    def _lengths(self, at: Reached) -> tuple[float | None, float | None, float | None]:
-        """Return a position in out units."""
-        x, y, z = (None if count is None else count / 10 ** getattr(self._digits, letter) for letter, count in zip("XYZ", at, strict=True))
-        return (x, y, z)
 
     def _numbered(self, text: str) -> str:
         """Return a block with its N word, if the post wants one; LinuxCNC and Fanuc end at N99999, so it starts again there."""

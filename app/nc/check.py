@@ -14,14 +14,14 @@ import numpy as np
 
 from app.errors import HitofudeError
 from app.model.job import Job
-from app.model.motion import MotionKind, Plane
+from app.model.motion import Floats, MotionKind, Plane
 from app.model.moves import MoveKind, Moves, Program
 from app.model.stock_box import stock_box, work_origin
 from app.nc.check_lines import MeantPath, Owned, Rows, owned
 from app.nc.check_path import distances
 from app.nc.check_state import Expected, wrong_states
 from app.nc.post import Post
-from app.nc.read.options import ReadOptions
+from app.nc.read.options import ReadOptions, ToolOffset
 from app.nc.read.program import EventKind, NcProgram, Problem
 from app.nc.read.reader import read_program
 from app.nc.write import NcFile, writing_tolerance
@@ -101,7 +101,7 @@ def check(data: bytes, file: NcFile, meant: Meant, progress: Progress = NO_PROGR
         Cancelled: the job was asked to stop.
     """
     program, job, post = meant.program, meant.job, meant.post
-    read = read_program(data, ReadOptions(dialect=post.dialect), progress)
+    read = read_program(data, ReadOptions(dialect=post.dialect, tool_table=_tool_table(job)), progress)
     stop = file.first + len(file.nc.lines)
     moves = Moves(**{name: column[file.first:stop] for name, column in program.moves.columns().items()})  # type: ignore[arg-type]
     origin = work_origin(job, stock_box(job, program.regions))
@@ -110,13 +110,21 @@ def check(data: bytes, file: NcFile, meant: Meant, progress: Progress = NO_PROGR
     mine = owned(read.motions, file.nc.lines, compared.begins, compared.meant, step)
     far = distances(read.motions, compared.meant, mine)
     problems = (*read.problems, *sorted(_problems(compared, mine, far), key=lambda problem: problem.line))
-    move = np.minimum(np.searchsorted(file.nc.lines, read.motions.line), len(moves) - 1) + file.first
-    return Check(float(np.max(far)), step, problems, read, move)
+    move = np.minimum(np.searchsorted(file.nc.lines, read.motions.line), len(moves) - 1)
+    move[mine.rows] = mine.move
+    return Check(float(np.max(far)), step, problems, read, move + file.first)
+
+
+def _tool_table(job: Job) -> dict[int, ToolOffset]:
+    """Return a length for each tool, no two alike: so a tool whose length is not taken, or another's, shows in its path."""
+    return {tool.number: ToolOffset((0.0, 0.0, float(rank))) for rank, tool in enumerate(job.tools, start=1)}
 
 
 def _problems(compared: _Compared, mine: Owned, far: np.ndarray) -> Iterator[Problem]:
     """Yield every difference."""
     motions = compared.read.motions
+    if compared.read.error is not None:
+        return
     if np.any(np.diff(motions.line) < 0):
         row = int(np.argmax(np.diff(motions.line) < 0)) + 1
         yield _problem(motions.line[row], "", "this line runs again behind a later one.")
@@ -165,10 +173,28 @@ def _lift_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
     home = np.isin(motions.line, compared.file.nc.home_lines)
     stays = motions.end[:, 2] == motions.start[:, 2]
     last = np.append(motions.line[1:] != motions.line[:-1], True)
-    right = stays | np.where(home, last & (motions.end[:, 2] == 0), np.abs(motions.end[:, 2] - compared.safe_z) <= compared.tolerance)
+    up = last & (motions.end[:, 2] == _home_heights(compared)[motions.state])
+    right = stays | np.where(home, up, np.abs(motions.end[:, 2] - compared.safe_z) <= compared.tolerance)
     wrong = free & ((motions.kind != MotionKind.RAPID) | level | ~right)
     if wrong.any():
         yield _problem(motions.line[np.argmax(wrong)], "", "this motion belongs to no move of the path and is no lift to clearance.")
+    yield from _home_problems(compared)
+
+
+def _home_heights(compared: _Compared) -> Floats:
+    """Return where the tool's tip is along Z when the machine is at home, for each state."""
+    lengths = _tool_table(compared.expected.job)
+    return np.array([-lengths[state.length_offset].offset[2] if state.length_offset in lengths else 0.0 for state in compared.read.states])
+
+
+def _home_problems(compared: _Compared) -> Iterator[Problem]:
+    """Yield the first place where the tool should go home and does not."""
+    motions, lines = compared.read.motions, np.array(compared.file.nc.home_lines, int)
+    there = motions.line[motions.end[:, 2] == _home_heights(compared)[motions.state]]
+    blocks = np.cumsum(np.diff(lines, prepend=0) != 1)
+    away = [int(lines[blocks == block][0]) for block in np.unique(blocks) if not np.isin(lines[blocks == block], there).any()]
+    if away:
+        yield _problem(away[0], "", "the tool does not go home here, as it should.")
 
 
 def _section_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
@@ -180,8 +206,9 @@ def _section_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
         return
     first = mine.rows[mine.first[begins]]
     last = np.append(mine.last[begins[1:] - 1], len(compared.read.motions) - 1)
-    if max(compared.read.motions.known_from) > first[0]:
-        yield _problem(lines[0], "", "the first motions do not say where each axis goes.")
+    x, y, z = compared.read.motions.known_from
+    if not (x == y == first[0] >= z):
+        yield _problem(lines[0], "", "the first tool does not go to clearance along Z alone, and then to a place in X and Y.")
     sections = _Sections(compared, first, last)
     yield from sections.problems()
 

@@ -21,10 +21,10 @@ class Level(Enum):
 
 
 _WORST_FIRST = (
-    FindingKind.GOUGE, FindingKind.RAPID_IN_MATERIAL, FindingKind.LEFT_REACHABLE, FindingKind.TOLERANCE, FindingKind.OPEN_CONTOUR,
-    FindingKind.SELF_INTERSECTION, FindingKind.OVERLAP, FindingKind.REGION_TOO_SMALL, FindingKind.NECK_TOO_NARROW,
-    FindingKind.ENGAGEMENT, FindingKind.UNITS_ASSUMED, FindingKind.GAP_CLOSED, FindingKind.TINY_ENTITY, FindingKind.LEFT_OUT,
-    FindingKind.LEFT_UNREACHABLE,
+    FindingKind.GOUGE, FindingKind.RAPID_IN_MATERIAL, FindingKind.LEFT_REACHABLE, FindingKind.TOLERANCE, FindingKind.MACHINE,
+    FindingKind.OPEN_CONTOUR, FindingKind.SELF_INTERSECTION, FindingKind.OVERLAP, FindingKind.REGION_TOO_SMALL,
+    FindingKind.NECK_TOO_NARROW, FindingKind.ENGAGEMENT, FindingKind.UNITS_ASSUMED, FindingKind.GAP_CLOSED, FindingKind.TINY_ENTITY,
+    FindingKind.LEFT_OUT, FindingKind.LEFT_UNREACHABLE,
 )
 _RED = {FindingKind.GOUGE, FindingKind.RAPID_IN_MATERIAL, FindingKind.LEFT_REACHABLE}
 
@@ -35,7 +35,7 @@ _NAMES = {
     FindingKind.REGION_TOO_SMALL: "region too small", FindingKind.NECK_TOO_NARROW: "neck too narrow",
     FindingKind.ENGAGEMENT: "full slot", FindingKind.TINY_ENTITY: "tiny entity", FindingKind.LEFT_OUT: "left out",
     FindingKind.LEFT_UNREACHABLE: "corners out of reach", FindingKind.GAP_CLOSED: "gap closed",
-    FindingKind.UNITS_ASSUMED: "units assumed",
+    FindingKind.UNITS_ASSUMED: "units assumed", FindingKind.MACHINE: "beyond the machine",
 }
 
 

@@ -13,19 +13,19 @@ from app.errors import GeometryError
 from app.files.drawing import Drawing, read_drawing
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
+from app.model.machine import Machine
 from app.model.moves import Program
-from app.nc.motions import Motions
 from app.nc.posts import load_post
-from app.nc.write import NcText, write_program
+from app.nc.write import NcFile, NcText
 from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
 from app.toolpath.coverage import Coverage, coverage_findings, measure
 from app.workflow.options import MakeOptions, job_with_options
 from app.workflow.report import Measured, Report, make_report, rings_in_words, worst_first
 from app.workflow.verdict import Gouge, RapidInMaterial, gouge, rapids_in_material
+from app.workflow.written import write_and_check
 
-NO_TEXT = NcText("", np.zeros(0, np.int32), Motions.none())
-"""Of a program without moves."""
+NO_TEXT = NcText("", np.zeros(0, np.int32))
 
 NAMED = 3
 """How many findings the one line names that says why nothing can be cut."""
@@ -37,8 +37,9 @@ class Made:
 
     Attributes:
         job: what it was computed from.
-        program: the moves; each knows its line of the NC text.
-        nc: the NC text; empty when no move was made.
+        program: the moves; each knows its line of its NC file.
+        files: the NC program, read back and found to be the moves: one file, or one a tool where the control changes
+            none; none when no move was made.
         report: every measured number.
         findings: everything there is to say, what counts first.
         coverage: what is left on the floor, with outlines.
@@ -46,10 +47,15 @@ class Made:
 
     job: Job
     program: Program
-    nc: NcText
+    files: tuple[NcFile, ...]
     report: Report
     findings: tuple[Finding, ...]
     coverage: Coverage
+
+    @property
+    def nc(self) -> NcText:
+        """The NC text, of several files the first one; an empty one when no move was made."""
+        return self.files[0].nc if self.files else NO_TEXT
 
     @property
     def clean(self) -> bool:
@@ -84,7 +90,7 @@ def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_P
     units = options.units
     drawing = read_drawing(name, data, units, options.layers or (options.job.layer_names if options.job else ()))
     job = job_from_drawing(drawing, options)
-    made = export(job, progress.part(0.1, 1.0), drawing.findings)
+    made = export(job, progress.part(0.1, 1.0), drawing.findings, options.machine)
     if not len(made.program.moves):
         raise GeometryError(_nothing(name, made.findings))
     return made
@@ -99,42 +105,45 @@ def _nothing(name: str, findings: tuple[Finding, ...]) -> str:
     return f"{name}: nothing can be cut. {' '.join(finding.text for finding in telling[:NAMED])}{more}"
 
 
-def export(job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[Finding, ...] = ()) -> Made:
-    """Compute a job, write its NC text, and measure what was made.
+def export(job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[Finding, ...] = (), machine: Machine | None = None) -> Made:
+    """Compute a job, write its NC text, read it back, and measure what was made.
 
     Args:
         job: what to compute.
         progress: steps through all of it.
         drawing_findings: what reading the drawing had to say; goes into the report with the rest.
+        machine: that it has to fit, and on which it is timed; None = timed on a usual one.
 
     Raises:
-        HitofudeError: the job cannot be computed or written.
+        HitofudeError: the job cannot be computed or written, or what was written is not what was computed.
         Cancelled: the job was asked to stop.
     """
     from app.toolpath.compute import compute
 
-    return finish(compute(job, progress.part(0.0, 0.6)), job, progress.part(0.6, 1.0), drawing_findings)
+    return finish(compute(job, progress.part(0.0, 0.6)), job, progress.part(0.6, 1.0), drawing_findings, machine)
 
 
-def finish(program: Program, job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[Finding, ...] = ()) -> Made:
-    """Write the NC text of a computed program and measure it: for a caller that has the program already.
+def finish(
+    program: Program, job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[Finding, ...] = (),
+    machine: Machine | None = None,
+) -> Made:  # fmt: skip
+    """Write the NC text of a computed program, read it back, and measure it: for a caller that has the program already.
 
-    Raises:
-        HitofudeError: the program cannot be written.
-        Cancelled: the job was asked to stop.
+    Args and errors: as `export`.
     """
-    post = load_post(job.post)
     progress.step(0.0, "Writing NC")
-    nc = write_program(program, job, post, progress.part(0.0, 0.2)) if len(program.moves) else NO_TEXT
-    program = replace(program, moves=replace(program.moves, line=nc.lines))
+    written = write_and_check(program, job, load_post(job.post), machine, progress.part(0.0, 0.2))
+    lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
+    program = replace(program, moves=replace(program.moves, line=lines))
     progress.step(0.2, "Checking clearance")
     deepest, rapids = gouge(program, job), rapids_in_material(program, job)
     coverage = measure(program, job, progress.part(0.4, 0.95))
-    own = (*_gouge_findings(deepest, program), *_rapid_findings(rapids, program), *coverage_findings(coverage), *_ring_findings(program))
+    own = (*_gouge_findings(deepest, program), *_rapid_findings(rapids, program), *(written.misfits() if machine else ()),
+           *coverage_findings(coverage), *_ring_findings(program))
     findings = worst_first((*own, *program.findings, *drawing_findings))
     progress.step(1.0, "Done")
-    report = make_report(Measured(program, job, nc, post, deepest, rapids, coverage, findings))
-    return Made(job, program, nc, report, findings, coverage)
+    report = make_report(Measured(program, job, written, deepest, rapids, coverage, findings))
+    return Made(job, program, written.files, report, findings, coverage)
 
 
 def _ring_findings(program: Program) -> tuple[Finding, ...]:

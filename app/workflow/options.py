@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 from app.errors import ParameterError
 from app.model.job import Job, OriginXY, OriginZ, Stock
+from app.model.machine import Machine
 from app.model.operation import LEAST_LENGTH, ContourOperation, Cut, Direction, Operation, Order, PocketOperation
 from app.model.part import Part, Units
 from app.model.tool import Tool
@@ -48,6 +49,7 @@ class MakeOptions:
         depth, stepdown, stock_to_leave, direction: of every operation.
         safe_z: clearance height above the stock's top.
         feed, plunge (mm/min), speed (rpm): of every tool.
+        machine: that the program has to fit and is timed on; None = timed on a usual one.
         units: of a drawing that names none. layers: to machine; empty = all visible ones.
     """
 
@@ -73,6 +75,7 @@ class MakeOptions:
     layers: tuple[str, ...] = ()
     join_tolerance: float | None = None
     exact_path: bool = False
+    machine: Machine | None = None
 
 
 def job_with_options(part: Part, options: MakeOptions) -> Job:

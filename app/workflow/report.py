@@ -15,22 +15,20 @@ from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program, Purpose
 from app.model.operation import Operation, PocketOperation
 from app.model.stock_box import extent
-from app.nc.motions import Motions
-from app.nc.post import Post
-from app.nc.write import NcText, blend_mm, writing_tolerance
+from app.nc.write import blend_mm, writing_tolerance
 from app.toolpath.coverage import CHORD, STRIP, Coverage, Place
 from app.workflow.verdict import Gouge, RapidInMaterial, in_stock
-
-RAPID_RATE = 5000.0
-"""mm/min; what rapids are timed at, as no post tells how fast a machine is."""
+from app.workflow.written import Written
 
 ENGINE = "exact lines and arcs; pocket rings are levels of one distance field"
 COVERAGE_METHOD = f"polygons of the emitted moves, arcs as chords within {CHORD:g} mm; strips narrower than {STRIP:g} mm are not counted"
 GOUGE_METHOD = "closed-form distance of every move below Z 0 from every wall, less tool radius and stock to leave"
-TIME_METHOD = f"lengths over feed rates, rapids at {RAPID_RATE:g} mm/min, spin-up dwells; no acceleration"
-MOVES_METHOD = ("blocks of the NC text, arcs split and flattened as they are written; where the tool is at the start nobody knows, so the "
-                "first approach is counted from the clearance position above the first XY, and after a tool change from where the "
-                "tool before was lifted to safe Z")
+TIME_METHOD = ("feeds and accelerations with look-ahead, corners blended as the program says, dwells and tool changes, on this "
+               "machine: {}; no jerk, no stops by hand")
+MOVES_METHOD = ("motions of the control, as the NC text was read back: arcs split and flattened as they are written, cycles step by step; "
+                "where the tool is at the start nobody knows, so the first approach is counted from the clearance position above the "
+                "first XY, and after a tool change from where the tool before was lifted to safe Z")
+CHECK_METHOD = "the written bytes read back and compared with the moves: a bound both ways, all along; kinds, feeds, tools, spindle alike"
 
 Json = dict[str, Any]
 
@@ -40,13 +38,13 @@ class Measured:
     """What the report is made of.
 
     Attributes:
+        written: the files, read back.
         findings: all of them: of the drawing, the path, the verdict, the floor.
     """
 
     program: Program
     job: Job
-    nc: NcText
-    post: Post
+    written: Written
     gouge: Gouge
     rapids: tuple[RapidInMaterial, ...]
     coverage: Coverage
@@ -74,12 +72,12 @@ class Report:
         length = sum(data["length_mm"].values())
         return (f"{output}: {data['gouge']['max_mm']:.4f} mm gouge, {data['left']['reachable_mm2']:.3f} mm2 left within reach, "
                 f"{len(data['rapids_in_material'])} rapids in material; {data['strokes']} pocket strokes, {data['retracts']} retracts, "
-                f"{length:.0f} mm, {minutes}:{seconds:02d} min")
+                f"{length:.0f} mm, {minutes}:{seconds:02d} min; read back within {data['check']['largest_distance_mm']:.4f} mm")
 
 
 def make_report(measured: Measured) -> Report:
     """Return the report of what was made and measured."""
-    program, job, moves, motions = measured.program, measured.job, measured.program.moves, measured.nc.motions
+    program, job, moves, written = measured.program, measured.job, measured.program.moves, measured.written
     return Report({
         "gouge": _gouge(measured),
         "left": {
@@ -93,15 +91,15 @@ def make_report(measured: Measured) -> Report:
             "places_count": len(measured.coverage.places),
         },
         "rapids_in_material": [
-            {"x": hit.x, "y": hit.y, "z": hit.z, "line": _line(measured.nc, hit.move)} for hit in measured.rapids
+            {"x": hit.x, "y": hit.y, "z": hit.z, **_line(measured, hit.move)} for hit in measured.rapids
         ],
         "strokes": pocket_strokes(moves),
         "retracts": retracts(moves),
-        "length_mm": path_lengths(moves, motions),
-        "time_s": job_time(moves, motions, measured.post.spindle.dwell_s),
-        "time_method": TIME_METHOD,
-        "moves": {f"G{kind.value}": int(np.sum(motions.kind == kind)) for kind in MoveKind},
+        "length_mm": path_lengths(moves, written),
+        **_times(written),
+        "moves": {f"G{kind.value}": int(np.sum(written.kind == kind)) for kind in MoveKind},
         "moves_method": MOVES_METHOD,
+        "check": _check(written),
         "skipped": [_finding(each) for each in _of(measured, FindingKind.REGION_TOO_SMALL, FindingKind.LEFT_OUT, FindingKind.TINY_ENTITY)],
         "open_contours": [_finding(each) for each in _of(measured, FindingKind.OPEN_CONTOUR)],
         "engine": "; ".join([ENGINE, *([rings_in_words(program.polyline_rings)] if program.polyline_rings else [])]),
@@ -111,7 +109,8 @@ def make_report(measured: Measured) -> Report:
         "regions": _regions(program),
         "area_check_mm2": {"exact": program.exact_area_mm2, "bitmap": program.bitmap_area_mm2, "pitch_mm": program.pitch_mm},
         "tools": [{"number": t.number, "kind": t.kind.value, "diameter_mm": t.diameter, "spindle_rpm": t.spindle_speed,
-                   "feed_mm_min": t.feed_rate, "plunge_mm_min": t.plunge_rate} for t in job.tools],
+                   "feed_mm_min": t.feed_rate, "plunge_mm_min": t.plunge_rate, "time_s": _tool_time(t.number, measured)}
+                  for t in job.tools],
         "operations": [_operation(each, index, measured) for index, each in enumerate(job.operations)],
         "post": job.post,
         "out_units": "in" if job.out_units.value == 25.4 else "mm",
@@ -122,13 +121,38 @@ def _of(measured: Measured, *kinds: FindingKind) -> list[Finding]:
     return [finding for finding in measured.findings if finding.kind in kinds]
 
 
-def _line(nc: NcText, move: int) -> int | None:
-    return int(nc.lines[move]) if 0 <= move < len(nc.lines) else None
+def _line(measured: Measured, move: int) -> Json:
+    """Return the line of a move, and which file it is in."""
+    files = [k for k, file in enumerate(measured.written.files) if 0 <= file.first <= move]
+    line = int(measured.program.moves.line[move]) if files else None
+    return {"line": line} | ({"file": files[-1] + 1} if len(measured.written.files) > 1 and files else {})
+
+
+def _check(written: Written) -> Json:
+    checks = written.checks
+    return {"largest_distance_mm": max((each.largest_distance_mm for each in checks), default=0.0),
+            "tolerance_mm": max((each.tolerance_mm for each in checks), default=0.0),
+            "differences": sum(len(each.problems) for each in checks), "motions": len(written.kind),
+            "files": [file.suffix for file in written.files], "method": CHECK_METHOD}
+
+
+def _times(written: Written) -> Json:
+    parts = [each.parts for each in written.durations]
+    waits = written.changes_s + sum(part["wait"] for part in parts)
+    return {"time_s": written.changes_s + sum(each.total for each in written.durations),
+            "time_parts_s": {"cut": sum(part["cut"] for part in parts), "rapid": sum(part["rapid"] for part in parts), "wait": waits},
+            "time_method": TIME_METHOD.format(written.machine.title)}
+
+
+def _tool_time(number: int, measured: Measured) -> float:
+    """Return the seconds that a tool's motions take."""
+    written = measured.written
+    return float(np.sum(written.moving[measured.program.moves.tool[written.move] == number]))
 
 
 def _gouge(measured: Measured) -> Json:
     gouge = measured.gouge
-    return {"max_mm": gouge.max_mm, "x": gouge.x, "y": gouge.y, "z": gouge.z, "line": _line(measured.nc, gouge.move),
+    return {"max_mm": gouge.max_mm, "x": gouge.x, "y": gouge.y, "z": gouge.z, **_line(measured, gouge.move),
             "count": gouge.count, "counts_from_mm": tolerances.LEVEL, "method": GOUGE_METHOD}
 
 
@@ -147,8 +171,8 @@ def _tolerance(measured: Measured) -> Json:
         "path_mm": tolerances.LEVEL, "path": "checked",
         "curves_mm": max((contour.deviation for contour in contours), default=0.0), "curves": "measured",
         "join_mm": measured.job.join_tolerance,
-        "writing_mm": writing_tolerance(measured.job, measured.post), "writing": "bound",
-        "blend_mm": blend_mm(measured.job, measured.post), "blend": "proven on the path; the control may blend by up to this",
+        "writing_mm": writing_tolerance(measured.job, measured.written.post), "writing": "bound",
+        "blend_mm": blend_mm(measured.job, measured.written.post), "blend": "proven on the path; the control may blend by up to this",
         "floor_strip_mm": STRIP,
     }  # fmt: skip
 
@@ -164,12 +188,12 @@ def _regions(program: Program) -> list[Json]:
 
 
 def _operation(operation: Operation, index: int, measured: Measured) -> Json:
-    moves, cut, motions = measured.program.moves, operation.cut, measured.nc.motions
-    mine = moves.operation[motions.move] == index
+    cut, written = operation.cut, measured.written
+    mine = measured.program.moves.operation[written.move] == index
     pocket = isinstance(operation, PocketOperation)
     result: Json = {"kind": "pocket" if pocket else "contour", "tool": cut.tool, "depth_mm": cut.depth, "stepdown_mm": cut.stepdown,
                     "stock_to_leave_mm": cut.stock_to_leave, "direction": cut.direction.value, "enabled": cut.enabled,
-                    "time_s": float(np.sum(block_times(moves, motions)[mine]))}
+                    "time_s": float(np.sum(written.moving[mine]))}
     if isinstance(operation, PocketOperation):
         result["stepover_mm"] = operation.stepover or measured.job.tool(cut.tool).diameter / 2
     return result
@@ -185,26 +209,13 @@ def rings_in_words(count: int) -> str:
     return f"{rings} within {tolerances.LEVEL * 1000:g} um instead of lines and arcs"
 
 
-def path_lengths(moves: Moves, motions: Motions) -> dict[str, float]:
+def path_lengths(moves: Moves, written: Written) -> dict[str, float]:
     """Return lengths of what was written, mm: cut, link (links and leads), plunge, rapid; MOVES_METHOD tells how the first one counts."""
-    purpose, rapid = moves.purpose[motions.move], motions.kind == MoveKind.RAPID
+    purpose, rapid = moves.purpose[written.move], written.kind == MoveKind.RAPID
     link = ~rapid & np.isin(purpose, (Purpose.LINK, Purpose.LEAD))
     plunge = ~rapid & (purpose == Purpose.PLUNGE)
     chosen = {"cut": ~rapid & ~link & ~plunge, "link": link, "plunge": plunge, "rapid": rapid}
-    return {name: float(np.sum(motions.length[mask])) for name, mask in chosen.items()}
-
-
-def block_times(moves: Moves, motions: Motions) -> np.ndarray:
-    """Return (m,) seconds that each motion block takes at its move's feed rate, rapids at RAPID_RATE."""
-    feed = moves.feed[motions.move]
-    rate = np.where(motions.kind == MoveKind.RAPID, RAPID_RATE, np.where(feed > 0, feed, np.inf))
-    return np.asarray(60 * motions.length / rate)
-
-
-def job_time(moves: Moves, motions: Motions, dwell_s: float) -> float:
-    """Return how long the program runs, s, with a spin-up dwell of `dwell_s` for every tool taken."""
-    taken = int(np.sum(np.diff(moves.tool) != 0)) + 1 if len(moves) else 0
-    return float(np.sum(block_times(moves, motions))) + taken * dwell_s
+    return {name: float(np.sum(written.length[mask])) for name, mask in chosen.items()}
 
 
 def retracts(moves: Moves) -> int:

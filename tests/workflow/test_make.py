@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -11,17 +12,18 @@ import numpy as np
 import pytest
 
 from app.errors import Cancelled, GeometryError, InputError, ParameterError
+from app.files.machine_toml import DEFAULT_MACHINE, load_machine
 from app.model.finding import FindingKind
 from app.model.job import OriginXY, OriginZ
 from app.model.moves import MoveKind
 from app.model.operation import ContourOperation, PocketOperation
 from app.model.part import Units
 from app.model.stock_box import stock_box, work_origin
+from app.nc.posts import load_post
 from app.progress import Progress
 from app.workflow.make import Made, finish, make
 from app.workflow.options import MakeOptions
 from tests.nc.rs274_oracle import assert_same_motion, canonical_calls
-from tests.nc.test_motions import read_kinds
 from tests.workflow.truth import assert_left_is_true
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -98,17 +100,27 @@ def test_the_numbers_of_the_report_are_those_of_the_moves(name: str) -> None:
     assert report["length_mm"]["rapid"] == pytest.approx(float(np.sum(lengths[rapid])), abs=rounding)
     assert "first approach" in report["moves_method"]
     assert report["strokes"] == this.program.strokes
-    dwells = 1.0 * len({int(tool) for tool in moves.tool}) * _dwell(this)
+    waits = len(np.unique(moves.tool)) * (load_post(this.job.post).spindle.dwell_s + load_machine(DEFAULT_MACHINE).tool_change)
     cutting = float(np.sum(lengths[~rapid] / moves.feed[~rapid])) * 60
-    assert report["time_s"] == pytest.approx(cutting + dwells + 60 * report["length_mm"]["rapid"] / 5000, abs=0.01)
+    assert report["time_parts_s"]["wait"] == pytest.approx(waits)
+    assert cutting - 0.01 <= report["time_parts_s"]["cut"] <= 3 * cutting
+    assert report["time_s"] == pytest.approx(sum(report["time_parts_s"].values()))
+    assert report["check"]["differences"] == 0
+    assert 0 <= report["check"]["largest_distance_mm"] <= report["check"]["tolerance_mm"] == report["tolerance"]["writing_mm"]
     assert json.loads(this.report.text()) == report
     assert this.clean == (not any(finding["counts"] for finding in report["findings"]))
 
 
-def _dwell(this: Made) -> float:
-    from app.nc.posts import load_post
-
-    return load_post(this.job.post).spindle.dwell_s
+def read_kinds(text: str) -> list[int]:
+    """The G word of every motion block, read from the text alone."""
+    kinds, motion = [], -1
+    for line in text.splitlines():
+        block = re.sub(r"\([^)]*\)", "", line)
+        if word := re.search(r"\bG0?([0123])\b(?!\.)", block):
+            motion = int(word[1])
+        if re.search(r"[XYZ]-?\d", block):
+            kinds.append(motion)
+    return kinds
 
 
 def test_fig2_is_clean_and_its_corners_are_told() -> None:
@@ -139,9 +151,12 @@ def test_rings_that_are_polylines_are_told() -> None:
 def test_the_first_approach_is_among_the_rapids() -> None:
     """Each tool's text begins with a rapid to safe Z that the program does not have."""
     this = made("fig2.dxf")
-    program = int(np.sum(this.program.moves.kind == MoveKind.RAPID))
-    assert this.report.data["moves"]["G0"] == program + 2
-    assert this.nc.motions.length[:2].tolist() == [0.0, 0.0]
+    assert this.report.data["moves"]["G0"] == int(np.sum(rapids(this))) + 2
+    assert this.report.data["length_mm"]["rapid"] == pytest.approx(float(np.sum(this.program.moves.lengths()[rapids(this)])), abs=1e-3)
+
+
+def rapids(this: Made) -> np.ndarray:
+    return this.program.moves.kind == MoveKind.RAPID
 
 
 def test_gear_tells_the_rest_that_its_pocket_tool_leaves() -> None:

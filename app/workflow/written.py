@@ -1,0 +1,117 @@
+"""The files of a program, and what they do on a machine: known by reading them back, not by what was meant to be written."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.files.machine_toml import DEFAULT_MACHINE, load_machine
+from app.model.finding import Finding, FindingKind
+from app.model.job import Job
+from app.model.machine import Machine
+from app.model.motion_path import anchored, lengths
+from app.model.moves import Program
+from app.nc.check import Check, Meant, check
+from app.nc.duration import Duration, duration
+from app.nc.extent import misfits
+from app.nc.post import Post
+from app.nc.read.program import NcProgram
+from app.nc.write import NcFile, write_files
+from app.progress import NO_PROGRESS, Progress
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Written:
+    """What was written: m motions in all files.
+
+    Attributes:
+        post: in whose words.
+        files: in the order of cutting; none for a program without moves.
+        checks: of each file; none of them found a difference.
+        machine: on which the files are timed.
+    """
+
+    post: Post
+    files: tuple[NcFile, ...]
+    checks: tuple[Check, ...]
+    machine: Machine
+
+    @cached_property
+    def kind(self) -> NDArray[np.uint8]:
+        """(m,) MotionKind."""
+        return _joined([each.program.motions.kind for each in self.checks], np.uint8)
+
+    @cached_property
+    def move(self) -> NDArray[np.int64]:
+        """(m,) index of the program's move that each motion is done for."""
+        return _joined([each.move for each in self.checks], np.int64)
+
+    @cached_property
+    def length(self) -> Floats:
+        """(m,) mm; the first approach counts from above its end, as nobody knows where the tool is before."""
+        return _joined([lengths(program.motions) for program in self._programs], np.float64)
+
+    @cached_property
+    def durations(self) -> tuple[Duration, ...]:
+        """How long each file takes."""
+        return tuple(duration(program, self.machine) for program in self._programs)
+
+    @property
+    def moving(self) -> Floats:
+        """(m,) seconds of each motion."""
+        return _joined([each.moving for each in self.durations], np.float64)
+
+    @property
+    def changes_s(self) -> float:
+        """Seconds for changing tools between files, and for the first one, where no file says so."""
+        return len(self.files) * self.machine.tool_change if self.post.file_per_tool else 0.0
+
+    @cached_property
+    def _programs(self) -> tuple[NcProgram, ...]:
+        return tuple(replace(each.program, motions=anchored(each.program.motions)) for each in self.checks)
+
+    def misfits(self) -> tuple[Finding, ...]:
+        """Return what the machine cannot do."""
+        return tuple(
+            Finding(FindingKind.MACHINE, f"NC line {problem.line}{_in_file(file)}: {problem.text}")
+            for file, program in zip(self.files, self._programs, strict=True) for problem in misfits(program, self.machine)
+        )  # fmt: skip
+
+
+def write_and_check(program: Program, job: Job, post: Post, machine: Machine | None, progress: Progress = NO_PROGRESS) -> Written:
+    """Return the files of a computed program, each read back and found to be the program's moves.
+
+    Args:
+        program: its moves may be none.
+        job: what it was computed from.
+        post: the control's dialect.
+        machine: on which to time it; None = a usual one.
+
+    Raises:
+        HitofudeError: the program cannot be written, or what was written differs from it.
+        Cancelled: the job was asked to stop.
+    """
+    machine = machine or load_machine(DEFAULT_MACHINE)
+    if not len(program.moves):
+        return Written(post, (), (), machine)
+    files = write_files(program, job, post, progress.part(0.0, 0.6))
+    checks: list[Check] = []
+    for file in files:
+        progress.step(0.6 + 0.4 * len(checks) / len(files), "Reading the program back")
+        checks.append(check(file.nc.text.encode(), file, Meant(program, job, post)))
+        checks[-1].require(f"{post.title} program{_in_file(file)}")
+    return Written(post, files, tuple(checks), machine)
+
+
+def _in_file(file: NcFile) -> str:
+    return f" of file {file.suffix.strip('_').replace('_', ', ')}" if file.suffix else ""
+
+
+def _joined(columns: list[NDArray[Any]], kind: type) -> NDArray[Any]:
+    return np.concatenate(columns) if columns else np.zeros(0, kind)
