@@ -33,10 +33,12 @@ class MainWindow(QMainWindow):
 
     Signals:
         dropped(path): a drawing or an NC program was dropped on the window. closing(): about to close; `may_close` tells whether it may.
+        closed(): it closes now; whoever runs jobs of his own ends them.
     """
 
     dropped = Signal(str)
     closing = Signal()
+    closed = Signal()
 
     def __init__(self, document: Document, settings: Settings) -> None:
         super().__init__()
@@ -125,4 +127,5 @@ class MainWindow(QMainWindow):
             event.ignore()
             return
         self.worker.finish()
+        self.closed.emit()
         event.accept()

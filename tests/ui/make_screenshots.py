@@ -139,6 +139,7 @@ def main() -> None:
                 arrange()
                 take(wiring, folder / f"nc-{name}-{theme.value}-{width}.png")
             wiring.nc.back()
+    wiring.window_.close()
     application.quit()
 
 

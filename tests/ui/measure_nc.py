@@ -98,8 +98,7 @@ def measure_all(paths: list[Path]) -> dict[str, Felt]:
     warmer = warm_up(window)
     live_until(lambda: not warmer.busy)
     felt = {path.name: measure_program(wiring, path) for path in paths}
-    wiring.nc.reading.worker.finish(30.0)
-    window.worker.finish(30.0)
+    window.close()
     return felt
 
 

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QFileDialog
 from app.atomic import write_atomically
 from app.errors import HitofudeError
 from app.nc.read.dialect import Dialect
+from app.nc.read.options import ToolOffset
 from app.nc.read.program import Severity
 from app.progress import Progress
 from app.ui.computation import State
@@ -48,6 +49,7 @@ class NcControl(QObject):
         self.reading.progress.connect(window.status.show_progress)
         self.reading.busy_changed.connect(self._on_busy)
         window.status.cancelled.connect(self.reading.worker.cancel)
+        window.closed.connect(self.reading.worker.finish)
         self._computation.changed.connect(self._follow)
         self._view.side_wanted.connect(self._draw_side)
         self._view.comparison_closed.connect(self.stop_comparing)
@@ -93,7 +95,8 @@ class NcControl(QObject):
         """Compare the shown program with that of a file, which is shown beside it."""
         shown, side = self._view.shown, self._view.side
         if shown is not None:
-            self.reading.start(partial(_compared, shown, Source(path.name, path=path), side), self._on_compared)
+            self.reading.start(partial(_compared, shown, Source(path.name, path=path, tools=self._tools()), side),
+                               self._on_compared)
 
     def stop_comparing(self) -> None:
         """Take the second program away."""
@@ -141,7 +144,11 @@ class NcControl(QObject):
         self._window.status.show_message(f"{path.name} is written.")
 
     def _read(self, source: Source, remember: bool = False) -> None:
-        self.reading.read(source, self._view.side, partial(self._on_foreign, remember))
+        self.reading.read(replace(source, tools=self._tools()), self._view.side, partial(self._on_foreign, remember))
+
+    def _tools(self) -> dict[int, ToolOffset]:
+        """Return the job's tools as the tool table that programs are read with."""
+        return {tool.number: ToolOffset(diameter=tool.diameter) for tool in self._window.document.job.tools}
 
     def _on_foreign(self, remember: bool, shown: Shown) -> None:
         source, window = shown.source, self._window
@@ -229,12 +236,11 @@ class NcControl(QObject):
 
 
 def _restarted(shown: Shown, line: int, side: Side, progress: Progress) -> Shown:
-    from app.nc.read.options import ReadOptions
     from app.nc.restart import RestartOptions, restart
 
-    data = restart(shown.source.bytes(), line, RestartOptions(ReadOptions(shown.dialect)), progress.part(0.0, 0.5))
+    data = restart(shown.source.bytes(), line, RestartOptions(shown.source.options(shown.dialect)), progress.part(0.0, 0.5))
     name = Path(shown.source.name)
-    source = Source(f"{name.stem}-from-{line}{name.suffix}", data, dialect=shown.dialect)
+    source = Source(f"{name.stem}-from-{line}{name.suffix}", data, dialect=shown.dialect, tools=shown.source.tools)
     return read_shown(source, side, progress.part(0.5, 1.0))
 
 

@@ -124,10 +124,12 @@ class MotionPicture:
 
     def key(self, how: PathPaint) -> list[tuple[str, QColor]]:
         """Return what each colour means, of the first eight tools or of the kinds of motion that there are."""
+        plunge = [("Plunge", how.theme.plunge)] if np.any(self.shapes.look == Look.PLUNGE) else []
         if how.colour is PathColour.TOOL:
-            return [(f"T{tool}" if tool else "No tool", tool_colour(at, how.theme)) for at, tool in enumerate(self.tools[:_MOST_TOOLS])]
+            tools = [(f"T{tool}" if tool else "No tool", tool_colour(at, how.theme)) for at, tool in enumerate(self.tools[:_MOST_TOOLS])]
+            return tools + plunge
         kinds = np.unique(self.shapes.program.motions.kind).tolist()
-        return [(_KIND_NAMES[MotionKind(kind)], motion_colour(MotionKind(kind), how.theme)) for kind in kinds]
+        return [(_KIND_NAMES[MotionKind(kind)], motion_colour(MotionKind(kind), how.theme)) for kind in kinds] + plunge
 
     def box_of(self, motions: NDArray[np.int64] | None) -> Box | None:
         """Return x0, y0, x1, y1 of some motions seen from this side, mm."""

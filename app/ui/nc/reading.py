@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,7 @@ from PySide6.QtCore import QObject, Signal
 from app.errors import InputError
 from app.nc.duration import Duration
 from app.nc.read.dialect import Dialect
+from app.nc.read.options import ReadOptions, ToolOffset
 from app.nc.read.program import NcProgram
 from app.progress import Progress
 from app.ui.nc.line_looks import LineLooks, line_looks
@@ -35,13 +36,18 @@ class Source:
 
     Attributes:
         name: for people. data: the bytes; None = those of the file. path: the file, None = it is in none.
-        dialect: the control's; None = as it looks.
+        dialect: the control's; None = as it looks. tools: the control's tool table, for cutter compensation.
     """
 
     name: str
     data: bytes | None = None
     path: Path | None = None
     dialect: Dialect | None = None
+    tools: Mapping[int, ToolOffset] = field(default_factory=dict)
+
+    def options(self, dialect: Dialect) -> ReadOptions:
+        """Return how the program is to be read."""
+        return ReadOptions(dialect, self.tools)
 
     def bytes(self) -> bytes:
         """Return the program's bytes.
@@ -94,7 +100,6 @@ def read_shown(source: Source, side: Side, progress: Progress) -> Shown:
     from app.model.motion_path import anchored
     from app.nc.duration import duration
     from app.nc.read.guess import guess_dialect
-    from app.nc.read.options import ReadOptions
     from app.nc.read.reader import read_program
 
     progress.step(0.0, f"Reading {source.name}")
@@ -102,7 +107,7 @@ def read_shown(source: Source, side: Side, progress: Progress) -> Shown:
     text = program_text(data)
     guessed = guess_dialect(data)
     dialect = source.dialect or guessed
-    program = read_program(data, ReadOptions(dialect), progress.part(0.05, 0.6))
+    program = read_program(data, source.options(dialect), progress.part(0.05, 0.6))
     program = replace(program, motions=anchored(program.motions))
     progress.step(0.6, "Preparing the picture")
     shapes = shape_motions(program)

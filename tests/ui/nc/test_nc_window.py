@@ -16,6 +16,7 @@ from app.ui.nc.motion_picture import PathColour
 from app.ui.nc.motion_shapes import Side
 from app.ui.start import build
 from app.ui.views import View
+from tests.ui.nc.hand_made import long_program
 
 WAIT_MS = 20_000
 CTRL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
@@ -31,7 +32,6 @@ def wiring(qtbot):
         window.activateWindow()
     yield made
     window.worker.finish(20.0)
-    made.nc.reading.worker.finish(20.0)
     made.document.load(made.document.job)
     window.close()
     window.deleteLater()
@@ -165,7 +165,8 @@ def test_text_with_an_error_is_shown_up_to_there(qtbot, wiring, data):
     assert len(nc.shown.shapes) == 1
     assert nc.pane.text.current == 4
     assert nc.pane.panel.isVisible()
-    assert nc.pane.panel.list.item(0).text().startswith("5:1   G42: ")
+    error = nc.shown.program.error
+    assert nc.pane.panel.list.item(0).text() == f"5:{error.column}   {error.word}: {error.text}"
     assert wiring.window_.command_line.log.lines[-1].error
     nc.pane.text.pick(0)
     wiring.window_.actions_["nc_problem"].trigger()
@@ -320,3 +321,32 @@ def test_a_post_with_a_file_for_each_tool_offers_its_files(qtbot, computed):
     files.activated.emit(1)
     qtbot.waitUntil(lambda: nc.shown is not None and nc.shown.source.name == files.itemText(1), timeout=WAIT_MS)
     assert nc.pane.text.text.text == computed.computation.made.files[1].nc.text != first
+
+
+def test_cutter_compensation_takes_the_diameters_of_the_jobs_tools(qtbot, wiring, tmp_path):
+    path = tmp_path / "wall.ngc"
+    path.write_text("G21 G90 G17 G94\nT1 M6\nG0 X0 Y0 Z0\nG41 D1 G1 X10 F300\nX50\nG40 X60\nM2\n")
+    nc = open_file(qtbot, wiring, path)
+    assert nc.shown.program.error is None
+    radius = wiring.document.job.tools[0].radius
+    assert abs(nc.shown.program.motions.end[2, 1]) == pytest.approx(radius)
+
+
+def test_cancelled_reading_leaves_what_was_shown(qtbot, wiring, small, tmp_path):
+    path = tmp_path / "long.ngc"
+    path.write_bytes(long_program(100_000)[0])
+    wiring.nc.open(path)
+    assert wiring.window_.status.cancel.isVisible()
+    qtbot.mouseClick(wiring.window_.status.cancel, Qt.MouseButton.LeftButton)
+    assert not wiring.window_.status.cancel.isVisible()
+    qtbot.wait(600)
+    assert small.shown.source.name == "small.ngc"
+
+
+def test_opening_a_program_does_not_disturb_the_computation(qtbot, wiring, samples, data):
+    wiring.files.open_sample()
+    qtbot.waitUntil(lambda: wiring.computation.state is State.RUNNING, timeout=WAIT_MS)
+    wiring.files.open_file(data / "nc" / "tux.ngc")
+    qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: nc_of(wiring).shown is not None, timeout=WAIT_MS)
+    assert nc_of(wiring).shown.source.name == "tux.ngc"
