@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,6 +59,10 @@ class NcFile:
     suffix: str
     nc: NcText
     first: int = 0
+
+    def named(self, chosen: Path) -> Path:
+        """Return the file's own path for the path that the user chose: "part.nc", or "part_1_T3.nc" where there are several."""
+        return chosen.with_name(f"{chosen.stem}{self.suffix}{chosen.suffix}") if self.suffix else chosen
 
 
 def write_files(program: Program, job: Job, post: Post, progress: Progress = NO_PROGRESS) -> tuple[NcFile, ...]:
@@ -124,9 +129,14 @@ def _written(program: Program, job: Job, post: Post, file: tuple[int, int], prog
 
 
 def blend_mm(job: Job, post: Post) -> float:
-    """Return how far the control may leave the written path, mm: what the blending block says, 0 for an exact path."""
+    """Return how far the control may leave the written path, mm: 0 for an exact path, else what the blending block says.
+
+    Where no block says it, it is what the post takes the control's own setting as.
+    """
     if job.exact_path:
         return 0.0
+    if "{blend}" not in post.blending.blend:
+        return post.blending.tolerance_mm
     scale: int = 10 ** post.digits(job.out_units).X
     return math.floor(post.blending.tolerance_mm / job.out_units.value * scale + 1e-6) / scale * job.out_units.value
 
