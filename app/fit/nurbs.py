@@ -14,6 +14,8 @@ Floats = NDArray[np.float64]
 
 _FINEST = 1e-9
 """Chords are not asked to be nearer than this share of the curve's extent; rounding would keep them from it."""
+_AT_ONCE = 512
+"""Pieces that are halved together; it bounds the memory that a long curve takes."""
 _MOST_HALVINGS = 60
 """Enough for weights that differ by a factor of 1e9 and more."""
 
@@ -63,7 +65,14 @@ def _pieces(curve: Nurbs) -> Floats:
 
 
 def _ends_of_chords(pieces: Floats, owner: NDArray[np.int64], tolerance: float) -> tuple[Floats, NDArray[np.int64]]:
-    """Halve pieces until each is near its chord; return the chords' ends (n, 3) and whose they are (n,)."""
+    """Return the ends (n, 3) of chords near enough to their pieces, and whose they are (n,); some pieces at a time."""
+    portions = [slice(k, k + _AT_ONCE) for k in range(0, max(1, len(pieces)), _AT_ONCE)]
+    done = [_halved_until(pieces[portion], owner[portion], tolerance) for portion in portions]
+    return np.concatenate([ends for ends, _ in done]), np.concatenate([owners for _, owners in done])
+
+
+def _halved_until(pieces: Floats, owner: NDArray[np.int64], tolerance: float) -> tuple[Floats, NDArray[np.int64]]:
+    """Halve pieces until each is near its chord; return the chords' ends and whose they are."""
     limit = np.maximum(tolerance, _FINEST * np.ptp(pieces[..., :3] / pieces[..., 3:], axis=1).max(axis=1, initial=0.0))
     for _ in range(_MOST_HALVINGS):
         far = _off_chord(pieces) > limit

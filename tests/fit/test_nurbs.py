@@ -2,6 +2,7 @@
 
 import itertools
 import time
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -65,3 +66,16 @@ def test_curves_that_stand_still_turn_back_or_are_huge(points: np.ndarray) -> No
 def test_many_at_once_are_as_each_by_itself(curves: list[Nurbs]) -> None:
     for curve, chords in zip(curves, flattened_all(curves, 0.1), strict=True):
         assert np.array_equal(chords, flattened(curve, 0.1))
+
+
+def test_a_curve_of_very_many_pieces_takes_memory_in_proportion() -> None:
+    count, degree = 4000, 19
+    points = np.column_stack([np.arange(count) * 1.0, np.sin(np.arange(count) * 2.0) * 40, np.zeros(count)])
+    knots = np.concatenate([np.zeros(degree + 1), np.arange(1, count - degree), np.full(degree + 1, count - degree)])
+    curve = Nurbs(points, np.ones(count), knots, degree)
+    tracemalloc.start()
+    chords = flattened(curve, 0.001)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert len(chords) > count - degree
+    assert peak < 60e6
