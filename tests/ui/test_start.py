@@ -52,6 +52,26 @@ wiring.Wiring.__init__ = watched
 """
 
 
+CLOSE_WHEN_SHOWN = """
+from PySide6.QtCore import QTimer
+import app.ui.nc.control as control
+plain = control.NcControl._on_foreign
+def watched(self, remember, shown):
+    plain(self, remember, shown)
+    print(shown.source.name, len(shown.shapes))
+    QTimer.singleShot(50, self._window.close)
+control.NcControl._on_foreign = watched
+"""
+
+
+def test_a_program_named_on_the_command_line_is_shown(data, tmp_path):
+    program = str(data / "nc" / "tux.ngc")
+    done = hitofude("open", program, before=f"exec({CLOSE_WHEN_SHOWN!r})", QT_QPA_PLATFORM="offscreen", HITOFUDE_CONFIG=str(tmp_path))
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == ["tux.ngc", "4287"]
+    assert "Traceback" not in done.stderr
+
+
 def test_window_closed_while_computing_ends_cleanly(data, tmp_path):
     drawing = str(data / "dxf" / "complex.dxf")
     done = hitofude("open", drawing, before=f"exec({CLOSE_WHILE_COMPUTING!r})", QT_QPA_PLATFORM="offscreen", HITOFUDE_CONFIG=str(tmp_path))

@@ -101,14 +101,14 @@ def test_tabs_lead_from_drawing_to_nc(qtbot, computed):
 
 def test_export_writes_what_was_computed(qtbot, computed, tmp_path):
     target = tmp_path / "part"
-    computed.files.exporting.choose_file = lambda: target
+    computed.files.exporting.choose_file = lambda _: target
     with qtbot.waitSignal(computed.files.exporting.written, timeout=WAIT_MS):
         press(qtbot, computed, Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier)
     assert (tmp_path / "part.ngc").read_text("ascii") == computed.computation.made.nc.text
 
 
 def test_export_that_cannot_be_written_says_so(qtbot, computed, tmp_path):
-    computed.files.exporting.choose_file = lambda: tmp_path / "no" / "folder.ngc"
+    computed.files.exporting.choose_file = lambda _: tmp_path / "no" / "folder.ngc"
     with qtbot.waitSignal(computed.files.exporting.failed) as caught:
         computed.files.exporting.start()
     assert "folder.ngc" in caught.args[0]
@@ -117,7 +117,7 @@ def test_export_that_cannot_be_written_says_so(qtbot, computed, tmp_path):
 
 def test_export_of_a_changed_job_computes_first_and_shows_findings_before_the_file(qtbot, computed, tmp_path):
     target = tmp_path / "open.ngc"
-    computed.files.exporting.choose_file = lambda: target
+    computed.files.exporting.choose_file = lambda _: target
     computed.document.run("line 150,0 150,50 170,50")
     computed.files.exporting.start()
     notice = computed.window_.notice

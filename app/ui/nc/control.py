@@ -213,8 +213,9 @@ class NcControl(QObject):
         if guessed is not None or not self.foreign:
             self._view.pane.head.show_dialect(guessed or dialect or Dialect.LINUXCNC, dialect, self.foreign)
         self._view.pane.head.show_files([] if self.foreign else [own.name for own in self._own], self._own_at)
-        if self.foreign:
-            banner.say("Not the job's program.", "Back to the job's program")
+        if self._foreign is not None:
+            where = "Not the job's program." if self._foreign.path else "In no file yet; Ctrl+Alt+S saves it."
+            banner.say(where, "Back to the job's program" if self._own else "Close it")
         elif self._computation.outdated and self._computation.state is not State.RUNNING:
             banner.say("The job has changed since.", "Compute  F5")
         else:
