@@ -18,7 +18,6 @@ from app.cli_output import tell
 from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.model.finding import FindingKind
-from app.nc.write import NcFile
 from app.progress import Progress
 from app.workflow.make import Made, make
 from app.workflow.options import MakeOptions
@@ -53,7 +52,7 @@ def make_command(argv: Sequence[str], stopped: threading.Event) -> int:
     outputs = _check_outputs(arguments)
     options = _with_job(make_options(arguments), arguments.job)
     made = make(arguments.drawing.name, read_input(arguments.drawing), options, shown_progress(arguments.quiet, stopped))
-    names = program_files(arguments.output, made.files)
+    names = [file.named(arguments.output) for file in made.files]
     _write(made, outputs, names)
     if not arguments.quiet:
         _summary(made, names)
@@ -122,11 +121,6 @@ def check_outputs(outputs: Mapping[str, Path], inputs: Sequence[Path]) -> None:
             raise InputError(f"--{name} {path} is named twice or is also an input; give every file its own name")
         if not path.is_char_device():
             taken.append(_identity(path))
-
-
-def program_files(path: Path, files: Sequence[NcFile]) -> list[Path]:
-    """Return where each file of a program goes: to the path, or beside it, as part_1_T1.nc, part_2_T2.nc."""
-    return [path.with_name(f"{path.stem}{file.suffix}{path.suffix}") if file.suffix else path for file in files]
 
 
 def _identity(path: Path) -> object:

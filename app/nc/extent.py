@@ -30,6 +30,10 @@ class Extent:
         return (self.high[0] - self.low[0], self.high[1] - self.low[1], self.high[2] - self.low[2])
 
 
+NOWHERE = Extent((np.nan,) * 3, (np.nan,) * 3)
+"""The box of no motion."""
+
+
 def extent(motions: Motions, chosen: NDArray[np.bool_] | None = None) -> Extent:
     """Return the box round motions: arcs by what they reach, splines by their control points.
 

@@ -39,6 +39,7 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         Spec("sample", "Open &sample part"),
         SEPARATOR,
         Spec("export", "&Export NC…", "Ctrl+E", "export"),
+        Spec("frame", "Export &frame of the job…"),
         SEPARATOR,
         Spec("quit", "&Quit", "Ctrl+Q"),
     )),

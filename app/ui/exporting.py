@@ -4,63 +4,83 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from app.atomic import write_atomically
+from app.atomic import write_together
 from app.errors import HitofudeError
+from app.nc.posts import load_post
 from app.ui.computation import Computation, State
 from app.ui.figures import counted
 from app.ui.notice import Notice
 from app.ui.verdict import short, worst_first
 
-SUFFIX = ".ngc"
+if TYPE_CHECKING:
+    from app.workflow.make import Made
+
 FILTER = "NC programs (*.ngc *.nc *.tap);;All files (*)"
 
 
 class Exporting(QObject):
     """Computes first when the paths are out of date, asks for the file, writes it whole or not at all.
 
+    A control that changes no tools gets a file for each tool beside the chosen name: all of them, or none.
+
     Signals:
-        written(path, lines). failed(sentence). show_findings(): the user wants to see them first.
+        written(paths, lines): every file, and the lines of all. failed(sentence). show_findings(): the user wants to see them first.
 
     Attributes:
-        choose_file: asks the user for a path; None = he changed his mind.
+        choose_file: asks the user for a path, given how its name may end; None = he changed his mind.
     """
 
-    written = Signal(str, int)
+    written = Signal(list, int)
     failed = Signal(str)
     show_findings = Signal()
 
-    def __init__(self, computation: Computation, notice: Notice, choose_file: Callable[[], Path | None]) -> None:
+    def __init__(self, computation: Computation, notice: Notice, choose_file: Callable[[str], Path | None]) -> None:
         super().__init__()
         self._computation, self._notice = computation, notice
         self.choose_file = choose_file
-        self._waiting = False
+        self._waiting: Callable[[], None] | None = None
         computation.finished.connect(self._on_finished)
         computation.failed.connect(self._forget)
 
     def start(self) -> None:
         """Export the job as it is now."""
+        self._when_computed(self._ask)
+
+    def start_frame(self) -> None:
+        """Write the program that goes round the box of the cuts at clearance height, spindle off."""
+        self._when_computed(self._write_frame)
+
+    def _when_computed(self, act: Callable[[], None]) -> None:
         if self._computation.state is State.CURRENT:
-            self._ask()
+            act()
         else:
-            self._waiting = True
+            self._waiting = act
             if self._computation.state is not State.RUNNING:
                 self._computation.start()
 
     def _forget(self, _: str) -> None:
-        self._waiting = False
+        self._waiting = None
 
     def _on_finished(self) -> None:
-        if self._waiting:
-            self._waiting = False
-            self._ask()
+        act, self._waiting = self._waiting, None
+        if act is not None:
+            act()
 
-    def _ask(self) -> None:
+    def _made(self) -> Made | None:
+        """Return the job's result if there is something to write, else say so."""
         made = self._computation.made
         if made is None or not len(made.program.moves):
             self.failed.emit("There is no path to write: the drawing has no closed contour that the tools fit into.")
+            return None
+        return made
+
+    def _ask(self) -> None:
+        made = self._made()
+        if made is None:
             return
         counting = [f for f in worst_first(made.findings) if f.counts]
         if not counting:
@@ -74,13 +94,27 @@ class Exporting(QObject):
         if made is None or self._computation.state is not State.CURRENT:
             self.failed.emit("The job has changed; export it again.")
             return
-        path = self.choose_file()
-        if path is None:
-            return
-        path = path if path.suffix else path.with_suffix(SUFFIX)
+        path = self._chosen(made, "")
+        if path is not None:
+            self._keep({file.named(path): file.nc.text for file in made.files})
+
+    def _write_frame(self) -> None:
+        made = self._made()
+        path = self._chosen(made, "_frame") if made is not None else None
+        if made is not None and path is not None:
+            self._keep({path: made.frame()})
+
+    def _chosen(self, made: Made, suffix: str) -> Path | None:
+        """Ask for a file; a name without an extension gets that of the post."""
+        extension = load_post(made.job.post).extension
+        path = self.choose_file(f"{suffix}{extension}")
+        return path if path is None or path.suffix else path.with_suffix(extension)
+
+    def _keep(self, texts: dict[Path, str]) -> None:
+        """Write all files or none."""
         try:
-            write_atomically(path, made.nc.text.encode("ascii"))
+            write_together({path: text.encode("ascii") for path, text in texts.items()})
         except HitofudeError as error:
             self.failed.emit(str(error))
         else:
-            self.written.emit(str(path), made.nc.text.count("\n"))
+            self.written.emit(list(texts), sum(text.count("\n") for text in texts.values()))

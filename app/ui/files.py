@@ -92,9 +92,9 @@ class Files(QObject):
         if menu.isEmpty():
             menu.addAction("Nothing was opened yet").setEnabled(False)
 
-    def _choose_nc_file(self) -> Path | None:
+    def _choose_nc_file(self, ending: str) -> Path | None:
         stem = self._document.path.stem if self._document.path else self._document.part.name
-        start = str(Path(self._window.settings.last_folder or Path.home()) / f"{stem}.ngc")
+        start = str(Path(self._window.settings.last_folder or Path.home()) / f"{stem}{ending}")
         name, _ = QFileDialog.getSaveFileName(self._window, "Export NC", start, FILTER)
         return Path(name) if name else None
 
@@ -117,9 +117,10 @@ class Files(QObject):
         self._gives_up = True
         self._window.close()
 
-    def _on_written(self, path: str, lines: int) -> None:
-        self._log.note(f"export {Path(path).name}", f"{counted(lines, 'line')} written to {path}")
-        self._window.status.show_message(f"{Path(path).name} is written.")
+    def _on_written(self, paths: list[Path], lines: int) -> None:
+        names = ", ".join(path.name for path in paths)
+        self._log.note(f"export {names}", f"{counted(lines, 'line')} written to {paths[0].parent}")
+        self._window.status.show_message(f"{names} {'is' if len(paths) == 1 else 'are'} written.")
 
     def _on_opened(self, opened: Opened) -> None:
         window = self._window

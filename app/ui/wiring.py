@@ -68,6 +68,7 @@ class Wiring(QObject):
         self._on("open", files.choose_file)
         self._on("sample", files.ask_sample)
         self._on("export", files.exporting.start)
+        self._on("frame", files.exporting.start_frame)
         self._on("quit", self.window_.close)
         files.opening.failed.connect(self._say_error)
         files.exporting.failed.connect(self._say_error)

@@ -15,6 +15,9 @@ from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.machine import Machine
 from app.model.moves import Program
+from app.model.stock_box import stock_box, work_origin
+from app.nc.extent import Extent
+from app.nc.frame import Frame, frame_text
 from app.nc.posts import load_post
 from app.nc.write import NcFile, NcText
 from app.progress import NO_PROGRESS, Progress
@@ -40,6 +43,7 @@ class Made:
         program: the moves; each knows its line of its NC file.
         files: the NC program, read back and found to be the moves: one file, or one a tool where the control changes
             none; none when no move was made.
+        box: round its cutting motions, mm, program coordinates.
         report: every measured number.
         findings: everything there is to say, what counts first.
         coverage: what is left on the floor, with outlines.
@@ -48,6 +52,7 @@ class Made:
     job: Job
     program: Program
     files: tuple[NcFile, ...]
+    box: Extent
     report: Report
     findings: tuple[Finding, ...]
     coverage: Coverage
@@ -56,6 +61,16 @@ class Made:
     def nc(self) -> NcText:
         """The NC text, of several files the first one; an empty one when no move was made."""
         return self.files[0].nc if self.files else NO_TEXT
+
+    def frame(self) -> str:
+        """Return the NC text that goes round the cuts at clearance height with the first tool, spindle off.
+
+        Raises:
+            ParameterError: nothing is cut.
+        """
+        height = self.job.safe_z - work_origin(self.job, stock_box(self.job, self.program.regions))[2] if self.files else 0.0
+        tool = self.job.tool(int(self.program.moves.tool[0])) if self.files else None
+        return frame_text(Frame(self.box, height, tool), self.job, load_post(self.job.post))
 
     @property
     def clean(self) -> bool:
@@ -143,7 +158,7 @@ def finish(
     findings = worst_first((*own, *program.findings, *drawing_findings))
     progress.step(1.0, "Done")
     report = make_report(Measured(program, job, written, deepest, rapids, coverage, findings))
-    return Made(job, program, written.files, report, findings, coverage)
+    return Made(job, program, written.files, written.box(cuts=True), report, findings, coverage)
 
 
 def _ring_findings(program: Program) -> tuple[Finding, ...]:

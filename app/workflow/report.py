@@ -15,6 +15,7 @@ from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program, Purpose
 from app.model.operation import Operation, PocketOperation
 from app.model.stock_box import extent
+from app.nc.extent import Extent
 from app.nc.write import blend_mm, writing_tolerance
 from app.toolpath.coverage import CHORD, STRIP, Coverage, Place
 from app.workflow.verdict import Gouge, RapidInMaterial, in_stock
@@ -99,6 +100,7 @@ def make_report(measured: Measured) -> Report:
         **_times(written),
         "moves": {f"G{kind.value}": int(np.sum(written.kind == kind)) for kind in MoveKind},
         "moves_method": MOVES_METHOD,
+        "extent_mm": {"cut": _box(written.box(cuts=True)), "all": _box(written.box(cuts=False)), "coordinates": "of the program"},
         "check": _check(written),
         "skipped": [_finding(each) for each in _of(measured, FindingKind.REGION_TOO_SMALL, FindingKind.LEFT_OUT, FindingKind.TINY_ENTITY)],
         "open_contours": [_finding(each) for each in _of(measured, FindingKind.OPEN_CONTOUR)],
@@ -134,6 +136,11 @@ def _check(written: Written) -> Json:
             "tolerance_mm": max((each.tolerance_mm for each in checks), default=0.0),
             "differences": sum(len(each.problems) for each in checks), "motions": len(written.kind),
             "files": [file.suffix for file in written.files], "method": CHECK_METHOD}
+
+
+def _box(box: Extent) -> Json:
+    """Return a box by its corners; null along an axis that no motion goes."""
+    return {end: [value if np.isfinite(value) else None for value in getattr(box, end)] for end in ("low", "high")}
 
 
 def _times(written: Written) -> Json:

@@ -13,11 +13,12 @@ from app.files.machine_toml import DEFAULT_MACHINE, load_machine
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.machine import Machine
+from app.model.motion import MotionKind
 from app.model.motion_path import anchored, lengths
 from app.model.moves import Program
 from app.nc.check import Check, Meant, check
 from app.nc.duration import Duration, duration
-from app.nc.extent import misfits
+from app.nc.extent import NOWHERE, Extent, extent, misfits
 from app.nc.post import Post
 from app.nc.read.program import NcProgram
 from app.nc.write import NcFile, write_files
@@ -75,6 +76,12 @@ class Written:
     @cached_property
     def _programs(self) -> tuple[NcProgram, ...]:
         return tuple(replace(each.program, motions=anchored(each.program.motions)) for each in self.checks)
+
+    def box(self, cuts: bool) -> Extent:
+        """Return the box round all motions, or round those that cut, mm, program coordinates."""
+        boxes = [extent(program.motions, program.motions.kind != MotionKind.RAPID if cuts else None) for program in self._programs]
+        low, high = (np.array([getattr(box, end) for box in boxes]) for end in ("low", "high"))
+        return Extent(tuple(np.min(low, axis=0).tolist()), tuple(np.max(high, axis=0).tolist())) if boxes else NOWHERE
 
     def misfits(self) -> tuple[Finding, ...]:
         """Return what the machine cannot do."""
