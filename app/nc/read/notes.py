@@ -19,7 +19,8 @@ _CHANGE_WORDS = (b"m6", b"m06")
 _STOCK_WORDS = (b"stock", b"workpiece", b"material size", b"top of material", b"blank", b"billet")
 _CHANGE = re.compile(r"(?<![a-z#\d])t\s?0{0,3}(\d{1,4})(?![\d.])", re.IGNORECASE)
 _COMMENT = re.compile(r"\([^()]{0,400}\)?|;.*")
-_LINES_BELOW = 5
+_LINES_BELOW, _BLOCKS_BELOW = 60, 5
+"""A comment belongs to a T word so many lines below it, if no more than so many of them are blocks."""
 _TOGETHER = 10
 """Comments that are so many lines apart may tell of one tool; PyCAM has a line for each of its properties."""
 _BOUNDS_AROUND = 200
@@ -124,13 +125,18 @@ def _at_changes(comments: Comments) -> Iterator[tuple[int, str, int]]:
 
 
 def _number_near(comments: Comments, at: int) -> int:
-    """Return the T number beside a comment or in the lines below, 0 where there is none."""
+    """Return the T number beside a comment or in the first blocks below it, 0 where there is none."""
     begin = end = comments.line_begin(at)
+    blocks = 0
     for _ in range(_LINES_BELOW):
         begin, end = end, min(comments.line_end(end) + 1, len(comments.data))
-        change = _CHANGE.search(_COMMENT.sub(" ", comments.text(begin, end)))
+        block = _COMMENT.sub(" ", comments.text(begin, end))
+        change = _CHANGE.search(block)
         if change:
             return int(change[1])
+        blocks += bool(block.strip())
+        if blocks == _BLOCKS_BELOW:
+            break
     return 0
 
 

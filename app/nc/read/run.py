@@ -29,7 +29,12 @@ LINES_A_STEP = 20_000
 LEADER = 4096
 """Bytes before the per cent sign that may be something else."""
 
-_PLAIN = re.compile(rb"[ \tgxyzijkrfnGXYZIJKRFN0-9.+\-]*(?:[(;][^\n]*)?\n")
+_PLAIN = re.compile(rb"(?:[ \txyzijkrfnXYZIJKRFN0-9.+\-]+|[gG][ \t]*0?[0-3](?![ \t]*[0-9.]))*+(?:[(;][^\n]*)?\n")
+"""A line that the lane may know how to do."""
+
+MOST_KEPT = 10_000
+"""Lines of loops and subroutines that are kept as they were understood."""
+
 _LEADER = re.compile(rb"[ \t\n\v\f\0]*%")
 _PERCENT = re.compile(rb"^[ \t]*%", re.MULTILINE)
 _O_WORD = re.compile(r"/?(?:n[0-9.]+)?[o:]")
@@ -52,9 +57,9 @@ class Run:
         self._flow = Flow(Places(self._text), self._control)
         self._bytes = np.frombuffer(self._text.data, np.uint8)
         self._plain = Plain(semicolon_comments=True)
-        self._parsed: dict[int, Parsed] = {}
+        self._kept: dict[int, Parsed | str] = {}
         self._problems: list[Problem] = []
-        self._furthest = self._told = 0
+        self._furthest, self._told = -1, 0
         self._stop = len(self._text.data) + 1
         self.stopped = self.inside = False
 
@@ -120,7 +125,7 @@ class Run:
     def _count(self) -> None:
         """Count what is read again; look up now and then."""
         at = self._flow.next
-        if at.offset >= self._furthest:
+        if at.offset > self._furthest:
             self._furthest = at.offset
         else:
             self._control.unroll()
@@ -160,36 +165,41 @@ class Run:
 
     def _obey(self, at: Cursor) -> bool:
         """Do a line of any kind; False at the end of the program."""
-        parsed = self._parsed.get(at.offset)
-        if parsed is None:
-            if self._text.line_end(at.offset) - at.offset > self._options.limits.line_length:
-                raise Fault(f"the line is longer than {self._options.limits.line_length} characters.")
-            code = code_of(self._text.line(at.offset), nested=self._options.dialect is not Dialect.LINUXCNC)
-            if code.startswith("%"):
-                return False
-            if not code or (code.startswith("/") and self._options.block_delete):
-                return True
-            done, code = self._jumped(code)
-            if done:
-                return True
-            parsed = parse(code, self._options.limits.nesting)
-            if code and self._flow.nested:
-                self._parsed[at.offset] = parsed
-        return self._execute(block_of(parsed, self._control.parameters))
+        line = self._kept.get(at.offset)
+        if line is None:
+            line = self._understood(at)
+            if self._flow.nested and len(self._kept) < MOST_KEPT:
+                self._kept[at.offset] = line
+        if isinstance(line, Parsed):
+            return self._execute(block_of(line, self._control.parameters))
+        if not line or line.startswith("%"):
+            return not line
+        rest = self._jump(line)
+        return not rest or self._execute(block_of(self._parse(rest), self._control.parameters))
 
-    def _jumped(self, code: str) -> tuple[bool, str]:
-        """Obey a line that is a jump; return whether it is done, and what is left of it."""
+    def _understood(self, at: Cursor) -> Parsed | str:
+        """Return a line in words, or its code: "" where there is nothing to do, or what begins with % or is a jump."""
+        if self._text.line_end(at.offset) - at.offset > self._options.limits.line_length:
+            raise Fault(f"the line is longer than {self._options.limits.line_length} characters.")
+        code = code_of(self._text.line(at.offset), nested=self._options.dialect is not Dialect.LINUXCNC)
+        if not code or (code.startswith("/") and self._options.block_delete):
+            return ""
+        if code.startswith("%") or _O_WORD.match(code) is not None or (self._habits.fanuc_flow and is_macro(code)):
+            return code
+        return self._parse(code)
+
+    def _parse(self, code: str) -> Parsed:
+        return parse(code, self._options.limits.nesting, free=self._habits.fanuc_flow)
+
+    def _jump(self, code: str) -> str:
+        """Obey a line that is a jump; return what is left of it to obey."""
         if self._habits.fanuc_flow and is_macro(code):
-            rest = obey_macro(self._flow, self._control, code)
-            return not rest, rest
-        if _O_WORD.match(code) is None:
-            return False, code
+            return obey_macro(self._flow, self._control, code)
         if self._habits.ngc_flow:
             self._flow.obey(code)
-            return True, ""
-        if not self._habits.fanuc_flow:
+        elif not self._habits.fanuc_flow:
             raise Fault(f"{self._habits.title} knows no O words.", column=-1)
-        return True, ""
+        return ""
 
     def _execute(self, block: Block) -> bool:
         """Do a block; False at the end of the program."""
@@ -228,10 +238,10 @@ class Run:
             self._control.warn(f"{unused.upper()} stands in a block where no code takes it; it is passed over.", unused)
 
     def _unused(self, block: Block) -> str:
-        letter = block.unused()
-        modal = self._control.motion if Group.MOTION not in block.codes else ""
-        repeats = letter == "k" and self._habits.fanuc_flow and self._control.motion in CYCLES
-        return "" if repeats or (letter and letter in TAKES.get(modal, "")) else letter
+        """Return a letter that neither the block's codes nor the motion in force takes, or ""."""
+        letter, motion = block.unused(), block.codes.get(Group.MOTION, self.control.motion)
+        repeats = letter == "k" and self._habits.fanuc_flow and motion in CYCLES
+        return "" if repeats or (letter and letter in TAKES.get(motion, "")) else letter
 
     def _located(self, fault: Fault, severity: Severity) -> Problem:
         """Return a fault with its place in the text."""
@@ -247,7 +257,7 @@ class Run:
     def _word(self, line: str, letters: str, text: str) -> tuple[int, str]:
         """Return column and spelling of the word that a fault is about: the one that its text names, else the first."""
         try:
-            words = parse(code_of(line, nested=True).removeprefix("/"), self._options.limits.nesting).words
+            words = self._parse(code_of(line, nested=True).removeprefix("/")).words
         except Fault:
             return 0, ""
         mine = [word for word in words if word.letter in letters]

@@ -178,7 +178,9 @@ def test_comments_that_tell_of_no_stock(comment: str) -> None:
 
 def test_the_shared_programs() -> None:
     folder = ROOT / "tests" / "data" / "nc"
-    assert tools((folder / "test_pycam.ngc").read_text("latin-1")) == (ToolNote(0, "flat", 6.0, line=27),)
+    assert tools((folder / "test_pycam.ngc").read_text("latin-1")) == (
+        ToolNote(1, "flat", 6.0, line=27), ToolNote(2, "bull", 2.0, 0.2, line=441), ToolNote(3, "ball", 1.0, line=1699),
+    )  # fmt: skip
     box = stock((folder / "test_pycam.ngc").read_text("latin-1"))
     assert box is not None
     assert (box.low, box.high) == ((-10.0, -2.0, -10.0), (140.0, 52.0, 0.0))
