@@ -239,7 +239,7 @@ class Run:
 
     def _unused(self, block: Block) -> str:
         """Return a letter that neither the block's codes nor the motion in force takes, or ""."""
-        letter, motion = block.unused(), block.codes.get(Group.MOTION, self.control.motion)
+        letter, motion = block.unused(), block.codes.get(Group.MOTION, self._control.motion)
         repeats = letter == "k" and self._habits.fanuc_flow and motion in CYCLES
         return "" if repeats or (letter and letter in TAKES.get(motion, "")) else letter
 

@@ -191,3 +191,9 @@ def test_columns_count_what_is_written() -> None:
 def test_axes_that_the_program_has_not_set() -> None:
     assert read("G0 Z5\nX1\nG91 Y1\nM2\n").motions.known_from == (1, 3, 0)
     assert read("G28 Z5 F1\nT1 M6\nG1 X1 S5\nM2\n").motions.known_from == (2, 3, 0)
+
+
+def test_fanuc_repeats_holes_by_k() -> None:
+    text = "G91 F100.\nG81 X1. Z-1. R1. K2\nG80\nM30\n"
+    assert [end[0] for end in ends(read(text, Dialect.FANUC))][-1] == 2
+    assert not warnings(text, Dialect.FANUC)
