@@ -57,12 +57,13 @@ class Parsed:
     words: tuple[Word, ...]
 
 
-def parse(code: str, nesting: int) -> Parsed:
+def parse(code: str, nesting: int, free: bool = False) -> Parsed:
     """Return the words of a line.
 
     Args:
         code: as `text.code_of` gives it.
         nesting: how deep brackets may go.
+        free: what a parameter is set to needs no brackets, as Fanuc has it.
 
     Raises:
         Fault: something in it is no word.
@@ -85,7 +86,7 @@ def parse(code: str, nesting: int) -> Parsed:
             if code[values.at : values.at + 1] != "=":
                 raise Fault("expected = behind the parameter that is set.", column=-1 - values.at)
             values.at += 1
-            settings.append((key, values.value()))
+            settings.append((key, values.expression() if free else values.value()))
         elif "a" <= letter <= "z":
             words.append(Word(letter, values.value(), begin, values.at, False))
         else:

@@ -132,9 +132,17 @@ class Values:
             return value if sign == "+" else (-value if isinstance(value, float) else _negative(value))
         return self._function()
 
+    def expression(self) -> Value:
+        """Read values joined by operators, as they stand within brackets.
+
+        Raises:
+            Fault: there is none here, or it is wrong.
+        """
+        return self._term(1)
+
     def _bracket(self) -> Value:
         self.at += 1
-        value = self._term(1)
+        value = self.expression()
         if self._peek() != "]":
             raise self._fault("expected ] or an operator")
         self.at += 1

@@ -83,7 +83,7 @@ def test_nothing_is_read_behind_the_end() -> None:
     [
         ("F1\no1 while [1]\nG1 X1\no1 endwhile\n", Dialect.LINUXCNC, "a.ngc:4: this goes on for ever"),
         ("N1 G0 X1.\nGOTO 1\n", Dialect.FANUC, "a.ngc:2: this goes on for ever"),
-        ("#1=0\no1 while [1]\n#1=[#1+1]\no1 endwhile\n", Dialect.LINUXCNC, "a.ngc:4: loops, calls and cycles repeat more than"),
+        ("#1=0\no1 while [1]\n#1=[#1+1]\no1 endwhile\n", Dialect.LINUXCNC, "a.ngc:2: loops, calls and cycles repeat more than"),
         ("O1\nM98 P1\nM99\n", Dialect.FANUC, "subroutines call one another more than 10 deep"),
         ("o1 sub\no1 call\no1 endsub\no1 call\n", Dialect.LINUXCNC, "subroutines call one another more than 10 deep"),
         ("F100\nG81 G91 X1 Z-1 R1 L99999999\n", Dialect.LINUXCNC, "a.ngc:2: loops, calls and cycles repeat more than"),
@@ -117,3 +117,8 @@ def test_what_was_read_before_an_error_stays() -> None:
     assert ends(program) == [(1, 0, 0), (2, 0, 0)]
     assert program.error is not None
     assert program.error.line == 3
+
+
+def test_a_condition_in_a_fanuc_subroutine_is_asked_at_every_pass() -> None:
+    text = "O1\n#100=0\nM98 P2 L3\nM30\nO2\n#100=#100+1\nIF [#100 EQ 1] THEN #101=7\nG91 G0 X#101\n#101=0\nM99\n"
+    assert way(text, Dialect.FANUC) == [7, 7, 7]
