@@ -22,6 +22,7 @@ from app.ui.memory import choose_theme
 from app.ui.nc.control import NcControl
 from app.ui.nc.wiring import NcWiring
 from app.ui.panels.changes import Subject, SubjectKind
+from app.ui.panels.tool_exchange import ToolExchange
 from app.ui.showing import Showing
 from app.ui.verdict import Level, verdict
 from app.ui.views import View
@@ -48,6 +49,7 @@ class Wiring(QObject):
         self.showing = Showing(window)
         self.nc = NcControl(window, self.log)
         self.files = Files(window, self.showing, self.log, self.nc.open)
+        self.tools = ToolExchange(window, self.log)
         self._connect_files()
         self._connect_edit()
         self._connect_view()
@@ -110,6 +112,9 @@ class Wiring(QObject):
         panel, computation = self.window_.panel, self.computation
         self._on("job_properties", lambda: panel.choose(Subject(SubjectKind.JOB)))
         self._on("add_tool", panel.tools.added.emit)
+        self._on("tool_library", panel.switch_library)
+        self._on("import_tools", self.tools.choose_file)
+        self._on("export_tools", self.tools.choose_place)
         self._on("add_pocket", lambda: panel.operations.added.emit(PocketOperation))
         self._on("add_contour", lambda: panel.operations.added.emit(ContourOperation))
         self._on("compute", self.compute)

@@ -8,7 +8,7 @@ from enum import Enum
 from app.errors import ParameterError
 from app.model.job import Job
 from app.model.operation import ContourOperation, Cut, Operation, Order, PocketOperation
-from app.model.tool import Tool
+from app.model.tool import FeedRow, Tool
 
 
 class SubjectKind(Enum):
@@ -45,6 +45,26 @@ def stepover_of(operation: PocketOperation, tool: Tool) -> float:
     return operation.stepover if operation.stepover is not None else tool.diameter / 2
 
 
+def row_for(tool: Tool, material: str) -> FeedRow | None:
+    """Return a tool's row of feeds for a material."""
+    return next((row for row in tool.feeds if row.material.casefold() == material.casefold()), None)
+
+
+def for_material(tool: Tool, material: str) -> Tool:
+    """Return a tool with the feeds that it has for a material, as whole numbers; as it is where it has none."""
+    row = row_for(tool, material)
+    if row is None:
+        return tool
+    made = tool.in_material(row)
+    return replace(made, spindle_speed=float(max(10, round(made.spindle_speed, -1))), feed_rate=float(max(1, round(made.feed_rate))),
+                   plunge_rate=float(max(1, round(made.plunge_rate))))
+
+
+def material_of(tool: Tool) -> str:
+    """Return the material whose feeds a tool has now, "" where they are those of none."""
+    return next((row.material for row in tool.feeds if for_material(tool, row.material) == tool), "")
+
+
 def with_tool(job: Job, number: int, tool: Tool) -> Job:
     """Return the job with the tool `number` replaced; operations that use it follow a change of its number.
 
@@ -64,6 +84,13 @@ def with_new_tool(job: Job) -> tuple[Job, int]:
     number = max((t.number for t in job.tools), default=0) + 1
     like = job.tools[-1] if job.tools else Tool(number, 3.0)
     return replace(job, tools=(*job.tools, replace(like, number=number, name=""))), number
+
+
+def with_library_tool(job: Job, tool: Tool) -> tuple[Job, int]:
+    """Return the job with a tool of the library as one more, and its number: its own where that is free, else the next."""
+    taken = {t.number for t in job.tools}
+    number = tool.number if tool.number not in taken else max(taken) + 1
+    return replace(job, tools=(*job.tools, replace(tool, number=number))), number
 
 
 def without_tool(job: Job, number: int) -> Job:

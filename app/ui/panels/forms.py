@@ -17,7 +17,16 @@ from app.nc.posts import post_titles
 from app.ui.figures import counted
 from app.ui.icons import IconButton
 from app.ui.labels import muted
-from app.ui.panels.changes import in_cutting_order, operation_name, stepover_of, with_cut, with_operation, with_tool
+from app.ui.panels.changes import (
+    for_material,
+    in_cutting_order,
+    material_of,
+    operation_name,
+    stepover_of,
+    with_cut,
+    with_operation,
+    with_tool,
+)
 from app.ui.panels.fields import ChoiceField, ListField, NumberField, Spec
 from app.ui.panels.section import Section
 from app.ui.samples import StepoverDrawing
@@ -112,8 +121,11 @@ class ToolForm(Form):
         self._number = 0
         self.number = self._add(Spec("T number", "", 1, 9999, 0, False), lambda tool, v: replace(tool, number=int(v)))
         self.kind = ListField("Kind", [(ToolKind.FLAT, "Flat end mill")])
-        self.add_choice("Kind", self.kind, lambda job, v: self._edit(job, lambda tool: replace(tool, kind=ToolKind(v))))
+        self.add_choice("Kind", self.kind, lambda job, v: self._edit(job, lambda tool: tool.as_kind(ToolKind(v))))
         self.diameter = self._add(Spec("Diameter", low=0.001, high=1000), lambda tool, v: replace(tool, diameter=v))
+        self.flutes = self._add(Spec("Flutes", "", 1, 100, 0, False), lambda tool, v: replace(tool, flutes=int(v)))
+        self.material = ListField("Feeds for", [])
+        self.add_choice("Feeds", self.material, lambda job, v: self._edit(job, lambda tool: for_material(tool, str(v))))
         self.speed = self._add(Spec("Speed", "rpm", 1, 200_000, 0, False), lambda tool, v: replace(tool, spindle_speed=v))
         self.feed = self._add(Spec("Feed", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, feed_rate=v))
         self.plunge = self._add(Spec("Plunge", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, plunge_rate=v))
@@ -134,6 +146,10 @@ class ToolForm(Form):
         self.kind.show_value(tool.kind)
         self.number.show_value(tool.number)
         self.diameter.show_value(tool.diameter)
+        self.flutes.show_value(tool.flutes)
+        self.material.set_choices([(row.material, row.material.capitalize()) for row in tool.feeds])
+        self.material.show_value(material_of(tool))
+        self.material.setVisible(bool(tool.feeds))
         self.speed.show_value(tool.spindle_speed)
         self.feed.show_value(tool.feed_rate)
         self.plunge.show_value(tool.plunge_rate)

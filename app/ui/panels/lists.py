@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QLabel, QMenu, QWidget
+from PySide6.QtWidgets import QLabel, QMenu
 
 from app.model.job import Job
 from app.model.operation import ContourOperation, Operation, PocketOperation
@@ -13,7 +13,7 @@ from app.ui.figures import TIMES, clock, grouped
 from app.ui.icons import IconButton, IconLabel
 from app.ui.labels import Elided, muted
 from app.ui.panels.changes import Subject, SubjectKind, operation_name
-from app.ui.panels.section import Row, Section
+from app.ui.panels.section import Row, Section, theme_children
 from app.ui.samples import LineSample, Sample, Switch
 from app.ui.theme import Theme
 
@@ -55,7 +55,7 @@ class ListSection(Section):
         row.stepped.connect(lambda way: self._step(subject, way))
         self.rows.addWidget(row)
         if self._theme is not None:
-            _theme_children(row, self._theme)
+            theme_children(row, self._theme)
 
     def show_chosen(self, subject: Subject) -> None:
         """Mark the row whose properties are shown."""
@@ -78,12 +78,6 @@ class ListSection(Section):
         if 0 <= at < len(keys):
             self._rows[keys[at]].setFocus()
             self.chosen.emit(keys[at])
-
-
-def _theme_children(parent: QWidget, theme: Theme) -> None:
-    for child in parent.findChildren(QWidget):
-        if hasattr(child, "set_theme"):
-            child.set_theme(theme)
 
 
 class JobSection(ListSection):
@@ -126,12 +120,21 @@ class JobSection(ListSection):
 
 
 class ToolSection(ListSection):
-    """Every tool of the job."""
+    """Every tool of the job.
+
+    Signals:
+        added(): the user wants another one. library(): wants the tool library shown, or hidden again.
+    """
 
     added = Signal()
+    library = Signal()
 
     def __init__(self) -> None:
         super().__init__("Tools")
+        self.library_button = IconButton("library", "Tool library (F6)")
+        self.library_button.setCheckable(True)
+        self.library_button.clicked.connect(self.library)
+        self.head.addWidget(self.library_button)
         self.add_button = IconButton("add", "Add a tool")
         self.add_button.clicked.connect(self.added)
         self.head.addWidget(self.add_button)

@@ -7,7 +7,7 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from app.ui.panels.fields import restyle
-from app.ui.theme import HEADING_PX, text_font
+from app.ui.theme import HEADING_PX, Theme, text_font
 
 EDGE = 16
 
@@ -26,6 +26,13 @@ def hairline() -> QFrame:
     made.setObjectName("hairline")
     made.setFixedHeight(1)
     return made
+
+
+def theme_children(parent: QWidget, theme: Theme) -> None:
+    """Give a theme to every part of a widget that takes one."""
+    for child in parent.findChildren(QWidget):
+        if hasattr(child, "set_theme"):
+            child.set_theme(theme)
 
 
 class Section(QWidget):

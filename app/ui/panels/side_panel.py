@@ -5,17 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QScrollArea, QVBoxLayout, QWidget
 
 from app.edit.document import Change, Document
 from app.errors import HitofudeError
+from app.files.tool_library import load_libraries
 from app.model.job import Job
 from app.model.operation import PocketOperation
+from app.model.tool import Tool
 from app.ui.panels import changes
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.fields import NumberField
 from app.ui.panels.forms import JobForm, OperationForm, ToolForm
+from app.ui.panels.library import LibrarySection
 from app.ui.panels.lists import JobSection, OperationSection, ToolSection
 from app.ui.panels.section import hairline
 
@@ -40,12 +44,13 @@ class SidePanel(QScrollArea):
         self.subject = Subject(SubjectKind.OPERATION, 0)
         self.job, self.tools, self.operations = JobSection(), ToolSection(), OperationSection()
         self.job_form, self.tool_form, self.operation_form = JobForm(), ToolForm(), OperationForm()
+        self.library = LibrarySection()
         self._lay_out()
         self._connect()
         self.refresh()
 
     def _lay_out(self) -> None:
-        inner = QWidget()
+        inner = self._inner = QWidget()
         inner.setObjectName("sidePanel")
         column = QVBoxLayout(inner)
         column.setContentsMargins(1, 4, 0, 8)
@@ -55,6 +60,8 @@ class SidePanel(QScrollArea):
             column.addWidget(hairline())
         for form in (self.job_form, self.tool_form, self.operation_form):
             column.addWidget(form)
+        column.addWidget(self.library)
+        self.library.hide()
         column.addStretch(1)
         self.setWidget(inner)
         self.setWidgetResizable(True)
@@ -76,12 +83,48 @@ class SidePanel(QScrollArea):
         self.operation_form.moved.connect(lambda way: self._move(self.subject.key, way))
         for form in (self.job_form, self.tool_form, self.operation_form):
             form.edited.connect(self._on_edited)
+        self.tools.library.connect(self.switch_library)
+        self.library.closed.connect(self.switch_library)
+        self.library.added.connect(self._add_from_library)
+        self.library.put.connect(self._put_from_library)
         self._unsubscribe = self._document.subscribe(self._on_change)
 
     def choose(self, subject: Subject) -> None:
-        """Show the properties of a subject."""
+        """Show the properties of a subject; the library stays open beside tools alone."""
         self.subject = subject
+        if subject.kind is not SubjectKind.TOOL:
+            self.library.hide()
         self.refresh()
+
+    def switch_library(self) -> None:
+        """Show the tool library in the place of the properties, or these again."""
+        opened = self.library.isHidden()
+        if opened:
+            self.read_libraries()
+        self.library.setVisible(opened)
+        self.refresh()
+        if opened:
+            self.library.search.setFocus(Qt.FocusReason.OtherFocusReason)
+            QTimer.singleShot(0, self._fit_library)
+
+    def _fit_library(self) -> None:
+        """Give the library's list the room that is left, and bring it into sight."""
+        if not self.library.isHidden():
+            others = self._inner.sizeHint().height() - self.library.area.height()
+            self.library.fit_into(self.viewport().height() - others)
+            QTimer.singleShot(0, lambda: self.ensureWidgetVisible(self.library, 0, 0))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Give the library's list the room that is left."""
+        super().resizeEvent(event)
+        self._fit_library()
+
+    def read_libraries(self) -> None:
+        """Take the libraries as their files are now; what is wrong with one is said by `refused`."""
+        libraries, problems = load_libraries()
+        self.library.show_libraries(libraries)
+        for problem in problems[:1]:
+            self.refused.emit(problem)
 
     def show_results(self, times: dict[int, float], strokes: int | None) -> None:
         """Show what was computed: seconds by index of the operation, and pocket strokes; None = not computed."""
@@ -122,9 +165,12 @@ class SidePanel(QScrollArea):
         else:
             pocket = isinstance(job.operations[self.subject.key], PocketOperation)
             self.operation_form.show_operation(job, self.subject.key, self._strokes if pocket else None)
-        self.job_form.setVisible(kind is SubjectKind.JOB)
-        self.tool_form.setVisible(kind is SubjectKind.TOOL)
-        self.operation_form.setVisible(kind is SubjectKind.OPERATION)
+        opened = not self.library.isHidden()
+        self.tools.library_button.setChecked(opened)
+        self.library.show_place(self.subject.key if kind is SubjectKind.TOOL else 0)
+        self.job_form.setVisible(kind is SubjectKind.JOB and not opened)
+        self.tool_form.setVisible(kind is SubjectKind.TOOL and not opened)
+        self.operation_form.setVisible(kind is SubjectKind.OPERATION and not opened)
 
     def _on_change(self, change: Change) -> None:
         if change & Change.JOB:
@@ -151,6 +197,18 @@ class SidePanel(QScrollArea):
             return new
 
         self.change("Add tool", make)
+
+    def _add_from_library(self, tool: Tool) -> None:
+        def make(job: Job) -> Job:
+            new, number = changes.with_library_tool(job, tool)
+            self.subject = Subject(SubjectKind.TOOL, number)
+            return new
+
+        self.change("Add tool", make)
+
+    def _put_from_library(self, tool: Tool) -> None:
+        number = self.subject.key
+        self.change(f"Replace T{number}", lambda job: changes.with_tool(job, number, replace(tool, number=number)))
 
     def _add_operation(self, kind: type) -> None:
         def make(job: Job) -> Job:

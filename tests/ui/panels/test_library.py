@@ -1,0 +1,187 @@
+"""The tool library in the side panel: search, feeds for a material, into the job undoably; files in and out."""
+
+from dataclasses import replace
+
+import pytest
+from PySide6.QtCore import Qt
+
+from app.edit.document import Document
+from app.files.tool_files import read_tools, write_tools
+from app.files.tool_library import ToolLibrary, load_libraries, own_folder
+from app.model.job import Job
+from app.model.part import Part, Units
+from app.model.tool import FeedRow, Tool, ToolKind
+from app.settings import Settings
+from app.ui.main_window import MainWindow
+from app.ui.panels.changes import Subject, SubjectKind, for_material, material_of
+from app.ui.panels.side_panel import SidePanel
+from app.ui.wiring import Wiring
+
+
+@pytest.fixture
+def document() -> Document:
+    return Document(Job(Part()))
+
+
+@pytest.fixture
+def panel(qtbot, document):
+    made = SidePanel(document)
+    qtbot.addWidget(made)
+    made.resize(328, 620)
+    made.show()
+    made.tools.library_button.click()
+    return made
+
+
+def search(qtbot, panel, text: str) -> None:
+    panel.library.search.setFocus()
+    panel.library.search.selectAll()
+    qtbot.keyClicks(panel.library.search, text)
+
+
+def test_it_opens_in_the_place_of_the_properties_and_closes_again(panel):
+    assert panel.library.isVisible()
+    assert panel.tools.library_button.isChecked()
+    assert not panel.operation_form.isVisible()
+    panel.choose(Subject(SubjectKind.OPERATION, 1))
+    assert not panel.library.isVisible()
+    assert panel.operation_form.isVisible()
+    assert not panel.tools.library_button.isChecked()
+
+
+def test_the_list_holds_what_pocket_and_contour_can_cut_with(qtbot, panel):
+    assert {tool.kind for tool in panel.library.shown} == {ToolKind.FLAT}
+    assert [tool.diameter for tool in panel.library.shown] == sorted(tool.diameter for tool in panel.library.shown)
+    assert panel.library.others.text().startswith("37 others match")
+    search(qtbot, panel, "drill")
+    assert panel.library.shown == ()
+    assert panel.library.others.text() == "16 others match: pocket and contour cut with flat end mills."
+    assert not panel.library.add_button.isEnabled()
+    search(qtbot, panel, "no such tool")
+    assert "No tool is called that" in panel.library.others.text()
+
+
+@pytest.mark.parametrize(("text", "found"), [
+    ("6", ["Flat 6 mm"]), ("flat 1.5", ["Flat 1.5 mm"]), ("12 mm", ["Flat 12 mm"]), ("FLAT 8MM", ["Flat 8 mm"]),
+])
+def test_the_search_knows_words_and_diameters(qtbot, panel, text, found):
+    search(qtbot, panel, text)
+    assert [tool.name for tool in panel.library.shown] == found
+
+
+def test_enter_adds_the_tool_with_the_feeds_of_the_material_undoably(qtbot, document, panel):
+    search(qtbot, panel, "8")
+    panel.library.material.box.setCurrentIndex(1)
+    panel.library.material.box.activated.emit(1)
+    assert "3 flutes, 24 mm of cut, 63 mm overall\nF 3\u2009820, down" in panel.library.details.text()
+    qtbot.keyClick(panel.library.search, Qt.Key.Key_Return)
+    added = document.job.tools[-1]
+    wood = next(row for row in added.feeds if row.material == "wood")
+    assert (added.number, added.diameter, material_of(added)) == (9, 8.0, "wood")
+    assert added.feed_rate == pytest.approx(added.spindle_speed * added.flutes * wood.feed_per_tooth, rel=0.01)
+    assert panel.subject == Subject(SubjectKind.TOOL, 9)
+    document.undo()
+    assert len(document.job.tools) == 2
+
+
+def test_a_number_that_is_taken_becomes_the_next_one(qtbot, document, panel):
+    search(qtbot, panel, "flat 1.5")
+    qtbot.mouseClick(panel.library.add_button, Qt.MouseButton.LeftButton)
+    assert [tool.number for tool in document.job.tools] == [1, 2, 3], "T2 is taken"
+
+
+def test_a_tool_takes_the_place_of_the_jobs_own(qtbot, document, panel):
+    assert not panel.library.put_button.isVisible(), "an operation is chosen, so there is nothing to replace"
+    panel.choose(Subject(SubjectKind.TOOL, 2))
+    assert panel.library.put_button.text() == "Replace T2"
+    search(qtbot, panel, "2.5")
+    qtbot.mouseClick(panel.library.put_button, Qt.MouseButton.LeftButton)
+    assert [(tool.number, tool.diameter) for tool in document.job.tools] == [(1, 6.0), (2, 2.5)]
+    assert document.undo_name == "Replace T2"
+
+
+def test_arrows_walk_from_the_search_through_the_list(qtbot, panel):
+    library = panel.library
+    qtbot.keyClick(library.search, Qt.Key.Key_Down)
+    rows = [row for _, row in library._rows]
+    qtbot.keyClick(rows[0], Qt.Key.Key_Down)
+    assert rows[1].property("chosen") == "true"
+    qtbot.keyClick(rows[1], Qt.Key.Key_Up)
+    qtbot.keyClick(rows[0], Qt.Key.Key_Up)
+    qtbot.keyClick(rows[0], Qt.Key.Key_Escape)
+    assert not library.isVisible()
+
+
+def test_the_list_has_the_rows_that_there_is_room_for(qtbot, panel):
+    heights = []
+    for height in (500, 900):
+        panel.resize(328, height)
+        qtbot.wait(20)
+        heights.append(panel.library.area.height())
+    assert heights == [4 * 28, 11 * 28]
+
+
+def test_the_form_offers_the_tools_materials(qtbot, document, panel):
+    tool = replace(Tool(2, 6.0), feeds=(FeedRow("steel", 90.0, 0.03), FeedRow("wood", 500.0, 0.12)))
+    document.change_job("Change tools", replace(document.job, tools=(document.job.tools[0], tool)))
+    panel.switch_library()
+    panel.choose(Subject(SubjectKind.TOOL, 2))
+    form = panel.tool_form
+    assert form.material.isVisible()
+    assert form.material.box.currentIndex() == -1, "its feeds are those of neither"
+    form.material.box.activated.emit(0)
+    assert document.job.tools[1] == for_material(tool, "steel")
+    assert document.job.tools[1].spindle_speed == pytest.approx(1000 * 90 / 3.14159265 / 6, abs=5)
+    assert form.material.box.currentText() == "Steel"
+    panel.choose(Subject(SubjectKind.TOOL, 1))
+    assert not form.material.isVisible()
+
+
+@pytest.fixture
+def wiring(qtbot):
+    window = MainWindow(Document(Job(Part())), Settings())
+    qtbot.addWidget(window)
+    return Wiring(window)
+
+
+def test_tools_are_imported_into_the_users_library_and_stay_there(tmp_path, wiring):
+    window = wiring.window_
+    for name, data in (("mine.csv", b"number,diameter_mm,name\n5,7.5,Own cutter\n"),
+                       ("lib.toml", write_tools("x.toml", ToolLibrary("Lib", (Tool(6, 9.5, name="Other"),))))):
+        (tmp_path / name).write_bytes(data)
+        wiring.tools.take(tmp_path / name)
+        assert window.notice.text.text() == f"1 tool of {name} in the library."
+    assert {"Own cutter", "Other"} <= {tool.name for tool in window.panel.library.shown}
+    assert set(load_libraries()[0]) == {"lib", "mine", "metric-drills", "metric-mills"}
+    wiring.tools.take(tmp_path / "mine.csv")
+    assert window.notice.text.text() == "There is a library mine already."
+
+
+def test_a_tool_table_names_no_units_so_they_are_asked_for(tmp_path, wiring):
+    window = wiring.window_
+    (tmp_path / "mill.tbl").write_bytes(b"T1 P1 Z2 D0.25 ;quarter\nT2 P2 Z1 ;probe\n")
+    wiring.tools.take(tmp_path / "mill.tbl")
+    assert "Left out: mill.tbl:2: T2: diameter is 0 mm" in window.notice.text.text()
+    assert "It names no units; it was read in mm." in window.notice.text.text()
+    assert window.notice.buttons[1].text() == "Read in inch"
+    window.notice.buttons[1].click()
+    (tool,) = load_libraries()[0]["mill"].tools
+    assert (tool.diameter, tool.length_offset) == (pytest.approx(6.35), pytest.approx(50.8))
+
+
+def test_what_is_wrong_with_a_file_is_said_and_nothing_is_kept(tmp_path, wiring):
+    (tmp_path / "bad.csv").write_bytes(b"number,diameter_mm\n5,six\n")
+    wiring.tools.take(tmp_path / "bad.csv")
+    assert wiring.window_.notice.text.text().startswith("bad.csv:2: diameter_mm is 'six'")
+    wiring.tools.take(tmp_path / "gone.csv")
+    assert "Cannot read" in wiring.window_.notice.text.text()
+    assert not own_folder().exists()
+
+
+@pytest.mark.parametrize(("name", "units"), [("t.toml", Units.MM), ("t.csv", Units.MM), ("t.tbl", Units.MM), ("t.tbl", Units.INCH)])
+def test_the_jobs_tools_are_exported(tmp_path, wiring, name, units):
+    wiring.tools.write(tmp_path / name, units)
+    library, _ = read_tools(name, (tmp_path / name).read_bytes(), units)
+    assert [(tool.number, round(tool.diameter, 6)) for tool in library.tools] == [(1, 6.0), (2, 3.0)]
+    wiring.tools.write(tmp_path / "t.xls")
+    assert "tools are read and written as .toml, .csv, .tbl" in wiring.window_.notice.text.text()
