@@ -116,6 +116,7 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         Spec("nc_compare_end", "&End comparing"),
         SEPARATOR,
         Spec("nc_restart", "&Restart from this line…", "Ctrl+R"),
+        Spec("nc_frame", "Show the fra&me of the job"),
         SEPARATOR,
         Spec("nc_xy", "Seen from above: &XY", "Alt+1"),
         Spec("nc_xz", "Seen from the front: X&Z", "Alt+2"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog
@@ -14,16 +15,19 @@ from app.errors import HitofudeError
 from app.nc.read.dialect import Dialect
 from app.nc.read.options import ToolOffset
 from app.nc.read.program import Severity
-from app.progress import Progress
 from app.ui.computation import State
 from app.ui.figures import counted
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
+from app.ui.nc.jobs import compared, framed, restarted
 from app.ui.nc.motion_shapes import Side
 from app.ui.nc.places import Compared, difference_places
 from app.ui.nc.program_text import program_text
-from app.ui.nc.reading import FILTER, Reading, Shown, Source, read_shown
+from app.ui.nc.reading import FILTER, Reading, Shown, Source
 from app.ui.views import View
+
+if TYPE_CHECKING:
+    from app.workflow.make import Made
 
 
 class NcControl(QObject):
@@ -83,7 +87,17 @@ class NcControl(QObject):
         if shown is None or row < 0:
             self._window.status.show_message("Pick the line to start from first.")
         else:
-            self.reading.start(partial(_restarted, shown, row + 1, self._view.side), partial(self._on_foreign, False))
+            self.reading.start(partial(restarted, shown, row + 1, self._view.side), partial(self._on_foreign, False))
+
+    def show_frame(self) -> None:
+        """Show the program that goes round the job's cuts at clearance height."""
+        made = self._computation.made
+        if made is None or not made.files:
+            self._window.status.show_message("There is no program to go round yet; compute the paths first.")
+        else:
+            whole = self._own_name(made)
+            name = f"{whole.stem}_frame{whole.suffix}"
+            self.reading.start(partial(framed, made, name, self._view.side), partial(self._on_foreign, False))
 
     def choose_to_compare(self) -> None:
         """Ask for a second program and compare it with the one that is shown."""
@@ -95,7 +109,7 @@ class NcControl(QObject):
         """Compare the shown program with that of a file, which is shown beside it."""
         shown, side = self._view.shown, self._view.side
         if shown is not None:
-            self.reading.start(partial(_compared, shown, Source(path.name, path=path, tools=self._tools()), side),
+            self.reading.start(partial(compared, shown, Source(path.name, path=path, tools=self._tools()), side),
                                self._on_compared)
 
     def stop_comparing(self) -> None:
@@ -104,14 +118,14 @@ class NcControl(QObject):
         self.changed.emit()
 
     def _on_compared(self, answer: tuple[Shown, Compared]) -> None:
-        shown, compared = answer
+        shown, both = answer
         if shown is not self._view.shown:
             return
-        title = difference_places(compared.differences)[0]
-        self._log.note(f"compare {compared.other.source.name}", title)
-        self._view.other.head.show_dialect(compared.other.guessed, compared.other.source.dialect, free=False)
+        title = difference_places(both.differences)[0]
+        self._log.note(f"compare {both.other.source.name}", title)
+        self._view.other.head.show_dialect(both.other.guessed, both.other.source.dialect, free=False)
         self._window.actions_[View.NC.value].trigger()
-        self._view.show_comparison(compared)
+        self._view.show_comparison(both)
         self.changed.emit()
 
     def back(self) -> None:
@@ -185,9 +199,14 @@ class NcControl(QObject):
         made = self._computation.made
         if made is None:
             return ()
-        post, document = load_post(made.job.post), self._window.document
-        stem = document.path.stem if document.path else made.job.part.name
-        return tuple(Source(f"{stem}{file.suffix}{post.extension}", file.nc.text.encode(), dialect=post.dialect) for file in made.files)
+        post, whole = load_post(made.job.post), self._own_name(made)
+        return tuple(Source(file.named(whole).name, file.nc.text.encode(), dialect=post.dialect) for file in made.files)
+
+    def _own_name(self, made: Made) -> Path:
+        from app.nc.posts import load_post
+
+        path = self._window.document.path
+        return Path(f"{path.stem if path else made.job.part.name}{load_post(made.job.post).extension}")
 
     def _show_file(self, index: int) -> None:
         self._own_at = index
@@ -234,23 +253,6 @@ class NcControl(QObject):
     def _on_busy(self, busy: bool) -> None:
         if busy or not self._window.worker.busy:
             self._window.status.show_progress(0.0 if busy else None)
-
-
-def _restarted(shown: Shown, line: int, side: Side, progress: Progress) -> Shown:
-    from app.nc.restart import RestartOptions, restart
-
-    data = restart(shown.source.bytes(), line, RestartOptions(shown.source.options(shown.dialect)), progress.part(0.0, 0.5))
-    name = Path(shown.source.name)
-    source = Source(f"{name.stem}-from-{line}{name.suffix}", data, dialect=shown.dialect, tools=shown.source.tools)
-    return read_shown(source, side, progress.part(0.5, 1.0))
-
-
-def _compared(shown: Shown, other: Source, side: Side, progress: Progress) -> tuple[Shown, Compared]:
-    from app.nc.compare import compare
-
-    second = read_shown(other, side, progress.part(0.0, 0.5))
-    progress.step(0.5, "Comparing")
-    return shown, Compared(second, compare(shown.program, second.program, progress=progress.part(0.5, 1.0)))
 
 
 def _sentence(shown: Shown) -> str:

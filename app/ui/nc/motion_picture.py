@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
@@ -10,10 +11,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPainterPath
+from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 
 from app.edit.sample import Box
 from app.model.motion import MotionKind
+from app.nc.read.program import StockNote, ToolNote
 from app.ui.canvas.curve_path import MANY, path_of
 from app.ui.canvas.pens import FINE, screen_pen
 from app.ui.canvas.program_chunks import rapids_path
@@ -79,6 +81,26 @@ def motion_colour(kind: MotionKind, theme: Theme) -> QColor:
             MotionKind.ARC_CCW: theme.rest, MotionKind.SPLINE: theme.parameter}[kind]
 
 
+def _tool_name(number: int, note: ToolNote | None) -> str:
+    """Return a tool's number and what the program's comments tell of it."""
+    words = [f"T{number}" if number else "No tool"]
+    if note is not None:
+        words += [note.kind] if note.kind else []
+        words += [f"{note.diameter:g} mm"] if note.diameter else []
+    return " ".join(words)
+
+
+def paint_stock(painter: QPainter, view: View, stock: StockNote | None, side: Side, theme: Theme) -> None:
+    """Paint the outline of the stock that the program's comments tell of, where they tell enough of it."""
+    if stock is None:
+        return
+    low, high = ([corner[axis] for axis in side.value] for corner in (stock.low, stock.high))
+    if all(map(math.isfinite, (*low, *high))):
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.setPen(QPen(theme.muted, 1.0, Qt.PenStyle.DashLine))
+        painter.drawRect(QRectF(view.to_screen((low[0], high[1])), view.to_screen((high[0], low[1]))))
+
+
 def paint_key(painter: QPainter, area: QRectF, key: list[tuple[str, QColor]], theme: Theme) -> None:
     """Paint what colours mean in the upper right corner of an area, px."""
     painter.setFont(text_font(12))
@@ -126,8 +148,9 @@ class MotionPicture:
         """Return what each colour means, of the first eight tools or of the kinds of motion that there are."""
         plunge = [("Plunge", how.theme.plunge)] if np.any(self.shapes.look == Look.PLUNGE) else []
         if how.colour is PathColour.TOOL:
-            tools = [(f"T{tool}" if tool else "No tool", tool_colour(at, how.theme)) for at, tool in enumerate(self.tools[:_MOST_TOOLS])]
-            return tools + plunge
+            notes = {note.number: note for note in reversed(self.shapes.program.tools)}
+            tools = self.tools[:_MOST_TOOLS]
+            return [(_tool_name(tool, notes.get(tool)), tool_colour(at, how.theme)) for at, tool in enumerate(tools)] + plunge
         kinds = np.unique(self.shapes.program.motions.kind).tolist()
         return [(_KIND_NAMES[MotionKind(kind)], motion_colour(MotionKind(kind), how.theme)) for kind in kinds] + plunge
 

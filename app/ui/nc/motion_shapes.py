@@ -93,12 +93,12 @@ class MotionShapes:
     def elements(self, motions: Ints, side: Side, run: int = _MOST_LIT) -> tuple[Elements, Ints]:
         """Return painter path elements of some motions seen from a side, and where each one's begin, (k + 1,).
 
-        A motion that is not the one after the one before it in the list begins with MOVE_TO, and so does every
+        A motion that does not begin where the one before it in the list ends begins with MOVE_TO, and so does every
         `run`-th of the list.
         """
         start = self.program.motions.start
         head = np.arange(len(motions)) % run == 0
-        head[1:] |= (np.diff(motions) != 1) | np.any(start[motions[1:]] != self.program.motions.end[motions[:-1]], axis=1)
+        head[1:] |= np.any(start[motions[1:]] != self.program.motions.end[motions[:-1]], axis=1)
         size = self.offset[motions + 1] - self.offset[motions]
         at = np.concatenate([[0], np.cumsum(size + head)]).astype(np.int64)
         made = np.zeros(int(at[-1]), dtype=ELEMENT)

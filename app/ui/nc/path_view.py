@@ -18,7 +18,7 @@ from app.ui.canvas.view import fitted
 from app.ui.canvas.viewport import Viewport
 from app.ui.nc.line_looks import Ints
 from app.ui.nc.motion_hover import describe_motion, nearest_motion
-from app.ui.nc.motion_picture import MotionPicture, PathColour, PathPaint, paint_key
+from app.ui.nc.motion_picture import MotionPicture, PathColour, PathPaint, paint_key, paint_stock
 from app.ui.nc.motion_shapes import Side
 from app.ui.theme import LIGHT, Theme, text_font
 
@@ -117,6 +117,8 @@ class PathView(Viewport):
         theme = self._how.theme
         box = self.view.world_box(area.adjusted(-_BLEED_PX, -_BLEED_PX, _BLEED_PX, _BLEED_PX))
         paint_paper(painter, self.view, area, None, theme)
+        if self.picture is not None:
+            paint_stock(painter, self.view, self.picture.shapes.program.stock, self.picture.side, theme)
         if self.other is not None:
             self.other.paint(painter, self.view, box, PathPaint(theme, one=theme.left, width=_HALO_PX))
         if self.picture is not None:

@@ -34,6 +34,7 @@ class NcWiring(QObject):
         self._in_view("nc_find_before", lambda: view.active.find_next(back=True))
         self._in_view("nc_problem", lambda: view.active.panel.step(1))
         self._in_view("nc_problem_before", lambda: view.active.panel.step(-1))
+        self._on("nc_frame", control.show_frame)
         self._in_view("nc_restart", control.restart_here)
         self._on("nc_compare", control.choose_to_compare)
         self._on("nc_compare_end", control.stop_comparing)

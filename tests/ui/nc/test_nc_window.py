@@ -350,3 +350,12 @@ def test_opening_a_program_does_not_disturb_the_computation(qtbot, wiring, sampl
     qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=WAIT_MS)
     qtbot.waitUntil(lambda: nc_of(wiring).shown is not None, timeout=WAIT_MS)
     assert nc_of(wiring).shown.source.name == "tux.ngc"
+
+
+def test_frame_of_the_job_is_shown(qtbot, computed):
+    computed.window_.actions_["nc_frame"].trigger()
+    nc = nc_of(computed)
+    qtbot.waitUntil(lambda: nc.shown is not None and nc.shown.source.name == "fig2_frame.ngc", timeout=WAIT_MS)
+    assert nc.shown.program.error is None
+    assert set(nc.shown.program.motions.kind.tolist()) == {0}
+    assert nc.pane.banner.isVisible()

@@ -1,0 +1,55 @@
+"""What the NC view has made in the background: a frame, a restart, a comparison. Runs on the worker's thread."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from app.progress import Progress
+from app.ui.nc.motion_shapes import Side
+from app.ui.nc.places import Compared
+from app.ui.nc.reading import Shown, Source, read_shown
+
+if TYPE_CHECKING:
+    from app.workflow.make import Made
+
+
+def framed(made: Made, name: str, side: Side, progress: Progress) -> Shown:
+    """Return the program that goes round a job's cuts, read.
+
+    Raises:
+        HitofudeError: nothing is cut.
+        Cancelled: the job was asked to stop.
+    """
+    from app.nc.posts import load_post
+
+    return read_shown(Source(name, made.frame().encode(), dialect=load_post(made.job.post).dialect), side, progress)
+
+
+def restarted(shown: Shown, line: int, side: Side, progress: Progress) -> Shown:
+    """Return the program that leads in to a line (1-based) of another and goes on from there, read.
+
+    Raises:
+        InputError: it cannot be safe from there.
+        Cancelled: the job was asked to stop.
+    """
+    from app.nc.restart import RestartOptions, restart
+
+    data = restart(shown.source.bytes(), line, RestartOptions(shown.source.options(shown.dialect)), progress.part(0.0, 0.5))
+    name = Path(shown.source.name)
+    source = Source(f"{name.stem}-from-{line}{name.suffix}", data, dialect=shown.dialect, tools=shown.source.tools)
+    return read_shown(source, side, progress.part(0.5, 1.0))
+
+
+def compared(shown: Shown, other: Source, side: Side, progress: Progress) -> tuple[Shown, Compared]:
+    """Return the shown program as it was, and a second one held against it.
+
+    Raises:
+        InputError: the second one's file cannot be read.
+        Cancelled: the job was asked to stop.
+    """
+    from app.nc.compare import compare
+
+    second = read_shown(other, side, progress.part(0.0, 0.5))
+    progress.step(0.5, "Comparing")
+    return shown, Compared(second, compare(shown.program, second.program, progress=progress.part(0.5, 1.0)))
