@@ -16,7 +16,7 @@ def test_the_centre_is_at_the_radius_from_both_ends_and_on_the_right_side(x0, y0
     chord = math.hypot(x1 - x0, y1 - y0)
     assume(chord > 1e-3)
     radius = more * chord / 2
-    cx, cy = centre_by_radius(x0, y0, x1, y1, sign * radius, turn, 0.0)
+    cx, cy = centre_by_radius(x0, y0, x1, y1, sign * radius, turn, 1e-9)
     assert radii(x0, y0, x1, y1, cx, cy) == pytest.approx((radius, radius), rel=1e-9, abs=1e-9)
     sweep = turn * (math.atan2(y1 - cy, x1 - cx) - math.atan2(y0 - cy, x0 - cx)) % math.tau
     slack = 1e-5
