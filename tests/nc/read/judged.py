@@ -56,7 +56,7 @@ def _judge_problems(program: NcProgram, data: bytes) -> None:
         assert 1 <= problem.line <= program.line_count and problem.text.endswith((".", ")")), problem
         line = lines[problem.line - 1]
         assert 0 <= problem.column <= len(line) + 1, (problem, line[:80])
-        assert not problem.word or not problem.column or line[problem.column - 1 :].startswith(problem.word), (problem, line[:80])
+        assert not problem.column or line[problem.column - 1 :].lower().startswith(problem.word.lower()), (problem, line[:80])
         assert problem.told("a.ngc").startswith(f"a.ngc:{problem.line}:")
 
 
