@@ -93,7 +93,7 @@ def _first_feed(moves: WorkMoves, i: int, height: int) -> int | None:
         if z > height or _belonging(moves, k) != _belonging(moves, i):
             return None
         if k > i and moves.kind[k] is MoveKind.LINE:
-            return k if moves.purpose[k] == Purpose.DRILL and z < height else None
+            return k if z < height else None
         if moves.kind[k] is not MoveKind.RAPID:
             return None
         height = z
@@ -139,6 +139,5 @@ def _steps(depths: tuple[int, int, int], rules: CycleRules, by_r: bool) -> Itera
 
 
 def _alike(steps: list[Step], done: list[Step]) -> bool:
-    """Tell whether two sequences are the same but for the rounding of heights in between; the last two are exact."""
-    near = all(a is b and abs(z - w) <= NEAR for (a, z), (b, w) in zip(steps, done, strict=False))
-    return len(steps) == len(done) and near and steps[-2:] == done[-2:]
+    """Tell whether two sequences are the same but for the rounding of heights; where they end is that of both."""
+    return len(steps) == len(done) and all(a is b and abs(z - w) <= NEAR for (a, z), (b, w) in zip(steps, done, strict=True))

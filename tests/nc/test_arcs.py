@@ -16,7 +16,9 @@ from app.nc.arcs import ArcRules, MeantArc, Piece, written_pieces
 MM4 = ArcRules(4, 4, 2e-4, math.radians(355), 0.002, 1e5, 0.02)
 MM3 = ArcRules(3, 3, 1e-3, math.radians(355), 0.002, 1e5, 0.02)
 INCH5 = ArcRules(5, 5, 2e-5, math.radians(355), 0.002 / 25.4, 4000.0, 0.001)
-RULES = pytest.mark.parametrize("rules", [MM4, MM3, INCH5], ids=["mm 4", "mm 3", "inch 5"])
+INCH4 = ArcRules(4, 4, 0.866e-4, math.radians(355), 0.005 / 25.4, 400.0, 0.01 / 25.4)
+TIGHT = replace(MM3, radius_mismatch=0.0006)
+RULES = pytest.mark.parametrize("rules", [MM4, MM3, INCH5, INCH4, TIGHT], ids=["mm 4", "mm 3", "inch 5", "inch 4", "tight"])
 
 
 def grid(point: complex, rules: ArcRules) -> tuple[int, int]:
@@ -78,7 +80,7 @@ def test_the_written_arc_is_the_meant_one(
     step = 10.0**-rules.decimals
     if pieces:
         assert pieces[-1].end == grid(arc.at(1), rules)
-        assert deviation(arc, pieces, paths) <= max(rules.tolerance, 1.25 * step)
+        assert deviation(arc, pieces, paths) <= rules.tolerance * (1 + 1e-9)
     else:
         assert max(abs(arc.at(f) - arc.at(0)) for f in np.linspace(0, 1, 33)) <= 2 * step
 

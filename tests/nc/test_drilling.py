@@ -175,11 +175,12 @@ def test_two_speeds_in_one_hole_are_no_cycle() -> None:
 
 
 def test_a_rapid_down_is_allowed_only_where_it_was_drilled() -> None:
-    for deeper, other in ((True, False), (False, True)):
-        path = Holes().over(5, 5).feed_to(-2).up(1)
-        path.rapid(6 if other else 5, 5, 1).rapid(6 if other else 5, 5, -3 if deeper else -1).up(5)
+    deeper = Holes().over(5, 5).feed_to(-2).up(1).up(-2.01)
+    beside = Holes().over(5, 5).feed_to(-2).line(6, 5, 1).rapid(6, 5, -1)
+    in_a_pocket = Path().into_work(5, 5, -2).rapid(5, 5, 1).rapid(5, 5, -1)
+    for path in (deeper, beside, in_a_pocket):
         with pytest.raises(ParameterError, match="is a rapid down below retract Z 1"):
-            write_files(path.program(), job(), load_post("linuxcnc"))
+            write_files(path.rapid(*path.rows[-1][0][:2], 5).program(), job(), load_post("linuxcnc"))
 
 
 holes = st.tuples(
