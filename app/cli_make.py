@@ -3,27 +3,21 @@
 from __future__ import annotations
 
 import argparse
-import os
-import sys
 import threading
-import time
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from app.atomic import write_together
+from app.cli_files import check_outputs, identity, read_input, shown_progress
 from app.cli_options import make_options, read_arguments
 from app.cli_output import tell
 from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.model.finding import FindingKind
-from app.progress import Progress
 from app.workflow.make import Made, make
 from app.workflow.options import MakeOptions
-
-LARGEST_INPUT = 256 * 2**20
-"""Bytes; a larger file is refused before it is read."""
 
 REMARKS = 3
 """Remarks of one kind that are printed; the report has all."""
@@ -69,27 +63,6 @@ def _with_job(options: MakeOptions, path: Path | None) -> MakeOptions:
     return replace(options, job=file.job, units=options.units or file.units)
 
 
-def read_input(path: Path) -> bytes:
-    """Return a file's bytes.
-
-    Raises:
-        InputError: it is missing, no file, unreadable, empty or too large.
-    """
-    try:
-        if path.is_dir():
-            raise InputError(f"{path} is a folder; name a file in it")
-        if path.stat().st_size > LARGEST_INPUT:
-            raise InputError(f"{path} is larger than {LARGEST_INPUT // 2**20} MB; part it, or export less of the drawing")
-        data = path.read_bytes()
-    except FileNotFoundError as error:
-        raise InputError(f"{path} does not exist; check the name") from error
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}; check name and permissions") from error
-    if not data:
-        raise InputError(f"{path} is empty; export it again")
-    return data
-
-
 def _check_outputs(arguments: argparse.Namespace) -> dict[str, Path]:
     """Return the files to write by what they hold, checked before any work is done."""
     outputs = {name: path for name in ("output", "report", "image") if (path := getattr(arguments, name)) is not None}
@@ -97,39 +70,6 @@ def _check_outputs(arguments: argparse.Namespace) -> dict[str, Path]:
         raise InputError(f"--image {outputs['image']}: a picture is .svg or .png; change the name")
     check_outputs(outputs, [path for path in (arguments.drawing, arguments.job) if path is not None])
     return outputs
-
-
-def check_outputs(outputs: Mapping[str, Path], inputs: Sequence[Path]) -> None:
-    """Refuse files to write that cannot be, or that are inputs or one another.
-
-    Args:
-        outputs: by the name of their option.
-        inputs: what is read.
-
-    Raises:
-        InputError: naming the option and the file.
-    """
-    taken = [_identity(path) for path in inputs]
-    for name, path in outputs.items():
-        if path.is_dir():
-            raise InputError(f"--{name} {path} is a folder; name a file in it")
-        if not path.parent.is_dir():
-            raise InputError(f"--{name} {path}: there is no folder {path.parent}; make it first")
-        if not os.access(path.parent, os.W_OK) and not path.is_char_device():
-            raise InputError(f"--{name} {path}: the folder {path.parent} cannot be written; choose another or change its permissions")
-        if _identity(path) in taken:
-            raise InputError(f"--{name} {path} is named twice or is also an input; give every file its own name")
-        if not path.is_char_device():
-            taken.append(_identity(path))
-
-
-def _identity(path: Path) -> object:
-    """Return what tells whether two names mean the same file."""
-    try:
-        status = path.stat()
-    except (OSError, ValueError):
-        return os.path.realpath(path)
-    return (status.st_dev, status.st_ino)
 
 
 def _write(made: Made, outputs: dict[str, Path], names: list[Path]) -> None:
@@ -141,26 +81,11 @@ def _write(made: Made, outputs: dict[str, Path], names: list[Path]) -> None:
 
         texts["image"] = plot(picture_of(made.job.part.name, made.program, made.coverage), outputs["image"].suffix.lower())
     others = {outputs[name]: text for name, text in texts.items() if name in outputs}
-    if {_identity(path) for path in names} & {_identity(path) for path in others}:
+    if {identity(path) for path in names} & {identity(path) for path in others}:
         raise InputError(f"--output {outputs['output']} makes {', '.join(map(str, names))}, and one of these is another output; "
                          "give every file its own name")
     with undisturbed():
         write_together(others | {name: file.nc.text.encode("ascii") for name, file in zip(names, made.files, strict=True)})
-
-
-def shown_progress(quiet: bool, stopped: threading.Event) -> Progress:
-    """Return a progress that shows itself on stderr where that is a terminal."""
-    if quiet or not sys.stderr.isatty():
-        return Progress(None, stopped)
-    shown = [0.0]
-
-    def show(fraction: float, text: str) -> None:
-        if time.monotonic() - shown[0] > 0.1 or fraction >= 1:
-            shown[0] = time.monotonic()
-            end = "\r\x1b[K" if fraction >= 1 else ""
-            print(f"\r\x1b[K{fraction:4.0%} {text}{end}", end="", file=sys.stderr, flush=True)
-
-    return Progress(show, stopped)
 
 
 def _summary(made: Made, names: list[Path]) -> None:

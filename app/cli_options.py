@@ -34,8 +34,8 @@ PHRASES = (
     (r" expected one argument$", " has no value; write one behind it"),
     (r" not allowed with argument (\S+)$", r" and \1 exclude one another; give one of them"),
     (r" invalid choice: ('.*') \(choose from (.*)\)$", r" is \1; choose one of \2"),
-    (r"^the following arguments are required: (.*)$", r"\1 is missing; name the drawing and the NC program to write"),
-    (r"^unrecognized arguments: (.*)$", r"\1 is no option of make and no second drawing can be named; take it away"),
+    (r"^the following arguments are required: (.*)$", r"\1 is missing; name {inputs}"),
+    (r"^unrecognized arguments: (.*)$", r"\1 is no option of {name} and no second {input} can be named; take it away"),
 )
 """What argparse says, and how it is said here."""
 
@@ -43,14 +43,24 @@ PHRASES = (
 class OptionParser(argparse.ArgumentParser):
     """An argument parser whose errors are InputErrors of one line."""
 
+    def __init__(self, name: str, inputs: tuple[str, str], description: str, epilog: str) -> None:
+        """Make the parser of a command.
+
+        Args:
+            name: of the command. inputs: what it reads, and what it cannot do without, in words.
+            description, epilog: above and below the list of options.
+        """
+        super().__init__(prog=f"hitofude {name}", allow_abbrev=False, description=description, epilog=epilog, formatter_class=HelpFormatter)
+        self._words = {"name": name, "input": inputs[0], "inputs": inputs[1]}
+
     def error(self, message: str) -> NoReturn:
         """Raise the error instead of printing the usage."""
         for said, better in PHRASES:
-            message = re.sub(said, better, message)
-        raise InputError(f"{message.rstrip('.')}; see hitofude make --help")
+            message = re.sub(said, better.format(**self._words), message)
+        raise InputError(f"{message.rstrip('.')}; see {self.prog} --help")
 
 
-class _HelpFormatter(argparse.RawDescriptionHelpFormatter):
+class HelpFormatter(argparse.RawDescriptionHelpFormatter):
     """Keeps words such as lower-left whole."""
 
     def _split_lines(self, text: str, width: int) -> list[str]:
@@ -95,13 +105,14 @@ def _join_tolerance(text: str) -> float:
     return value
 
 
-def _machine(name: str) -> Machine:
+def machine_named(name: str) -> Machine:
+    """Return a machine by its name or file, for argparse."""
     from app.files.machine_toml import load_machine
 
     return load_machine(name)
 
 
-def _typed(read: Callable[[str], object]) -> Callable[[str], object]:
+def typed(read: Callable[[str], object]) -> Callable[[str], object]:
     """Return a reader whose InputError argparse shows."""
 
     def wrapped(text: str) -> object:
@@ -116,8 +127,8 @@ def _typed(read: Callable[[str], object]) -> Callable[[str], object]:
 def make_parser() -> OptionParser:
     """Return the parser of `hitofude make`."""
     parser = OptionParser(
-        prog="hitofude make", allow_abbrev=False, epilog=EPILOG, formatter_class=_HelpFormatter,
-        description="Turn a drawing (.dxf) into contour and pocket tool paths and write them as an NC program.",
+        "make", ("drawing", "the drawing and the NC program to write"),
+        "Turn a drawing (.dxf) into contour and pocket tool paths and write them as an NC program, read back and proven the same.", EPILOG,
     )
     parser.add_argument("drawing", metavar="DRAWING", type=Path, help="the drawing, .dxf")
     _file_options(parser.add_argument_group("files"))
@@ -131,9 +142,10 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--job", metavar="J.toml", type=Path, help="tools, operations, stock and origin; options override it")
     group.add_argument("--report", metavar="R.json", type=Path, help="everything that was measured, as JSON")
     group.add_argument("--image", metavar="OUT.svg|png", type=Path, help="a picture of part and paths")
-    group.add_argument("--post", metavar="NAME", help="the control that the program is for (default linuxcnc)")
-    group.add_argument("--machine", metavar="NAME|FILE", type=_typed(_machine), help=MACHINE_HELP)
-    group.add_argument("--out-units", metavar="mm|in", type=_typed(read_out_units), help="units of the NC program (default mm)")
+    group.add_argument("--post", metavar="NAME", help="the control that the program is for: linuxcnc (default), grbl, fanuc, haas, mach3, "
+                       "or one of your own; where it changes no tools there is a file for each, OUT_1_T1.ngc, OUT_2_T2.ngc, …")
+    group.add_argument("--machine", metavar="NAME|FILE", type=typed(machine_named), help=MACHINE_HELP)
+    group.add_argument("--out-units", metavar="mm|in", type=typed(read_out_units), help="units of the NC program (default mm)")
     group.add_argument("--exact-path", action="store_true", help="tell the control to stop at corners rather than blend (G61)")
     group.add_argument("--quiet", action="store_true", help="say nothing but errors")
 
@@ -164,8 +176,8 @@ def _tool_options(group: argparse._ArgumentGroup) -> None:
 
 
 def _drawing_options(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--units", metavar="mm|in", type=_typed(read_units), help="units of a drawing that names none (default mm)")
-    group.add_argument("--origin", metavar="WHERE", type=_typed(parse_origin), help=ORIGIN_HELP)
+    group.add_argument("--units", metavar="mm|in", type=typed(read_units), help="units of a drawing that names none (default mm)")
+    group.add_argument("--origin", metavar="WHERE", type=typed(parse_origin), help=ORIGIN_HELP)
     group.add_argument("--layer", metavar="NAME", action="append", default=[], help="machine only this layer; may be repeated")
     group.add_argument("--join-tolerance", metavar="MM", type=_join_tolerance,
                        help="join loose ends nearer than this, 0 to 10 mm (default 0.01)")
@@ -179,14 +191,14 @@ def read_arguments(argv: Sequence[str]) -> argparse.Namespace:
     Raises:
         InputError: one line that names the option, its value and what it must be.
     """
-    arguments = make_parser().parse_args(_with_equals(argv))
+    arguments = make_parser().parse_args(with_equals(argv))
     for name in ("bitmap", "pitch"):
         if getattr(arguments, name) is not None:
             raise InputError(f"--{name}: the bitmap way is not built yet; leave the option away for exact lines and arcs")
     return arguments
 
 
-def _with_equals(argv: Sequence[str]) -> list[str]:
+def with_equals(argv: Sequence[str]) -> list[str]:
     """Write `--safe-z -1mm` as `--safe-z=-1mm`, so that a negative value is read as a value."""
     joined: list[str] = []
     for argument in argv:

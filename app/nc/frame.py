@@ -11,13 +11,12 @@ from dataclasses import dataclass
 from app.errors import ParameterError
 from app.model.job import Job
 from app.model.moves import MoveKind
-from app.model.tool import Tool
 from app.nc.blocks import Blocks
 from app.nc.extent import Extent
 from app.nc.grid import Position
-from app.nc.header import safe_name, tool_words
+from app.nc.header import safe_name
 from app.nc.post import Post
-from app.nc.template_fields import Fields, program_fields, tool_fields
+from app.nc.template_fields import Fields, program_fields
 from app.nc.write import blend_mm
 
 SPINNING = ("{speed", "{dwell", "{coolant")
@@ -31,12 +30,12 @@ class Frame:
     Attributes:
         box: of the cutting motions, mm, program coordinates; the tool's centre goes along its sides.
         clearance: height, mm, program coordinates.
-        tool: that is in the spindle, whose length counts; None where nobody knows.
+        tool: T number of the one to do it with, whose length counts; 0 = whatever is in the spindle.
     """
 
     box: Extent
     clearance: float
-    tool: Tool | None = None
+    tool: int = 0
 
 
 def frame_text(frame: Frame, job: Job, post: Post) -> str:
@@ -60,9 +59,8 @@ def frame_text(frame: Frame, job: Job, post: Post) -> str:
     sheet.comment("Round the box of the cuts at clearance height, by rapids, the spindle off")
     _write(sheet, post.program.start, fields)
     _home(sheet, post, fields)
-    if frame.tool is not None:
-        sheet.comment(tool_words(frame.tool, job.out_units))
-        known = fields | tool_fields(frame.tool, post, frame.tool.number) | {"clearance": sheet.number(z, digits.Z)}
+    if frame.tool:
+        known = fields | {"tool": frame.tool, "preselect": "", "clearance": sheet.number(z, digits.Z)}
         for template in post.program.tool:
             if "{clearance" in template:
                 sheet.clearance(template.format(**known).strip(), z)

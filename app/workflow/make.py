@@ -69,7 +69,7 @@ class Made:
             ParameterError: nothing is cut.
         """
         height = self.job.safe_z - work_origin(self.job, stock_box(self.job, self.program.regions))[2] if self.files else 0.0
-        tool = self.job.tool(int(self.program.moves.tool[0])) if self.files else None
+        tool = int(self.program.moves.tool[0]) if self.files else 0
         return frame_text(Frame(self.box, height, tool), self.job, load_post(self.job.post))
 
     @property

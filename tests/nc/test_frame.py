@@ -8,7 +8,6 @@ import pytest
 from app.errors import ParameterError
 from app.model.motion import MotionKind
 from app.model.part import Units
-from app.model.tool import Tool
 from app.nc.extent import NOWHERE, Extent
 from app.nc.frame import Frame, frame_text
 from app.nc.posts import load_post, post_names
@@ -26,7 +25,7 @@ BOX = Extent((-12.5, 3.0, -4.0), (40.0, 33.25, 1.0))
 @pytest.mark.parametrize("number", [0, 3])
 def test_it_goes_round_the_box_and_does_nothing_else(name: str, units: Units, number: int) -> None:
     post = load_post(name)
-    text = frame_text(Frame(BOX, 7.0, Tool(number, 6.0) if number else None), job(out_units=units), post)
+    text = frame_text(Frame(BOX, 7.0, number), job(out_units=units), post)
     read = read_program(text.encode(), ReadOptions(dialect=post.dialect, tool_table={3: ToolOffset((0, 0, 50.0))}))
     assert read.problems == ()
     motions = read.motions
@@ -46,7 +45,7 @@ def test_it_goes_round_the_box_and_does_nothing_else(name: str, units: Units, nu
 
 
 def test_linuxcnc_takes_it() -> None:
-    calls = canonical_calls(frame_text(Frame(BOX, 7.0, Tool(3, 6.0)), job(), load_post("linuxcnc")))
+    calls = canonical_calls(frame_text(Frame(BOX, 7.0, 3), job(), load_post("linuxcnc")))
     assert [name for name, _ in calls if name.startswith(("STRAIGHT", "ARC"))] == ["STRAIGHT_TRAVERSE"] * 6
     assert "START_SPINDLE_CLOCKWISE" not in [name for name, _ in calls]
 
