@@ -124,16 +124,16 @@ def _arc(motion, plane, arc_absolute, lengths, shift, given, start, end, centre)
     a, b = given[_I + u] != _ABSENT, given[_I + v] != _ABSENT
     if given[_I + w] != _ABSENT or (given[_R] != _ABSENT and (a or b)):
         return False
+    if given[_R] == _ABSENT and (not (a or b) or (arc_absolute and not (a and b))):
+        return False
     centre[w] = start[w]
     if given[_R] != _ABSENT:
         turn = 1.0 if motion == _CCW else -1.0
         centre[u], centre[v] = centre_by_radius(start[u], start[v], end[u], end[v], lengths[_R], turn, _SLACK)
-        return not math.isnan(centre[u]) and abs(lengths[_R]) <= _FARTHEST
-    if not (a or b) or (arc_absolute and not (a and b)):
-        return False
-    for k in (u, v):
-        offset = lengths[_I + k] if given[_I + k] != _ABSENT else 0.0
-        centre[k] = offset + shift[k] if arc_absolute else start[k] + offset
+    else:
+        for k in (u, v):
+            offset = lengths[_I + k] if given[_I + k] != _ABSENT else 0.0
+            centre[k] = offset + shift[k] if arc_absolute else start[k] + offset
     first, last = radii(start[u], start[v], end[u], end[v], centre[u], centre[v])
     return _LEAST_RADIUS <= first <= _FARTHEST and abs(first - last) <= _RADII_ALIKE
 

@@ -46,6 +46,7 @@ def _told(program: NcProgram) -> list[tuple[float, ...]]:
 
 @short
 @given(texts, st.sampled_from(Dialect))
+@example(b"F1G2X0R1Y1", Dialect.FANUC)
 @example(b"G20\nG1 F10 X1\nX1 Y.5\n", Dialect.FANUC)
 def test_random_texts(text: bytes, dialect: Dialect) -> None:
     assert_lane_and_core_agree(text, dialect)
