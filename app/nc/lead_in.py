@@ -115,18 +115,27 @@ class _Writer:
         axes, goal, extra = self._standing.axes, self._control.program_place, self._added
         machine = added(self._control.at, self._control.offsets.tool)
         before = added(goal, extra)
-        if axes[2] is Axis.WORK:
-            yield f"G0 {self._word('Z', approach.clearance + extra[2])}"
-        elif axes[2] is Axis.MACHINE:
-            yield f"G53 G0 {self._words(machine, (2,))}"
-        for kind, prefix, place in ((Axis.MACHINE, "G53 ", machine), (Axis.WORK, "", before)):
-            across = tuple(axis for axis in (0, 1) if axes[axis] is kind)
-            if across:
-                yield f"{prefix}G0 {self._words(place, across)}"
+        high = (before[0], before[1], approach.clearance + extra[2])
+        yield from self._to(high, machine, (2,))
+        yield from self._to(before, machine, (0, 1))
         if extra != ZERO:
             yield f"G92 {self._words((goal[0], goal[1], approach.clearance))}"
         if axes[2] is Axis.WORK:
             yield from self._down(approach, goal[2])
+
+    def _to(self, place: Place, machine: Place, some: tuple[int, ...]) -> Iterator[str]:
+        """Yield the rapids of some axes to where they are, as each is known; homes before places."""
+        for kind in (Axis.HOME, Axis.SECOND_HOME, Axis.MACHINE, Axis.WORK):
+            mine = tuple(axis for axis in some if self._standing.axes[axis] is kind)
+            if not mine:
+                continue
+            if kind is Axis.WORK:
+                yield f"G0 {self._words(place, mine)}"
+            elif kind is Axis.MACHINE:
+                yield f"G53 G0 {self._words(machine, mine)}"
+            else:
+                yield f"G91 {kind.value} {self._words(ZERO, mine)}"
+                yield "G90"
 
     def _down(self, approach: Approach, height: float) -> Iterator[str]:
         """Yield the way down to the start point."""

@@ -155,7 +155,7 @@ def _approach(whole: NcProgram, standing: Standing, options: RestartOptions) -> 
     slowest = motions.feed[down if down.any() else fed].min(initial=np.inf)
     feed = options.plunge_feed or (float(slowest) if np.isfinite(slowest) else 0.0)
     height = control.program_place[2]
-    if standing.motions and Axis.FREE in standing.axes and height < clearance - SAME:
+    if Axis.FREE in standing.axes and standing.axes[2] is Axis.WORK and height < clearance - SAME:
         name = "XYZ"[standing.axes.index(Axis.FREE)]
         raise InputError(f"Where {name} is at this line the program does not say, and the tool would have to go down there; "
                          f"start behind the first block that says {name}.")
@@ -170,9 +170,10 @@ def _check(made: bytes, original: tuple[NcProgram, int], standing: Standing, opt
     first, count = standing.motions, len(whole.motions)
     skipped = len(again.motions) - (count - first)
     if (whole.error is None) != (again.error is None) or skipped < 0:
-        told = again.error.told("restart") if again.error is not None else "it makes other motions."
-        raise InputError(f"A restart from line {line} would not go on as the program does: {told} Start at another line: one that says "
-                         "its own G words, and that no later line jumps back over.")
+        behind = made.count(b"\n") - whole.line_count + (made[-1:] != b"\n")
+        told = f" at line {again.error.line - behind}: {again.error.text}" if again.error is not None else "."
+        raise InputError(f"A restart from line {line} would not go on as the program does{told} Start at a line that says its own "
+                         "G words, and that no later line jumps back over.")
     row = _first_other(whole, again, first, skipped)
     if row is not None:
         raise InputError(f"A restart from line {line} would not move as the program does at line {int(whole.motions.line[row])}: that "

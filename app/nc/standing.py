@@ -1,7 +1,8 @@
 """What is in force at a line of a program, and how the tool's place there is known.
 
-It is learnt by reading the program up to there, twice: as if the tool had begun somewhere else and the machine's zero lay
-elsewhere. What differs between the two depends on what nobody knows.
+It is learnt by reading the program up to there, twice: the second time as if the tool had begun somewhere else, and the
+machine's zero and its reference points lay elsewhere. What differs between the two depends on what nobody knows; by how much it
+differs tells on what.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 from enum import Enum
+from typing import TYPE_CHECKING
 
 from app.errors import InputError
 from app.nc.read.control import Control
@@ -20,11 +22,15 @@ from app.nc.read.program import FeedMode
 from app.nc.read.text import Text
 from app.progress import Progress
 
+if TYPE_CHECKING:
+    from app.nc.read.run import Run
+
 SAME = 1e-5
 """mm; positions that differ by less are the same: they are written with 6 decimals."""
 
 ELSEWHERE: Place = (137.31, 251.73, 173.91)
 OTHER_ZERO: Place = (1013.7, 2027.9, 3041.3)
+OTHER_HOMES: dict[str, Place] = {"G28": (411.9, 523.7, 631.1), "G30": (709.3, 811.1, 907.7)}
 CYCLE = re.compile(r"g(?:73|74|8[1-9])(?![0-9.])")
 OWN_MOTION = re.compile(r"g(?:0?[0-3]|80|73|74|8[1-9])(?![0-9.])")
 
@@ -34,6 +40,8 @@ class Axis(Enum):
 
     WORK = "program coordinates"
     MACHINE = "machine coordinates"
+    HOME = "G28"
+    SECOND_HOME = "G30"
     FREE = "the program has moved nothing yet"
 
 
@@ -74,8 +82,13 @@ def standing_at(data: bytes, line: int, options: ReadOptions, progress: Progress
         InputError: nothing can begin there; the text says why.
         Cancelled: the job was asked to stop.
     """
-    control, motions = _read_to(data, line, options, ZERO, progress.part(0.0, 0.5))
-    other, _ = _read_to(data, line, replace(options, start=added(options.start, ELSEWHERE)), OTHER_ZERO, progress.part(0.5, 1.0))
+    from app.nc.read.run import Run  # compiled code: loaded where it is used
+
+    control, motions = _read_to(data, line, Run(data, options, progress.part(0.0, 0.5)))
+    elsewhere = Run(data, replace(options, start=added(options.start, ELSEWHERE)), progress.part(0.5, 1.0))
+    elsewhere.control.offsets.common, elsewhere.control.homes = OTHER_ZERO, dict(OTHER_HOMES)
+    elsewhere.control.offsets_changed()
+    other, _ = _read_to(data, line, elsewhere)
     _check_zeros(control, other, line)
     axes = [_axis(control, other, axis) if motions else Axis.FREE for axis in range(3)]
     if None in axes or (motions and axes[2] is Axis.FREE):
@@ -93,8 +106,9 @@ def _axis(control: Control, other: Control, axis: int) -> Axis | None:
     if abs(control.program_place[axis] - other.program_place[axis]) < SAME:
         return Axis.WORK
     machine = [at.at[axis] + at.offsets.tool[axis] for at in (control, other)]
-    if abs(machine[0] - machine[1]) < SAME:
-        return Axis.MACHINE
+    for home, apart in ((Axis.MACHINE, ZERO), *((Axis(name), place) for name, place in OTHER_HOMES.items())):
+        if abs(machine[1] - machine[0] - apart[axis]) < SAME:
+            return home
     return Axis.FREE if control.known[axis] < 0 and control.modal.absolute else None
 
 
@@ -124,17 +138,12 @@ def _differ(a: Place, b: Place) -> bool:
     return any(abs(value) > SAME for value in taken(a, b))
 
 
-def _read_to(data: bytes, line: int, options: ReadOptions, zero: Place, progress: Progress) -> tuple[Control, int]:
-    """Return the control as it stands when it comes to a line, and how many motions it has done.
+def _read_to(data: bytes, line: int, run: Run) -> tuple[Control, int]:
+    """Return the control as it stands when a reading comes to a line, and how many motions it has done.
 
     Raises:
         InputError: it never does, or nothing can begin there.
     """
-    from app.nc.read.run import Run  # compiled code: loaded where it is used
-
-    run = Run(data, options, progress)
-    run.control.offsets.common = zero
-    run.control.offsets_changed()
     run.stop_at(line)
     program, control = run.read(), run.control
     if program.error is not None:

@@ -158,7 +158,11 @@ def test_whatever_is_in_force_is_set_again_and_linuxcnc_agrees(text, line):
     (Dialect.FANUC, "%\nO0012\nG21 G90 G54\nG0 X1. Y2. Z5.\nM98 P20 L2\nG0 X9.\nM30\nO0020\nG1 Z-1. F50.\nG0 Z5.\nM99\n%\n", 5,
      "M98 P20 L2"),
     (Dialect.HAAS, "%\nO1\nG21 G90 G54\nT1 M6\nG43 H1 Z5.\nG0 X1. Y2.\nG1 Z-1. F50.\nG53 G0 Z0.\nT2 M6\nG43 H2 Z5.\nX5.\nM30\n%\n", 9,
-     "G53 G0 Z"),
+     "G53 G0 Z0.\n"),
+    (Dialect.HAAS, "%\nO1\nG21 G90 G54\nT1 M6\nG43 H1 Z5.\nG0 X1. Y2.\nG1 Z-1. F50.\nG91 G28 Z0.\nG90\nT2 M6\nG43 H2 Z5.\nM30\n%\n", 10,
+     "G91 G28 Z0.\nG90\nG0 X1. Y2.\n"),
+    (Dialect.LINUXCNC, "G21 G90 G54\nG0 Z5\nG0 X1 Y2\nG1 Z-1 F50\nG30\nT2 M6\nG43 H2\nG0 Z5\nX5\nM30\n", 6,
+     "G91 G30 Z0.\nG90\nG91 G30 X0. Y0.\nG90\n"),
     (Dialect.MACH3, "G21\nG52 X5 Y6\nG0 Z5\nG0 X1 Y2\nG1 Z-1 F50\nG1 X5\nM30\n", 6, "G52 X5. Y6. Z0.\n"),
 ])  # fmt: skip
 def test_other_controls_get_their_own_words(dialect, text, line, has):
@@ -207,6 +211,28 @@ def test_the_text_behind_is_the_files_own_byte_for_byte(data):
     assert (b"\r\n" in made) == (b"\r\n" in data)
     assert b"\xef\xbb\xbf" not in made
     assert read_program(made, READ).error is None
+
+
+@pytest.mark.parametrize("name", ["fanuc_mm.nc", "grbl_inch_2_T2.nc", "haas_inch.nc", "linuxcnc_inch.ngc", "mach3_mm.tap"])
+def test_what_the_posts_write_can_be_begun_from_nearly_every_line_and_never_across_below_clearance(root, name):
+    data = (root / "tests" / "nc" / "golden" / name).read_bytes()
+    options = RestartOptions(ReadOptions(Dialect(name.split("_")[0].split(".")[0])))
+    original = read_program(data, options.read)
+    refused = 0
+    for line in range(1, original.line_count):
+        try:
+            made = restart(data, line, options)
+        except InputError:
+            refused += 1
+            continue
+        motions = read_program(made, options.read).motions
+        way = made[: len(made) - len(data.split(b"\n", line - 1)[-1])]
+        home = b"G91 G28 Z0.\n" in way or b"G53 G0 Z0.\n" in way
+        for row in range(len(motions) - int(np.count_nonzero(original.motions.line >= line))):
+            across = np.any(np.abs(motions.end[row, :2] - motions.start[row, :2]) > 1e-6)
+            high = min(motions.start[row, 2], motions.end[row, 2]) >= original.motions.end[:, 2].max() - 1e-4
+            assert not across or (motions.kind[row] == MotionKind.RAPID and (high or home)), (line, made)
+    assert refused <= 5
 
 
 def test_parameters_that_nobody_asks_for_are_left_out():
