@@ -289,3 +289,18 @@ def test_checking_fifty_thousand_moves_takes_well_under_a_second() -> None:
     assert found.problems == ()
     assert len(found.program.motions) >= 50_000
     assert min(took) < 1.0
+
+
+HOPELESS = (
+    "", "%\n", "M2\n", "G0 X1 Y1 Z5\nM2\n", "\x00\xff", "(" * 500, "G81 X1\n" * 50, "o1 call\n", TEXT[: len(TEXT) // 2],
+    TEXT[9:] + TEXT,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("text", HOPELESS, ids=range(len(HOPELESS)))
+@POSTS
+def test_any_text_gets_an_answer(text: str, name: str) -> None:
+    for file in CASES[name].files:
+        found = CASES[name].check(file, text)
+        assert found.problems
+        assert found.largest_distance_mm > 0
