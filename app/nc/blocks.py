@@ -58,11 +58,6 @@ class Blocks:
         self.lines.append(f"{comments.open}{text.upper() if comments.capitals else text}{comments.close}")
 
     @property
-    def cycle(self) -> str:
-        """The canned cycle that is in force, as it was given, or ""."""
-        return self._cycle
-
-    @property
     def z(self) -> int:
         """Where the tool is along Z, counts of the last decimal."""
         assert self._position[2] is not None

@@ -55,20 +55,20 @@ class CycleRules:
     chip_gap: int
 
 
-def hole_at(moves: WorkMoves, i: int, heights: tuple[int, int], rules: CycleRules) -> Hole | None:
+def hole_at(moves: WorkMoves, i: int, height: int, rules: CycleRules) -> Hole | None:
     """Return the hole that begins with move i, or None where the control has no cycle that moves like it.
 
-    A hole is a rapid over it, a rapid down to R, feeds down marked as drilling, and a rapid up to R or to the height where
-    the row of holes began; with pecks, there are the rapids between that `DrillingWords` tells of. What is there already,
+    A hole is a rapid over it, a rapid down to R, feeds down marked as drilling, and a rapid up to R or to the height before
+    it, which is where its row began too; with pecks, there are the rapids between that `DrillingWords` tells of. What is there already,
     the place or R, needs no rapid.
 
     Args:
         moves: the program's.
         i: index of a move.
-        heights: Z before move i, and Z before the first hole of the row; counts of the last decimal.
+        height: Z before move i, count of the last decimal.
         rules: what the control has.
     """
-    feed = _first_feed(moves, i, heights[0])
+    feed = _first_feed(moves, i, height)
     last = _last_feed(moves, feed) if feed else None
     if not feed or not last or not rules.words.drill:
         return None
@@ -76,7 +76,7 @@ def hole_at(moves: WorkMoves, i: int, heights: tuple[int, int], rules: CycleRule
     r = moves.end[feed - 1][2]
     done = [(moves.kind[k], moves.end[k][2]) for k in range(feed, last + 2)]
     bottom, clear = done[-2][1], done[-1][1]
-    level = {heights[1]: rules.words.to_initial, r: rules.words.to_r}.get(clear, "")
+    level = {height: rules.words.to_initial, r: rules.words.to_r}.get(clear, "")
     one_go, peck = [(MoveKind.LINE, bottom), (MoveKind.RAPID, clear)], r - first
     out, up = (islice(_steps((r, peck, bottom), rules, by_r), len(done)) for by_r in (True, False))
     ways = ((rules.words.drill, one_go, 0), (rules.words.peck, [*out, *one_go], peck), (rules.words.chip_break, [*up, *one_go], peck))

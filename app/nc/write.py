@@ -159,7 +159,6 @@ class _Writer:
         self.digits = digits = post.digits(job.out_units)
         unit = job.out_units.value
         self.z_scale = 10.0**digits.Z
-        self.row_began = 0
         gaps = (round(gap / unit * self.z_scale) for gap in (post.drilling.peck_gap_mm, post.drilling.chip_gap_mm))
         self.cycle_rules = CycleRules(post.drilling, round(self.z_scale), *gaps)
         self.arc_rules = ArcRules(
@@ -205,10 +204,7 @@ class _Writer:
         sheet, moves = self.sheet, self.moves
         if moves.kind[i] is not MoveKind.RAPID:
             return 0
-        hole = hole_at(moves, i, (sheet.z, self.row_began), self.cycle_rules) if sheet.cycle else None
-        if hole is None or hole.cycle != sheet.cycle:
-            self.row_began = sheet.z
-            hole = hole_at(moves, i, (sheet.z, sheet.z), self.cycle_rules)
+        hole = hole_at(moves, i, sheet.z, self.cycle_rules)
         if hole is None:
             return 0
         sheet.hole(hole, [(moves.kind[k], moves.end[k]) for k in range(i, hole.stop)])

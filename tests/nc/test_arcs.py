@@ -133,6 +133,14 @@ def test_flat_and_huge_arcs_become_lines() -> None:
     assert deviation(round_arc(-2e5 + 0j, 2e5, 0.0, 1e-3), huge, paths) <= 2e-4
 
 
+def test_flat_arcs_are_lines_only_where_rounding_leaves_room() -> None:
+    """Where a step of the last decimal is more than a tolerance of 1 um, a chord's bulge and its rounded ends share that step."""
+    step, rng = 10.0**-INCH4.decimals, np.random.default_rng(3)
+    for bulge, radius, x, y, angle in rng.uniform([0.15, 0.05, -1, -1, -3], [0.5, 2, 1, 1, 3], (3000, 5)).tolist():
+        arc = round_arc(complex(x, y), radius, angle, 2 * math.acos(1 - bulge * step / radius))
+        assert deviation(arc, *write(arc, INCH4)) <= INCH4.tolerance * (1 + 1e-9)
+
+
 def test_arcs_too_small_for_the_control_become_lines() -> None:
     small, _ = write(round_arc(0j, 0.0015, 0.0, math.tau), MM4)
     assert len(small) > 3 and all(piece.centre is None for piece in small)
