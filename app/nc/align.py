@@ -20,6 +20,8 @@ Whole = NDArray[np.int64]
 
 GRID = 16.0
 """Size of the grid that anchors are looked for on, in tolerances."""
+FEW = 4096
+"""Pairs of rows that are compared one by one."""
 DEEPEST = 40
 FIRST_STEP = 64
 
@@ -140,8 +142,8 @@ class _Aligner:
 
     def _same(self, a: Whole, b: Whole) -> NDArray[np.bool_]:
         """Tell which rows of a are the same as those of b beside them."""
-        near = np.all(np.abs(self._a.numbers[a] - self._b.numbers[b]) <= self._tolerance, axis=1)
-        return np.asarray(near & np.all(self._a.names[a] == self._b.names[b], axis=1))
+        near = np.all(np.abs(self._a.numbers[a] - self._b.numbers[b]) <= self._tolerance, axis=-1)
+        return np.asarray(near & np.all(self._a.names[a] == self._b.names[b], axis=-1))
 
     def _parted(self, rows: _Range) -> list[_Range]:
         """Return the ranges from one anchor to the next."""
@@ -160,12 +162,23 @@ class _Aligner:
 
     def _anchors(self, rows: _Range) -> Whole:
         """Return (k, 2) rows that come once in both, the same in both, in the order of both."""
+        if (rows.a1 - rows.a0) * (rows.b1 - rows.b0) <= FEW:
+            return self._anchors_of_few(rows)
         for keys_a, keys_b in self._keys:
             pairs = _unique_in_both(keys_a[rows.a0 : rows.a1], keys_b[rows.b0 : rows.b1]) + np.array([rows.a0, rows.b0])
             pairs = pairs[self._same(pairs[:, 0], pairs[:, 1])]
             if len(pairs):
                 return np.asarray(pairs[_longest_rise(pairs[:, 1])], np.int64)
         return np.zeros((0, 2), np.int64)
+
+
+    def _anchors_of_few(self, rows: _Range) -> Whole:
+        """Return the anchors of a range in which every row is soon compared with every other."""
+        a, b = np.arange(rows.a0, rows.a1), np.arange(rows.b0, rows.b1)
+        same = self._same(a[:, None], b)
+        once = same & (same.sum(axis=1, keepdims=True) == 1) & (same.sum(axis=0) == 1)
+        pairs = np.argwhere(once)
+        return pairs[_longest_rise(pairs[:, 1])] + (rows.a0, rows.b0) if len(pairs) else pairs
 
 
 def _unique_in_both(a: Whole, b: Whole) -> Whole:

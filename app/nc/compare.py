@@ -281,11 +281,12 @@ class _Comparison:
 
 def _side_by_side(a: Polyline, b: Polyline) -> Rows:
     """Return (2, k) pairs of motions that run along the same path at the same time."""
-    along_a, along_b = a.lengths(), b.lengths()
-    ends: Floats = np.union1d(along_a / (along_a[-1] or 1.0), along_b / (along_b[-1] or 1.0))
-    middle = (ends[1:] + ends[:-1]) / 2
-    places = [np.clip(np.searchsorted(along, middle * along[-1]), 1, len(along) - 1) for along in (along_a, along_b)]
-    return np.unique(np.stack([a.owner[places[0]], b.owner[places[1]]]), axis=1)
+    ends: Floats = np.sort(np.concatenate([path.along / (path.along[-1] or 1.0) for path in (a, b)]))
+    middle = (ends[1:] + ends[:-1])[ends[1:] > ends[:-1]] / 2
+    owners = [path.owner[np.clip(np.searchsorted(path.along, middle * path.along[-1]), 1, len(path.along) - 1)] for path in (a, b)]
+    pairs = np.stack(owners)
+    fresh = np.any(pairs[:, 1:] != pairs[:, :-1], axis=0)
+    return pairs[:, np.concatenate([[True], fresh])] if pairs.shape[1] else pairs
 
 
 def _pause(events: Pauses) -> str:

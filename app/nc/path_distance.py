@@ -29,15 +29,18 @@ class Polyline:
     Attributes:
         points: (k, 3) mm.
         owner: (k,) row of the motion that leads to each point; that of the first point is the first motion's.
+        along: (k,) length of the path up to each point, mm.
     """
 
     points: Floats
     owner: NDArray[np.int64]
+    along: Floats
 
-    def lengths(self) -> Floats:
-        """Return (k,) length of the path up to each point, mm."""
-        steps = np.sqrt(np.sum(np.diff(self.points, axis=0) ** 2, axis=1))
-        return np.concatenate([[0.0], np.cumsum(steps)])
+    @staticmethod
+    def through(points: Floats, owner: NDArray[np.int64]) -> Polyline:
+        """Return the path through points."""
+        steps = np.diff(points, axis=0)
+        return Polyline(points, owner, np.concatenate([[0.0], np.cumsum(np.sqrt(np.einsum("ij,ij->i", steps, steps)))]))
 
 
 class Paths:
@@ -65,7 +68,7 @@ class Paths:
             owner.append(np.repeat(some, count))
             order.append((some[:, None] + np.arange(1, count + 1) / (count + 1)).ravel())
         sequence = np.argsort(np.concatenate(order), kind="stable")
-        return Polyline(np.concatenate(points)[sequence], np.concatenate(owner)[sequence])
+        return Polyline.through(np.concatenate(points)[sequence], np.concatenate(owner)[sequence])
 
     def _inner_points(self, first: int, stop: int) -> Iterator[tuple[NDArray[np.int64], Floats]]:
         """Yield rows and their (m, k, 3) points between the ends, of arcs and splines."""
@@ -97,13 +100,13 @@ def leash(a: Polyline, b: Polyline) -> float:
     It is never less than the distance of the paths both ways, and it is the largest distance of the two points in one
     way of running them: each point of b is reached when a is at the nearest place of its own near the same length.
     """
-    along_a, along_b = a.lengths(), b.lengths()
+    along_a, along_b = a.along, b.along
     if min(along_a[-1], along_b[-1]) == 0.0:
         return float(max(np.max(_distances(a.points, b.points[:1])), np.max(_distances(b.points, a.points[:1]))))
     at = np.maximum.accumulate(_feet(b, along_b / along_b[-1] * along_a[-1], a, along_a))
     at[0], at[-1] = 0.0, along_a[-1]
     rise = at + np.arange(len(at)) * (1e-12 * along_a[-1])
-    breaks = np.union1d(rise, np.clip(along_a, 0.0, rise[-1]))
+    breaks = np.sort(np.concatenate([rise, np.minimum(along_a, rise[-1])]))
     on_b = np.column_stack([np.interp(breaks, rise, column) for column in b.points.T])
     on_a = np.column_stack([np.interp(breaks, along_a, column) for column in a.points.T])
     return float(np.sqrt(np.max(np.sum((on_a - on_b) ** 2, axis=1))))
@@ -162,9 +165,8 @@ def farthest(a: Polyline, b: Polyline) -> Farthest:
 
 def _dense(path: Polyline, samples: int) -> Floats:
     """Return points of a path: its own, and so many more along it."""
-    along = path.lengths()
-    at = np.union1d(along, np.linspace(0.0, along[-1], samples))
-    return np.column_stack([np.interp(at, along, column) for column in path.points.T])
+    at = np.union1d(path.along, np.linspace(0.0, path.along[-1], samples))
+    return np.column_stack([np.interp(at, path.along, column) for column in path.points.T])
 
 
 def _one_way(a: Floats, b: Floats) -> Farthest:
