@@ -69,10 +69,11 @@ def measure_program(wiring, path: Path) -> Felt:
     text, bar = nc.pane.text, nc.pane.text.verticalScrollBar()
     step = max(1, bar.maximum() // 200)
     frames = []
-    for value in range(0, bar.maximum(), step):
+    for value in range(0, max(1, bar.maximum()), step):
         bar.setValue(value)
         frames.append(timed(text.viewport().repaint))
-    picks = [timed(lambda row=row: (text.pick(row), nc.repaint())) for row in range(0, len(text.text), max(1, len(text.text) // 20))]
+    count = max(1, len(text.text))
+    picks = [timed(lambda row=row: (text.pick(row), nc.repaint())) for row in range(0, count, max(1, count // 20))]
     nc.path.fit_now()
     nc.path.repaint_scene()
     path_ms = timed(nc.path.repaint)

@@ -6,7 +6,7 @@ import re
 
 from app.nc.read.dialect import Dialect
 
-_LOOKED_AT = 200_000
+_LOOKED_AT = 50_000
 """Bytes from the beginning; what tells a control's language stands there, or in none of the program."""
 
 _TELLING: tuple[tuple[Dialect, re.Pattern[str]], ...] = tuple(

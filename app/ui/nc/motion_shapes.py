@@ -18,8 +18,8 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _SPLINE_CHORDS = 96
-_MOST_PIECES = 8_000
-"""Pieces of one arc that are painted: a thousand turns; further ones lie on them."""
+_MOST_PIECES = 1_600
+"""Pieces of one arc that are painted: two hundred turns; of more no eye could tell."""
 
 _MOST_LIT = 4_000
 

@@ -78,6 +78,7 @@ class NcView(QWidget):
         self.other.head.closed.connect(self.comparison_closed)
         self.differences.picked.connect(self._go_to_difference)
         self.path.motion_picked.connect(self.pick_motion)
+        self.path.other_picked.connect(self._pick_other)
         self.path_head.side_chosen.connect(self.set_side)
         self.path_head.colour_chosen.connect(self.set_colour)
 
@@ -175,6 +176,11 @@ class NcView(QWidget):
         self.pane.text.pick(row, tell=False)
         self.path.light(np.array([motion]))
         self.state.show_items(state_items(self.shown.shapes, row, motion, self.shown.times))
+
+    def _pick_other(self, motion: int) -> None:
+        """Mark the line of a motion of the second program."""
+        if self.compared is not None:
+            self.other.text.pick(int(self.compared.other.program.motions.line[motion]) - 1)
 
     def event(self, event: QEvent) -> bool:
         """Keep F3 from the drawing: here it finds the next place."""

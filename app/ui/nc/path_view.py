@@ -34,11 +34,13 @@ class PathView(Viewport):
     """Shows motions and tells which one is picked.
 
     Signals:
-        motion_picked(index): a motion was clicked. hovered(sentence): what is under the mouse, or "".
+        motion_picked(index): a motion was clicked. other_picked(index): one of the other program, where the first has none.
+        hovered(sentence): what is under the mouse, or "".
         cursor_moved(right, up): the place under the mouse, mm.
     """
 
     motion_picked = Signal(int)
+    other_picked = Signal(int)
     hovered = Signal(str)
     cursor_moved = Signal(float, float)
 
@@ -173,9 +175,11 @@ class PathView(Viewport):
             self.unsetCursor()
         elif self._pressed is not None:
             self._pressed = None
-            picked = self._at(event.position())
+            picked, other = (self._at(event.position(), picture) for picture in (self.picture, self.other))
             if picked is not None:
                 self.motion_picked.emit(picked)
+            elif other is not None:
+                self.other_picked.emit(other)
 
     def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
         """Forget the mouse."""
@@ -225,13 +229,13 @@ class PathView(Viewport):
         painter.drawText(QPointF(zero.x() + 41, zero.y() + 4), names[side.value[0]])
         painter.drawText(QPointF(zero.x() - 3.5, zero.y() - 41), names[side.value[1]])
 
-    def _at(self, position: QPointF) -> int | None:
-        if self.picture is None or not len(self.picture.shapes) or not self.area.contains(position):
+    def _at(self, position: QPointF, picture: MotionPicture | None) -> int | None:
+        if picture is None or not len(picture.shapes) or not self.area.contains(position):
             return None
-        return nearest_motion(self.picture.shapes, self.picture.side, self.view.to_world(position), _PICK_PX / self.view.scale)
+        return nearest_motion(picture.shapes, picture.side, self.view.to_world(position), _PICK_PX / self.view.scale)
 
     def _look(self, position: QPointF) -> None:
-        self._show_hover(self._at(position))
+        self._show_hover(self._at(position, self.picture))
 
     def _show_hover(self, motion: int | None) -> None:
         if motion == self._hover or self.picture is None:

@@ -80,6 +80,16 @@ def test_a_picked_line_lights_its_motion_and_tells_what_is_in_force(small):
     assert "G21" in words
 
 
+def test_what_is_in_force_is_that_of_the_line_and_not_of_the_next_one(qtbot, wiring, tmp_path):
+    path = tmp_path / "stops.ngc"
+    path.write_text("G21 G90\nM3 S900\nG0 X1 Y0 Z5\nM5\nG20 G0 X2\nM2\n")
+    nc = open_file(qtbot, wiring, path)
+    nc.pane.text.pick(2)
+    assert {"M3 900 rpm", "G21"} <= set(state(nc))
+    nc.pane.text.pick(3)
+    assert {"M5 off", "G20", "X 1.000"} <= set(state(nc))
+
+
 def test_a_line_without_motion_has_the_place_before_and_the_words_to_come(small):
     small.pane.text.pick(1)
     assert small.path.lit.tolist() == []
@@ -258,7 +268,7 @@ def test_empty_view_offers_to_open_a_program(qtbot, wiring):
 
 def test_comparing_marks_lines_in_both_and_jumps(qtbot, wiring, small, tmp_path):
     other = tmp_path / "other.ngc"
-    other.write_text(SMALL.replace("G1 X40 F300\n", "G1 X20 F300\nG1 X42\n"))
+    other.write_text(SMALL.replace("G1 X40 F300\n", "G1 X20 F300\nG1 X46\nG1 X40\n"))
     wiring.nc.compare(other)
     qtbot.waitUntil(lambda: small.compared is not None, timeout=WAIT_MS)
     assert small.other.isVisible()
@@ -268,6 +278,8 @@ def test_comparing_marks_lines_in_both_and_jumps(qtbot, wiring, small, tmp_path)
     assert small.pane.text.current in (5, 6)
     assert small.other.text.current in (5, 6, 7)
     assert len(small.path.lit)
+    qtbot.mouseClick(small.path, Qt.MouseButton.LeftButton, pos=on_screen(small, (45.0, 0.0)))
+    assert small.other.text.current in (6, 7), "the way that only the second program has is not found"
     qtbot.mouseClick(small.other.text.viewport(), Qt.MouseButton.LeftButton, pos=QPoint(100, 5))
     assert small.active is small.other
     wiring.window_.actions_["nc_compare_end"].trigger()
