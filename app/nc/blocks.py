@@ -54,7 +54,7 @@ class Blocks:
     def _comment(self, text: str) -> None:
         """Write one comment in the signs that the control takes."""
         comments = self._post.comments
-        text = "".join(c if c.isalnum() or c in comments.signs else "," for c in text)
+        text = "".join(c if (c.isascii() and c.isalnum()) or c in comments.signs else "," for c in text)
         self.lines.append(f"{comments.open}{text.upper() if comments.capitals else text}{comments.close}")
 
     @property

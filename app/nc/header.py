@@ -96,7 +96,7 @@ def heading_lines(heading: Heading) -> Iterator[str]:
     """Yield the comments for the operator, without their brackets."""
     job, units = heading.job, heading.job.out_units
     yield f"Part {safe_name(job.part.name)}"
-    yield f"Hitofude for {heading.post.title}, lengths in {units.name.lower()}"
+    yield f"Hitofude for {safe_name(heading.post.title)}, lengths in {units.name.lower()}"
     if heading.files > 1:
         yield f"File {heading.file} of {heading.files}, with T{heading.program.moves.tool[0]} alone, X and Y zero as in the others"
         yield "Set Z zero with this tool in the spindle"

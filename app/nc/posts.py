@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import string
-from dataclasses import fields
+from dataclasses import fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -72,6 +72,7 @@ def read_post(path: Path) -> Post:
     """
     data = _bytes(path)
     post: Post = tables_of(Post, _tree(path, ()), (path.name, data), RANGES)
+    _check_signs(replace(post, title=""), f"{path.name}: ")
     _check_words(post, path.name)
     _check_nurbs(post, path.name)
     _check_templates(post, path.name)
@@ -124,6 +125,18 @@ def _laid_over(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
     both = {key: _laid_over(below[key], above[key]) for key in above
             if isinstance(above[key], dict) and isinstance(below.get(key), dict)}  # fmt: skip
     return below | above | both
+
+
+def _check_signs(table: Any, place: str) -> None:
+    """Check that every text but the title is one line of ASCII, as programs are."""
+    for field in fields(table):
+        value = getattr(table, field.name)
+        texts = value if isinstance(value, tuple) else (value,) if isinstance(value, str) else ()
+        if is_dataclass(value):
+            _check_signs(value, f"{place}{field.name}.")
+        for text in texts:
+            if not (text.isascii() and text.isprintable()):
+                raise InputError(f"{place}{field.name} has {text!r}; programs are lines of ASCII, so other signs cannot stand here.")
 
 
 def _check_words(post: Post, file: str) -> None:

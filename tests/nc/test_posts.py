@@ -78,6 +78,8 @@ def test_unknown_post_names_the_known_ones() -> None:
         ('home = []', 'home = ["G0 Z{clearance}"]', "mill.toml: program.home: {clearance} in 'G0 Z{clearance}' is not known"),
         ("number = 1", "number = 9001", "mill.toml: program.number is 9001; expected is a number from 1 to 7999"),
         ('form = "bezier"', 'form = "none"', "mill.toml: nurbs.word is 'G5.2' for the form 'none'"),
+        ('"T{tool} M6"', '"T{tool} M6 (Fräser)"', "mill.toml: program.tool has 'T{tool} M6 (Fräser)'; programs are lines of ASCII"),
+        ('end = ["M2"]', 'end = ["M2\\nM30"]', "mill.toml: program.end has 'M2\\nM30'; programs are lines of ASCII"),
         ('dialect = "linuxcnc"', 'dialect = "okuma"', "mill.toml: dialect is 'okuma'; expected is 'linuxcnc' or 'grbl'"),
         ("X = 4", "X = 9", "mill.toml: decimals.mm.X is 9; expected is a number from 0 to 6"),
         ("I = 4", "I = 3", "mill.toml: decimals.mm must be alike"),

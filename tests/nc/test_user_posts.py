@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import os
+import re
+from dataclasses import fields, is_dataclass
 from pathlib import Path
 
 import pytest
 
 from app.errors import InputError
+from app.nc.check import Meant, check
+from app.nc.post import Post
 from app.nc.posts import load_post, post_names, post_titles
+from app.nc.write import write_files
 from app.resources import resource
 from app.settings import config_folder
+from tests.nc.programs import job, two_tools
 
 LINUXCNC = resource("posts", "linuxcnc.toml").read_text("utf-8")
 OWN = ("fanuc", "grbl", "haas", "linuxcnc", "mach3")
@@ -95,3 +101,29 @@ def test_names_with_paths_in_them_are_no_posts() -> None:
     for name in ("../posts/router", os.fspath(config_folder() / "posts" / "router"), "", "."):
         with pytest.raises(InputError, match="There is no post"):
             load_post(name)
+
+
+def test_the_manuals_examples_are_posts_whose_programs_read_back() -> None:
+    examples = re.findall(r"```toml\n(.*?)```", resource("docs", "posts.md").read_text("utf-8"), re.S)
+    assert len(examples) == 2
+    for number, text in enumerate(examples):
+        user_post(f"example{number}", text)
+        post, program = load_post(f"example{number}"), two_tools().program()
+        (file,) = write_files(program, job(), post)
+        assert check(file.nc.text.encode("ascii"), file, Meant(program, job(), post)).problems == ()
+    assert "N50 T01 M6\nN60 G0 G43 H01 Z5.\nN70 S12000 M3\nN80 T2\nN90 G4 P2000\n" in file.nc.text
+
+
+def test_a_title_may_have_any_letters() -> None:
+    user_post("router", 'extends = "fanuc"\ntitle = "Fräse (groß); 歯車"\n')
+    (file,) = write_files(two_tools().program(), job(), load_post("router"))
+    assert file.nc.text.isascii() and "(HITOFUDE FOR FRASE _GRO___ __, LENGTHS IN MM)" in file.nc.text
+
+
+def test_the_manual_names_every_table_and_key() -> None:
+    manual = resource("docs", "posts.md").read_text("utf-8")
+    for table in fields(Post):
+        assert f"`{table.name}" in manual
+        inside = fields(getattr(load_post("linuxcnc"), table.name)) if is_dataclass(getattr(load_post("linuxcnc"), table.name)) else ()
+        if table.name not in ("decimals", "drilling"):
+            assert [key.name for key in inside if f"`{key.name}`" not in manual] == []
