@@ -268,7 +268,7 @@ def test_empty_view_offers_to_open_a_program(qtbot, wiring):
 
 def test_comparing_marks_lines_in_both_and_jumps(qtbot, wiring, small, tmp_path):
     other = tmp_path / "other.ngc"
-    other.write_text(SMALL.replace("G1 X40 F300\n", "G1 X20 F300\nG1 X46\nG1 X40\n"))
+    other.write_text(SMALL.replace("G1 X40 F300\n", "G1 X20 F300\nG1 X60\nG1 X40\n"))
     wiring.nc.compare(other)
     qtbot.waitUntil(lambda: small.compared is not None, timeout=WAIT_MS)
     assert small.other.isVisible()
@@ -278,7 +278,7 @@ def test_comparing_marks_lines_in_both_and_jumps(qtbot, wiring, small, tmp_path)
     assert small.pane.text.current in (5, 6)
     assert small.other.text.current in (5, 6, 7)
     assert len(small.path.lit)
-    qtbot.mouseClick(small.path, Qt.MouseButton.LeftButton, pos=on_screen(small, (45.0, 0.0)))
+    qtbot.mouseClick(small.path, Qt.MouseButton.LeftButton, pos=on_screen(small, (55.0, 0.0)))
     assert small.other.text.current in (6, 7), "the way that only the second program has is not found"
     qtbot.mouseClick(small.other.text.viewport(), Qt.MouseButton.LeftButton, pos=QPoint(100, 5))
     assert small.active is small.other
