@@ -182,6 +182,9 @@ def test_a_tool_whose_length_is_taken_and_not_gone_to_is_told() -> None:
     (file,) = written.files
     assert "G43 H2 Z5." in file.nc.text
     assert any("does not go to clearance" in text for _, text in problems(file.nc.text.replace("G43 H2 Z5.", "G43 H2"), written))
+    second = TEXT.index("T2 M6")
+    bare = TEXT[:second] + TEXT[second:].replace("G0 Z5.0000", "G0", 1)  # stays where the other tool was lifted to
+    assert any("does not go to clearance" in text for _, text in problems(bare))
     swapped = file.nc.text.replace("H1", "H9").replace("H2", "H1").replace("H9", "H2")
     assert any("the tool length is H2 where H1 was meant" in text for _, text in problems(swapped, written))
 
