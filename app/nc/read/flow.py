@@ -6,10 +6,13 @@ import re
 from dataclasses import dataclass, field
 
 from app.nc.read.control import Control
-from app.nc.read.expression import Values, evaluated, whole
+from app.nc.read.expression import Value, Values, evaluated, whole
 from app.nc.read.fault import Fault
 from app.nc.read.parameters import Key
 from app.nc.read.places import KEYWORDS, Cursor, Places, Statement, label_of
+
+MOST_KEPT = 10_000
+"""Lines of loops and subroutines that are kept as they were understood."""
 
 _NUMBERED = re.compile(r"/?(?:n[0-9.]+)?")
 _LABEL = re.compile(r"<[^<>]{1,200}>|[0-9]{1,9}")
@@ -66,6 +69,8 @@ class Flow:
         self.next = self.here = Cursor(0, 1)
         self.frames = [Frame()]
         self._seen: dict[int, tuple[object, ...]] = {}
+        self._statements: dict[int, tuple[Statement, int]] = {}
+        self._conditions: dict[str, Value] = {}
 
     @property
     def nested(self) -> bool:
@@ -127,18 +132,24 @@ class Flow:
         Raises:
             Fault: it is not one, or what belongs to it is missing.
         """
-        begun = _NUMBERED.match(code)
         values = Values(code, self._control.options.limits.nesting)
-        values.at = (begun.end() if begun else 0) + 1
-        label = self._label(values)
-        keyword = _KEYWORD.match(code, values.at)
-        if keyword is None:
-            if values.at < len(code):
-                raise Fault("behind an O word stands sub, call, if, while, do, repeat or one of their partners.", column=-1 - values.at)
-            return
-        values.at = keyword.end()
-        statement = Statement(self.here, label, keyword[0])
-        _ACTS[keyword[0]](self, statement, values)
+        known = self._statements.get(self.here.offset)
+        if known is not None:
+            statement, values.at = known
+        else:
+            begun = _NUMBERED.match(code)
+            values.at = (begun.end() if begun else 0) + 1
+            is_written = _LABEL.match(code, values.at) is not None
+            label = self._label(values)
+            keyword = _KEYWORD.match(code, values.at)
+            if keyword is None:
+                if values.at < len(code):
+                    raise Fault("behind an O word stands sub, call, if, while, do, repeat or one of their partners.", column=-1 - values.at)
+                return
+            values.at, statement = keyword.end(), Statement(self.here, label, keyword[0])
+            if is_written and len(self._statements) < MOST_KEPT:
+                self._statements[self.here.offset] = statement, values.at
+        _ACTS[statement.keyword](self, statement, values)
 
     def _label(self, values: Values) -> str:
         written = _LABEL.match(values.code, values.at)
@@ -151,10 +162,15 @@ class Flow:
         """Return what a condition or a count is."""
         if values.code[values.at : values.at + 1] != "[":
             raise Fault("expected [ with a condition.", column=-1 - values.at)
-        result = evaluated(values.value(), self._control.parameters)
-        if values.at < len(values.code):
-            raise Fault("expected nothing more behind the condition.", column=-1 - values.at)
-        return result
+        written = values.code[values.at :]
+        value = self._conditions.get(written)
+        if value is None:
+            value = values.value()
+            if values.at < len(values.code):
+                raise Fault("expected nothing more behind the condition.", column=-1 - values.at)
+            if len(self._conditions) < MOST_KEPT:
+                self._conditions[written] = value
+        return evaluated(value, self._control.parameters)
 
     def _partner(self, statement: Statement, *keywords: str) -> Statement:
         """Return the statement further down that belongs to one."""

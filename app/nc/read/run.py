@@ -11,7 +11,7 @@ from app.nc.read.codes import CYCLES, TAKES, Group
 from app.nc.read.control import Control
 from app.nc.read.dialect import Dialect
 from app.nc.read.fault import Fault
-from app.nc.read.flow import Flow
+from app.nc.read.flow import MOST_KEPT, Flow
 from app.nc.read.lane import Plain, plain_blocks
 from app.nc.read.macro import call_or_return, is_macro, obey_macro
 from app.nc.read.moves import move
@@ -31,9 +31,6 @@ LEADER = 4096
 
 _PLAIN = re.compile(rb"(?:[ \txyzijkrfnXYZIJKRFN0-9.+\-]+|[gG][ \t]*0?[0-3](?![ \t]*[0-9.]))*+(?:[(;][^\n]*)?\n")
 """A line that the lane may know how to do."""
-
-MOST_KEPT = 10_000
-"""Lines of loops and subroutines that are kept as they were understood."""
 
 _LEADER = re.compile(rb"[ \t\n\v\f\0]*%")
 _PERCENT = re.compile(rb"^[ \t]*%", re.MULTILINE)

@@ -25,7 +25,7 @@ def judged(data: bytes, dialect: Dialect = Dialect.LINUXCNC) -> NcProgram:
     started = time.process_time()
     program = read_program(data, ReadOptions(dialect))
     spent = time.process_time() - started
-    assert spent < SECONDS * max(1.0, len(data) / BYTES), f"{spent:.1f} s"
+    assert spent < SECONDS * max(1.0, len(data) / BYTES), f"{spent:.1f} s for {data[:2000]!r}"
     _judge_motions(program)
     _judge_problems(program, data)
     return program

@@ -18,8 +18,8 @@ from tests.nc.read.nc_texts import damaged, grammatical
 from tests.nc.read.plain_oracle import rows_of, same_bits
 
 texts = st.one_of(grammatical.map(str.encode), damaged(), damaged(), st.binary(max_size=300))
-short = settings(max_examples=150, suppress_health_check=list(HealthCheck))
-minutes = settings(max_examples=20_000, suppress_health_check=list(HealthCheck))
+short = settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
+minutes = settings(max_examples=20_000, deadline=None, suppress_health_check=list(HealthCheck))
 
 
 class Core(Run):
