@@ -109,9 +109,10 @@ def write_and_check(program: Program, job: Job, post: Post, machine: Machine | N
         return Written(post, (), (), machine)
     files = write_files(program, job, post, progress.part(0.0, 0.6))
     checks: list[Check] = []
-    for file in files:
-        progress.step(0.6 + 0.4 * len(checks) / len(files), "Reading the program back")
-        checks.append(check(file.nc.text.encode(), file, Meant(program, job, post)))
+    for k, file in enumerate(files):
+        share = progress.part(0.6 + 0.4 * k / len(files), 0.6 + 0.4 * (k + 1) / len(files))
+        share.step(0.0, "Reading the program back")
+        checks.append(check(file.nc.text.encode(), file, Meant(program, job, post), share))
         checks[-1].require(f"{post.title} program{_in_file(file)}")
     return Written(post, files, tuple(checks), machine)
 
