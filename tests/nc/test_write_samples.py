@@ -1,4 +1,4 @@
-"""Whole drawings: the program of each is accepted by LinuxCNC's interpreter, and its motion is the computed path to 1 um."""
+"""Whole drawings: LinuxCNC's interpreter accepts its program and moves along the computed path to 1 um; every post's reads back."""
 
 from __future__ import annotations
 
@@ -11,10 +11,12 @@ from app.files.drawing import read_drawing
 from app.model.job import Job, OriginXY, OriginZ
 from app.model.part import Units
 from app.model.stock_box import stock_box, work_origin
-from app.nc.posts import load_post
-from app.nc.write import write_program
+from app.nc.check import Meant, check
+from app.nc.posts import load_post, post_names
+from app.nc.write import write_files, write_program
 from app.toolpath.compute import compute
 from tests.conftest import ROOT
+from tests.nc.grbl_syntax import grbl_errors
 from tests.nc.rs274_oracle import assert_same_motion
 
 FIG2 = ROOT / "resources" / "samples" / "fig2.dxf"
@@ -31,3 +33,8 @@ def test_motion_of_a_whole_drawing(drawing: Path) -> None:
         written = replace(job, out_units=units)
         nc = write_program(program, written, load_post(job.post))
         assert_same_motion(program.moves, nc, written, work_origin(job, stock_box(job, program.regions)))
+        for name in post_names():
+            post = load_post(name)
+            for file in write_files(program, written, post):
+                assert check(file.nc.text.encode("ascii"), file, Meant(program, written, post)).problems == ()
+                assert name != "grbl" or grbl_errors(file.nc.text) == []
