@@ -128,7 +128,7 @@ def _tangents(arcs: ArcPaths, fraction: float) -> Floats:
     grow, turn = arcs.end_radius - arcs.start_radius, radius * arcs.sweep
     own = np.column_stack([grow * np.cos(angle) - turn * np.sin(angle), grow * np.sin(angle) + turn * np.cos(angle), arcs.rise])
     moved = np.empty_like(own)
-    np.put_along_axis(moved, arcs.axes, own, axis=1)
+    moved[np.arange(len(own))[:, None], arcs.axes] = own
     return moved
 
 

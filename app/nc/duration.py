@@ -126,12 +126,17 @@ def _limits(motions: Motions, machine: Machine, length: Floats, arcs: ArcPaths) 
     for row in motions.splines:
         shares[row] = 1.0
     with np.errstate(divide="ignore"):
-        speed = np.min(rapids / shares, axis=1)
-        acceleration = np.min(accelerations / shares, axis=1)
+        speed = _least(rapids / shares)
+        acceleration = _least(accelerations / shares)
     feed = np.where(motions.feed > 0, np.minimum(motions.feed, machine.largest_feed), machine.largest_feed) / 60
     speed = np.where(motions.kind == MotionKind.RAPID, speed, np.minimum(speed, feed))
     _round_curves(motions, arcs, accelerations, speed)
     return speed, acceleration
+
+
+def _least(rows: Floats) -> Floats:
+    """Return the least of each row of three."""
+    return np.asarray(np.minimum(np.minimum(rows[:, 0], rows[:, 1]), rows[:, 2]))
 
 
 def _arc_shares(arcs: ArcPaths) -> Floats:
@@ -146,7 +151,7 @@ def _arc_shares(arcs: ArcPaths) -> Floats:
 
 def _round_curves(motions: Motions, arcs: ArcPaths, accelerations: Floats, speed: Floats) -> None:
     """Bound the speed on arcs and splines by the acceleration towards their centre."""
-    inward = np.min(accelerations[arcs.axes[:, :2]], axis=1)
+    inward = np.minimum(*(accelerations[arcs.axes[:, column]] for column in (0, 1)))
     radius = np.maximum(np.minimum(arcs.start_radius, arcs.end_radius), STILL)
     flat = np.cos(np.arctan2(np.abs(arcs.rise), np.abs(arcs.sweep) * radius))
     speed[arcs.rows] = np.minimum(speed[arcs.rows], np.sqrt(inward * radius) / np.maximum(flat, STILL))
@@ -182,5 +187,6 @@ def _stops(program: NcProgram, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
     events = np.zeros(len(motions) + 1, np.int64)
     np.add.at(events, [event.before for event in program.events], 1)
     done = np.cumsum(events)
-    jump = np.abs(motions.start[after] - motions.end[before]).max(axis=1) > JUMP
+    gap = motions.start[after] - motions.end[before]
+    jump = np.einsum("ij,ij->i", gap, gap) > JUMP**2
     return np.asarray((rapid[before] != rapid[after]) | (doing[before] != doing[after]) | (done[before] != done[after]) | jump)
