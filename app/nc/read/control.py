@@ -45,7 +45,7 @@ class Control:
         compensation: G41 or G42, None = G40. stray: where the tool itself is when that is not where the program takes it to be,
             after G40.
         line: 1-based, of the block that is running. unrolled: blocks that were done again.
-        columns, splines, events, warnings: what comes out; a warning is a text, its letter and its line.
+        columns, splines, events, homeward, warnings: what comes out; a warning is a text, its letter and its line.
     """
 
     def __init__(self, options: ReadOptions) -> None:
@@ -70,6 +70,7 @@ class Control:
         self.columns = Columns()
         self.splines: dict[int, Nurbs] = {}
         self.events: list[Event] = []
+        self.homeward: list[int] = []
         self.warnings: dict[str, tuple[str, int]] = {}
         self.parameters = Parameters(self.own_parameter, local_numbers=33 if self.habits.fanuc_flow else 30)
         self._states: dict[ModalState, int] = {}

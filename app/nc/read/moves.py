@@ -80,6 +80,7 @@ def _go_home(control: Control, block: Block, code: str) -> None:
     goal = control.program_place
     for axis in named or range(3):
         goal = replaced(goal, axis, home[axis])
+    control.homeward.append(control.row)
     control.move(MotionKind.RAPID, control.offsets.to_table(goal))
 
 
@@ -89,6 +90,7 @@ def _target(control: Control, block: Block) -> Place:
         if control.modal.absolute:
             control.note_known(block)
         return control.target(block)
+    control.homeward.append(control.row)
     place = control.at
     for axis, value in control.axis_words(block):
         place = replaced(place, axis, value - control.offsets.tool[axis])

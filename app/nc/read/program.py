@@ -159,6 +159,8 @@ class NcProgram:
         motions: in the order of doing, loops and subroutines unrolled.
         states: what `Motions.state` counts in; never empty.
         events: in order.
+        homeward: motions to a place of the machine (G28, G30, G53). Where that is in these coordinates only the machine's work
+            offset tells, so their ends, and the starts of those behind them, are no places of the part.
         problems: in the order of the text's running; at most one error, the last one.
         tools, stock: what comments say.
         line_count: lines of the text.
@@ -167,6 +169,7 @@ class NcProgram:
     motions: Motions
     states: tuple[ModalState, ...] = (ModalState(),)
     events: tuple[Event, ...] = ()
+    homeward: tuple[int, ...] = ()
     problems: tuple[Problem, ...] = ()
     tools: tuple[ToolNote, ...] = ()
     stock: StockNote | None = None

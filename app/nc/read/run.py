@@ -96,7 +96,10 @@ class Run:
         tools, stock = notes(self._text.data)
         known = [row if row >= 0 else control.columns.count for row in control.known]
         motions = control.columns.motions(control.splines, (known[0], known[1], known[2]))
-        return NcProgram(motions, control.states, tuple(control.events), (*warnings, *self._problems), tools, stock, self._text.line_count)
+        return NcProgram(
+            motions, control.states, tuple(control.events), tuple(control.homeward), (*warnings, *self._problems), tools, stock,
+            self._text.line_count,
+        )  # fmt: skip
 
     def _skip_leader(self) -> None:
         """Begin behind the per cent sign of a program that has one; Fanuc's and Haas' readers skip what stands before it."""

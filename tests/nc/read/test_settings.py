@@ -197,3 +197,8 @@ def test_fanuc_repeats_holes_by_k() -> None:
     text = "G91 F100.\nG81 X1. Z-1. R1. K2\nG80\nM30\n"
     assert [end[0] for end in ends(read(text, Dialect.FANUC))][-1] == 2
     assert not warnings(text, Dialect.FANUC)
+
+
+def test_motions_to_the_machines_own_places_are_told_apart() -> None:
+    assert read("G0 X1\nG28 Z5\nG0 X2\nG53 G0 Z0\nG0 X3\nM2\n").homeward == (2, 4)
+    assert read("G0 X1.\nG91 G28 Z0.\nG90 X2.\nM30\n", Dialect.FANUC).homeward == (1,)
