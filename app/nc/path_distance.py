@@ -16,6 +16,9 @@ MOST_PIECES = 1024
 MOST_SAMPLES = 4000
 """Places along a path that are looked at, beside its own points, for the one farthest away."""
 SPLINE_CHORDS = 1024
+STRAY = 1e-3
+"""How much nearer, in parts of the way to it, a place must be to be taken before one at about the same length: where a path
+runs over itself both are as near."""
 PORTION = 50_000
 """Points whose nearest places are looked for at once, so that memory stays small."""
 WINDOW = 6
@@ -98,17 +101,24 @@ def leash(a: Polyline, b: Polyline) -> float:
     """Return a length, mm, with which a leash between two points is long enough while each runs one path, never back.
 
     It is never less than the distance of the paths both ways, and it is the largest distance of the two points in one
-    way of running them: each point of b is reached when a is at the nearest place of its own near the same length.
+    way of running them, the better of two: each point of b is reached when a is at the same share of its length, or at the
+    nearest place of its own near there.
     """
     along_a, along_b = a.along, b.along
     if min(along_a[-1], along_b[-1]) == 0.0:
         return float(max(np.max(_distances(a.points, b.points[:1])), np.max(_distances(b.points, a.points[:1]))))
-    at = np.maximum.accumulate(_feet(b, along_b / along_b[-1] * along_a[-1], a, along_a))
-    at[0], at[-1] = 0.0, along_a[-1]
-    rise = at + np.arange(len(at)) * (1e-12 * along_a[-1])
-    breaks = np.sort(np.concatenate([rise, np.minimum(along_a, rise[-1])]))
+    expected = along_b / along_b[-1] * along_a[-1]
+    return min(_leash_by(a, b, at) for at in (expected, _feet(b, expected, a, along_a)))
+
+
+def _leash_by(a: Polyline, b: Polyline, at: Floats) -> float:
+    """Return the length of the leash where each point of b is reached when a is at these lengths, or as far as it ever was."""
+    at = np.maximum.accumulate(at)
+    at[0], at[-1] = 0.0, a.along[-1]
+    rise = at + np.arange(len(at)) * (1e-12 * a.along[-1])
+    breaks = np.sort(np.concatenate([rise, np.minimum(a.along, rise[-1])]))
     on_b = np.column_stack([np.interp(breaks, rise, column) for column in b.points.T])
-    on_a = np.column_stack([np.interp(breaks, along_a, column) for column in a.points.T])
+    on_a = np.column_stack([np.interp(breaks, a.along, column) for column in a.points.T])
     return float(np.sqrt(np.max(np.sum((on_a - on_b) ** 2, axis=1))))
 
 
@@ -118,15 +128,15 @@ def _feet(b: Polyline, expected: Floats, a: Polyline, along_a: Floats) -> Floats
     steps = np.diff(a.points, axis=0)
     squared = np.sum(steps**2, axis=1)
     reach = min(WINDOW, last)
-    offsets = np.array(sorted(range(-reach, reach + 1), key=abs))
+    offsets = np.arange(-reach, reach + 1)
     middle = np.clip(np.searchsorted(along_a, expected, side="right") - 1, 0, last)
     where = np.empty_like(expected)
     for first in range(0, len(expected), PORTION):
         rows = slice(first, first + PORTION)
         piece = np.clip(middle[rows, None] + offsets, 0, last)
         share, distance = _nearest(b.points[rows, None], a.points[piece], steps[piece], squared[piece])
-        best = np.argmin(np.round(distance, 9), axis=1)[:, None]
         at = along_a[piece] + share * np.sqrt(squared[piece])
+        best = np.argmin(distance + STRAY * np.abs(at - expected[rows, None]), axis=1)[:, None]
         where[rows] = np.take_along_axis(at, best, axis=1)[:, 0]
     return where
 

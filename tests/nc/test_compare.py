@@ -99,6 +99,13 @@ def test_two_turns_are_not_one():
     assert "order or sense" in item.text
 
 
+def test_going_back_over_its_own_path_is_another_path():
+    straight, back = Course().line(10, 0).line(10, 10), Course().line(6, 0).line(4, 0).line(10, 0).line(10, 10)
+    (item,) = compare(straight.program(), back.program(), TOLERANCE).items
+    assert item.kind is DifferenceKind.PATH
+    assert "order or sense" in item.text
+
+
 def test_a_spline_is_the_arc_that_it_draws():
     half = math.sqrt(0.5)
     curve = Nurbs(np.array([[10.0, 0, 0], [10, 10, 0], [0, 10, 0]]), np.array([1, half, 1]), np.array([0.0, 0, 0, 1, 1, 1]), 2)
