@@ -34,14 +34,15 @@ NOWHERE = Extent((np.nan,) * 3, (np.nan,) * 3)
 """The box of no motion."""
 
 
-def extent(motions: Motions, chosen: NDArray[np.bool_] | None = None) -> Extent:
-    """Return the box round motions: arcs by what they reach, splines by their control points.
+def extent(program: NcProgram, chosen: NDArray[np.bool_] | None = None) -> Extent:
+    """Return the box round a program's motions: arcs by what they reach, splines by their control points.
 
     Args:
-        motions: an axis counts from the first motion on that sets it; before, only the operator knows where it is.
+        program: an axis counts from the first motion on that sets it, and not while it stands at a place of the machine (G28,
+            G53): where these are, only the operator and the machine know.
         chosen: (n,) which motions count; None = all.
     """
-    low, high = _known_reach(motions)
+    low, high = _known_reach(program)
     if chosen is not None:
         low, high = low[chosen], high[chosen]
     return Extent(_triple(np.fmin.reduce(low, axis=0, initial=np.inf)), _triple(np.fmax.reduce(high, axis=0, initial=-np.inf)))
@@ -52,14 +53,33 @@ def _triple(values: Floats) -> tuple[float, float, float]:
     return (x, y, z)
 
 
-def _known_reach(motions: Motions) -> tuple[Floats, Floats]:
+def _known_reach(program: NcProgram) -> tuple[Floats, Floats]:
     """Return what each motion reaches, (n, 3); NaN where it is not known."""
+    motions = program.motions
     low, high = reach(motions)
-    for axis, row in enumerate(motions.known_from):
-        low[:row, axis], high[:row, axis] = np.nan, np.nan
-        if row < len(motions) and motions.kind[row] in (MotionKind.RAPID, MotionKind.LINE):
-            low[row, axis] = high[row, axis] = motions.end[row, axis]
+    nowhere = _nowhere(program)
+    straight = (motions.kind == MotionKind.RAPID) | (motions.kind == MotionKind.LINE)
+    from_nowhere = np.concatenate([np.ones_like(nowhere[:1]), nowhere[:-1]]) & straight[:, None]
+    for side in (low, high):
+        side[from_nowhere] = motions.end[from_nowhere]
+        side[nowhere] = np.nan
     return low, high
+
+
+def _nowhere(program: NcProgram) -> NDArray[np.bool_]:
+    """Return (n, 3) whether a motion ends, along an axis, where nobody knows: before the program sets it, or at the machine's home."""
+    motions = program.motions
+    nowhere = np.zeros((len(motions), 3), bool)
+    for axis, row in enumerate(motions.known_from):
+        nowhere[:row, axis] = True
+    for home in program.homeward:
+        for axis in range(3):
+            row, height = home, motions.end[home, axis]
+            moved = height != motions.start[home, axis] or (home > 0 and nowhere[home - 1, axis])
+            while moved and row < len(motions) and motions.end[row, axis] == height:
+                nowhere[row, axis] = True
+                row += 1
+    return nowhere
 
 
 def misfits(program: NcProgram, machine: Machine) -> tuple[Problem, ...]:
@@ -71,16 +91,16 @@ def misfits(program: NcProgram, machine: Machine) -> tuple[Problem, ...]:
         program: as it was read.
         machine: where its work origin is not known, only the size of the program's box is held against its travel.
     """
-    return (*_beyond_travel(program.motions, machine), *_too_fast(program.motions, machine), *_wrong_speeds(program, machine))
+    return (*_beyond_travel(program, machine), *_too_fast(program.motions, machine), *_wrong_speeds(program, machine))
 
 
-def _beyond_travel(motions: Motions, machine: Machine) -> Iterator[Problem]:
+def _beyond_travel(program: NcProgram, machine: Machine) -> Iterator[Problem]:
     """Yield a problem for each axis whose travel the program leaves, or whose travel is less than the program's size."""
-    low, high = _known_reach(motions)
+    low, high = _known_reach(program)
     for column, name in enumerate("XYZ"):
         if not np.any(np.isfinite(low[:, column])):
             continue
-        reached = _AxisReach(name, low[:, column], high[:, column], motions.line)
+        reached = _AxisReach(name, low[:, column], high[:, column], program.motions.line)
         axis = machine.axes[column]
         yield from (reached.too_long(axis, machine) if machine.work_origin is None
                     else reached.outside(axis, machine.work_origin[column], machine))  # fmt: skip

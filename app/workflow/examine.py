@@ -74,12 +74,12 @@ class Examined:
     @property
     def box(self) -> Extent:
         """Round all motions, mm."""
-        return extent(self.program.motions)
+        return extent(self.program)
 
     @property
     def cut_box(self) -> Extent:
         """Round the motions that cut, mm."""
-        return extent(self.program.motions, self.program.motions.kind != MotionKind.RAPID)
+        return extent(self.program, self.program.motions.kind != MotionKind.RAPID)
 
     @property
     def tools(self) -> tuple[int, ...]:

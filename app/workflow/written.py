@@ -79,7 +79,7 @@ class Written:
 
     def box(self, cuts: bool) -> Extent:
         """Return the box round all motions, or round those that cut, mm, program coordinates."""
-        boxes = [extent(program.motions, program.motions.kind != MotionKind.RAPID if cuts else None) for program in self._programs]
+        boxes = [extent(program, program.motions.kind != MotionKind.RAPID if cuts else None) for program in self._programs]
         low, high = (np.array([getattr(box, end) for box in boxes]) for end in ("low", "high"))
         return Extent(tuple(np.min(low, axis=0).tolist()), tuple(np.max(high, axis=0).tolist())) if boxes else NOWHERE
 

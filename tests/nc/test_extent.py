@@ -11,6 +11,7 @@ from app.model.motion import Motions, Nurbs, Plane
 from app.model.motion_path import arc_paths, lengths, reach, spline_points
 from app.nc.extent import extent, misfits
 from app.nc.read.program import ModalState, NcProgram
+from app.nc.read.reader import read_program
 from tests.nc.motion_programs import Course, machine
 
 
@@ -43,7 +44,7 @@ def test_arcs_reach_as_far_as_their_points_and_are_as_long_as_their_chords(seed:
 
 
 def test_a_full_circle_reaches_all_round() -> None:
-    box = extent(Course(at=(10, 0, 0)).arc((10, 0, -2), (0, 0, 0), ccw=False).motions())
+    box = extent(Course(at=(10, 0, 0)).arc((10, 0, -2), (0, 0, 0), ccw=False).program())
     assert box.low == pytest.approx((-10, -10, -2))
     assert box.high == pytest.approx((10, 10, 0))
     assert box.size == pytest.approx((20, 20, 2))
@@ -54,7 +55,7 @@ def test_a_spline_stays_in_the_box_of_its_control_points_and_weights_pull() -> N
     points = spline_points(quarter)
     assert np.hypot(points[:, 0], points[:, 1]) == pytest.approx(np.full(len(points), 5))
     motions = Course(at=(5, 0, 0)).spline(quarter).motions()
-    assert extent(motions).high == (5, 5, 0)
+    assert extent(NcProgram(motions)).high == (5, 5, 0)
     assert lengths(motions)[0] == pytest.approx(2.5 * math.pi, rel=1e-4)
 
 
@@ -62,16 +63,27 @@ def test_an_axis_counts_from_where_the_program_sets_it() -> None:
     course = Course(at=(900.0, 900.0, 900.0)).rapid(900, 900, 5).rapid(10, 20, 5).line(30, 20, -1)
     made = course.motions()
     known = Motions(**{name: getattr(made, name) for name in made.__dataclass_fields__} | {"known_from": (1, 1, 0)})
-    assert (extent(known).low, extent(known).high) == ((10, 20, -1), (30, 20, 5))
+    assert (extent(NcProgram(known)).low, extent(NcProgram(known)).high) == ((10, 20, -1), (30, 20, 5))
     never = Motions(**{name: getattr(made, name) for name in made.__dataclass_fields__} | {"known_from": (3, 3, 0)})
-    assert np.isnan(extent(never).low[0])
-    assert extent(never).high[2] == 5
+    assert np.isnan(extent(NcProgram(never)).low[0])
+    assert extent(NcProgram(never)).high[2] == 5
 
 
 def test_the_box_of_chosen_motions_and_of_none() -> None:
-    motions = Course().rapid(100, 0, 5).line(20, 0, 0).motions()
-    assert extent(motions, motions.kind != 0).high == (100, 0, 5)
-    assert np.isnan(extent(motions, motions.kind > 7).low).all()
+    program = Course().rapid(100, 0, 5).line(20, 0, 0).program()
+    assert extent(program, program.motions.kind != 0).high == (100, 0, 5)
+    assert np.isnan(extent(program, program.motions.kind > 7).low).all()
+
+
+def test_the_machines_home_is_no_place_of_the_part() -> None:
+    text = b"G21 G90 G54\nG0 Z5\nX10 Y10\nG1 Z-1 F100\nX20\nG91 G28 Z0\nG90\nG0 X90 Y3\nZ7\nX30\nG53 G0 Z0\nX-500\nM2\n"
+    read = read_program(text)
+    assert read.problems == ()
+    box = extent(read)
+    assert (box.low, box.high) == ((-500, 3, -1), (90, 10, 7))
+    for goes in (b"G91 G28 X0 Y0", b"G53 G0 X0 Y0"):
+        read = read_program(text.replace(b"M2", goes + b"\nM2"))
+        assert (extent(read).low, extent(read).high) == (box.low, box.high)
 
 
 def told(program: NcProgram, **changes: object) -> list[tuple[int, str]]:
