@@ -23,7 +23,7 @@ from app.ui.nc.motion_shapes import Side
 from app.ui.theme import LIGHT, Theme, text_font
 
 _PICK_PX, _CLICK_PX, _BLEED_PX, _EDGE_PX = 6.0, 4.0, 8.0, 16.0
-_HALO_PX = 4.6
+_HALO_PX = 3.6
 """Width of another program's path, which shows as a rim where the two are alike."""
 
 _NONE: Ints = np.zeros(0, np.int64)
