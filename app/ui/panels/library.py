@@ -145,12 +145,17 @@ class LibrarySection(Section):
         self._chosen = tool
         for other, row in self._rows:
             row.set_chosen(other is tool)
-            if other is tool:
-                self.area.ensureWidgetVisible(row, 0, 0)
+        self.reveal()
         self.details.setText("" if tool is None else _about(for_material(tool, self._material), row_for(tool, self._material)))
         self.details.setVisible(tool is not None)
         self.add_button.setEnabled(tool is not None)
         self.put_button.setEnabled(tool is not None)
+
+    def reveal(self) -> None:
+        """Bring the chosen row into sight."""
+        for tool, row in self._rows:
+            if tool is self._chosen:
+                self.area.ensureWidgetVisible(row, 0, 0)
 
     def _choose_material(self, name: object) -> None:
         self._material = str(name)

@@ -112,7 +112,11 @@ class SidePanel(QScrollArea):
         if not self.library.isHidden():
             others = self._inner.sizeHint().height() - self.library.area.height()
             self.library.fit_into(self.viewport().height() - others)
-            QTimer.singleShot(0, lambda: self.ensureWidgetVisible(self.library, 0, 0))
+            QTimer.singleShot(0, self._show_library)
+
+    def _show_library(self) -> None:
+        self.ensureWidgetVisible(self.library, 0, 0)
+        self.library.reveal()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Give the library's list the room that is left."""

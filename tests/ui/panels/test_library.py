@@ -121,6 +121,17 @@ def test_the_list_has_the_rows_that_there_is_room_for(qtbot, panel):
     assert heights == [4 * 28, 11 * 28]
 
 
+def test_the_chosen_row_is_in_sight_when_the_library_opens_again(qtbot, panel):
+    library = panel.library
+    library.choose(library.shown[-1])
+    panel.switch_library()
+    panel.resize(328, 420)
+    panel.switch_library()
+    qtbot.wait(50)
+    row = library._rows[-1][1]
+    assert library.area.viewport().rect().contains(row.mapTo(library.area.viewport(), row.rect().center()))
+
+
 def test_the_form_offers_the_tools_materials(qtbot, document, panel):
     tool = replace(Tool(2, 6.0), feeds=(FeedRow("steel", 90.0, 0.03), FeedRow("wood", 500.0, 0.12)))
     document.change_job("Change tools", replace(document.job, tools=(document.job.tools[0], tool)))
