@@ -116,7 +116,8 @@ class Run:
             self.stopped, self.inside = True, flow.nested
             return False
         self._count()
-        if _PLAIN.match(self._text.data, flow.next.offset) is not None and self._plain_lines():
+        longest = flow.next.offset + self._options.limits.line_length + 1
+        if _PLAIN.match(self._text.data, flow.next.offset, longest) is not None and self._plain_lines():
             return True
         flow.here, self._control.line = flow.next, flow.next.line
         flow.next = Cursor(self._text.line_end(flow.here.offset) + 1, flow.here.line + 1)
