@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from app.model.motion import MotionKind
+from app.model.motion import MotionKind, Plane
 from app.nc.read.arc_kernels import centre_by_radius, radii
 from app.nc.read.block import Block
 from app.nc.read.codes import AXES, CYCLES, ROTARY, WITHOUT_AXES, Group
@@ -124,6 +124,8 @@ def _arc(control: Control, block: Block) -> None:
     u, v, w = control.modal.plane.axes
     if not block.has(AXES + ROTARY + "ijkr"):
         raise Fault(f"{code} needs its end or its centre.", letter="g")
+    if control.offsets.rotation != 0.0 and control.modal.plane is not Plane.XY:
+        raise Fault("an arc that stands upright is not followed while the work offset is turned (G10 L2 R).", letter="g")
     _check_arc_words(block, "ijk"[w], code)
     end = _target(control, block)
     centre = _centre_by_r(control, block, end) if block.has("r") else _centre_by_ijk(control, block)
