@@ -125,7 +125,7 @@ def _arc(control: Control, block: Block) -> None:
     if not block.has(AXES + ROTARY + "ijkr"):
         raise Fault(f"{code} needs its end or its centre.", letter="g")
     if control.offsets.rotation != 0.0 and control.modal.plane is not Plane.XY:
-        raise Fault("an arc that stands upright is not followed while the work offset is turned (G10 L2 R).", letter="g")
+        raise Fault(f"{code} in another plane than X Y is not followed while the work offset is turned (R of its table row).", letter="g")
     _check_arc_words(block, "ijk"[w], code)
     end = _target(control, block)
     centre = _centre_by_r(control, block, end) if block.has("r") else _centre_by_ijk(control, block)

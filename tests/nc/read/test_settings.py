@@ -155,7 +155,7 @@ def test_what_only_some_controls_know() -> None:
         ("G0 (a (b) X1)", "a comment begins within another"),
         ("G0 X1 ä", "begins no word"),
         ("G33 Z1 K1", "needs a turning spindle"),
-        ("G10 L2 P1 R30\nG18 F1 G2 X1 I.5", "a.ngc:2:8: G2: an arc that stands upright is not followed while the work offset is turned"),
+        ("G10 L2 P1 R30\nG18 F1 G2 X1 I.5", "a.ngc:2:8: G2: G2 in another plane than X Y is not followed"),
     ],
 )
 def test_what_is_wrong_is_told_with_its_place(text: str, expected: str) -> None:
