@@ -16,17 +16,16 @@ def bore(control: Control, block: Block) -> None:
     Raises:
         Fault: a word is missing or has no sense, or the holes are more than the reader takes.
     """
-    unit = control.unit
+    place = _program_place(control)
     if control.cycle is None:
-        control.initial = control.program_place[control.modal.plane.axes[2]] / unit
+        control.initial = place[control.modal.plane.axes[2]]
     cycle = with_sticky(_cycle(control, block), control.cycle)
     control.cycle = cycle
     if control.modal.absolute:
         control.note_known(block)
     if taps_astray(cycle):
         control.warn(f"LinuxCNC (2.9) feeds {cycle.code} along the wrong axes in G18 and G19; it is shown as it would move.", "g")
-    place = control.program_place
-    for step in cycle_steps(cycle, (place[0] / unit, place[1] / unit, place[2] / unit), control.initial):
+    for step in cycle_steps(cycle, place, control.initial):
         if isinstance(step, Move):
             control.unroll()
             _move(control, step)
@@ -36,6 +35,12 @@ def bore(control: Control, block: Block) -> None:
             control.change(spindle=step.turning)
         elif isinstance(step, Stop):
             control.event(EventKind.STOP)
+
+
+def _program_place(control: Control) -> Place:
+    """Return where the point is, in units of the program, without the noise of its way through the offsets: R may be just there."""
+    x, y, z = (round(coordinate / control.unit, 9) for coordinate in control.program_place)
+    return (x, y, z)
 
 
 def _move(control: Control, step: Move) -> None:

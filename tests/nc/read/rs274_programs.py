@@ -47,6 +47,7 @@ PROGRAMS: dict[str, str] = {
     "nested calls": "o1 sub\no2 call [#1+1]\nG0 X#1\no1 endsub\no2 sub\nG0 Y#1\no2 endsub\no1 call [5]\nM2\n",
     "drilling": "G0 X0 Y0 Z5\nG98 G81 X1 Y1 Z-2 R1 F100\nX2\nG99 X3 Y2\nX4 Z-3\nG80\nG0 Z5\n"
     "G82 X5 P.5 Z-1 R2\nG91 G81 X1 Z-.6 R-1 L3\nG90 G80\nM2\n",
+    "drilling under G92": "F100 G0 X1 Z12.65\nG92 Z-19.47\nG0 Z50\nG99 G81 X0 Y0 Z0 R45\nX1\nG80\nM2\n",
     "pecks": "G0 X0 Y0 Z5\nG83 X1 Z-4 R1 Q1.5 F100\nG73 X2 Z-4 R1 Q1.5\nG80\nG18 G83 X0 Y-4 Z0 R1 Q1\nG80\nM2\n",
     "boring": "S500 M3 G0 X0 Y0 Z5\nG85 X1 Z-1 R1 F100\nG86 X2 Z-1 R1 P.1\nG89 X3 Z-1 R1 P.5\nG80\nM2\n",
     "cycles in inch": "G20 G0 X0 Y0 Z1\nG81 X1 Y1 Z-.25 R.1 F10\nX2 L2\nG80\nM2\n",
