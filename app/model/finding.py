@@ -25,6 +25,7 @@ class FindingKind(Enum):
     TOLERANCE = "tolerance"
     ENGAGEMENT = "engagement"
     MACHINE = "machine"
+    TOOL_SHAPE = "tool_shape"
 
 
 @dataclass(frozen=True, slots=True)

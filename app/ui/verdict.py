@@ -22,7 +22,7 @@ class Level(Enum):
 
 _WORST_FIRST = (
     FindingKind.GOUGE, FindingKind.RAPID_IN_MATERIAL, FindingKind.LEFT_REACHABLE, FindingKind.TOLERANCE, FindingKind.MACHINE,
-    FindingKind.OPEN_CONTOUR, FindingKind.SELF_INTERSECTION, FindingKind.OVERLAP, FindingKind.REGION_TOO_SMALL,
+    FindingKind.TOOL_SHAPE, FindingKind.OPEN_CONTOUR, FindingKind.SELF_INTERSECTION, FindingKind.OVERLAP, FindingKind.REGION_TOO_SMALL,
     FindingKind.NECK_TOO_NARROW, FindingKind.ENGAGEMENT, FindingKind.UNITS_ASSUMED, FindingKind.GAP_CLOSED, FindingKind.TINY_ENTITY,
     FindingKind.LEFT_OUT, FindingKind.LEFT_UNREACHABLE,
 )
@@ -36,6 +36,7 @@ _NAMES = {
     FindingKind.ENGAGEMENT: "full slot", FindingKind.TINY_ENTITY: "tiny entity", FindingKind.LEFT_OUT: "left out",
     FindingKind.LEFT_UNREACHABLE: "corners out of reach", FindingKind.GAP_CLOSED: "gap closed",
     FindingKind.UNITS_ASSUMED: "units assumed", FindingKind.MACHINE: "beyond the machine",
+    FindingKind.TOOL_SHAPE: "a tool of another shape",
 }
 
 

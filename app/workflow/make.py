@@ -16,6 +16,7 @@ from app.model.job import Job
 from app.model.machine import Machine
 from app.model.moves import Program
 from app.model.stock_box import stock_box, work_origin
+from app.model.tool import ToolKind
 from app.nc.extent import Extent
 from app.nc.frame import Frame, frame_text
 from app.nc.posts import load_post
@@ -153,12 +154,22 @@ def finish(
     progress.step(0.2, "Checking clearance")
     deepest, rapids = gouge(program, job), rapids_in_material(program, job)
     coverage = measure(program, job, progress.part(0.4, 0.95))
-    own = (*_gouge_findings(deepest, program), *_rapid_findings(rapids, program), *(written.misfits() if machine else ()),
-           *coverage_findings(coverage), *_ring_findings(program))
+    own = (*_gouge_findings(deepest, program), *_rapid_findings(rapids, program), *_shape_findings(program, job),
+           *(written.misfits() if machine else ()), *coverage_findings(coverage), *_ring_findings(program))
     findings = worst_first((*own, *program.findings, *drawing_findings))
     progress.step(1.0, "Done")
     report = make_report(Measured(program, job, written, deepest, rapids, coverage, findings))
     return Made(job, program, written.files, written.box(cuts=True), report, findings, coverage)
+
+
+def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:
+    """Return what is to say of tools that do not cut straight walls and a flat floor, as the paths take them to do."""
+    tools = [job.tool(number) for number in dict.fromkeys(program.moves.tool.tolist())]
+    return tuple(
+        Finding(FindingKind.TOOL_SHAPE, f"T{tool.number} is a {tool.kind.value} cutter, and its path is that of a flat one of "
+                f"{tool.diameter:g} mm: walls and floor will not come out as they are shown; choose a flat cutter.")
+        for tool in tools if tool.kind is not ToolKind.FLAT
+    )  # fmt: skip
 
 
 def _ring_findings(program: Program) -> tuple[Finding, ...]:

@@ -19,6 +19,7 @@ from app.model.moves import MoveKind
 from app.model.operation import ContourOperation, PocketOperation
 from app.model.part import Units
 from app.model.stock_box import stock_box, work_origin
+from app.model.tool import ToolKind
 from app.nc.posts import load_post
 from app.progress import Progress
 from app.workflow.make import Made, finish, make
@@ -146,6 +147,15 @@ def test_rings_that_are_polylines_are_told() -> None:
         assert (finding.text, finding.counts, finding.amount) == (words, False, count)
         assert again.clean
         assert words[:-1] in again.report.data["engine"]
+
+
+def test_a_tool_that_is_not_flat_is_told() -> None:
+    this = made("fig2.dxf")
+    first, *others = this.job.tools
+    again = finish(this.program, replace(this.job, tools=(first.as_kind(ToolKind.BALL), *others)))
+    (finding,) = [each for each in again.findings if each.kind is FindingKind.TOOL_SHAPE]
+    assert finding.counts
+    assert finding.text.startswith("T1 is a ball cutter, and its path is that of a flat one of 6 mm")
 
 
 def test_the_first_approach_is_among_the_rapids() -> None:
