@@ -20,11 +20,15 @@ class ReadLimits:
         calls: subroutines in subroutines.
     """
 
-    looped_blocks: int = 100_000
+    looped_blocks: int = 150_000
     motions: int = 5_000_000
     line_length: int = 10_000
     nesting: int = 40
     calls: int = 10
+
+
+PATIENT = ReadLimits(looped_blocks=1_500_000)
+"""For somebody who sees the progress and can cancel: programs that loop so long are rare, and real."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from PySide6.QtCore import QObject, Signal
 from app.errors import InputError
 from app.nc.duration import Duration
 from app.nc.read.dialect import Dialect
-from app.nc.read.options import ReadOptions, ToolOffset
+from app.nc.read.options import PATIENT, ReadOptions, ToolOffset
 from app.nc.read.program import NcProgram
 from app.progress import Progress
 from app.ui.nc.line_looks import LineLooks, line_looks
@@ -47,7 +47,7 @@ class Source:
 
     def options(self, dialect: Dialect) -> ReadOptions:
         """Return how the program is to be read."""
-        return ReadOptions(dialect, self.tools)
+        return ReadOptions(dialect, self.tools, limits=PATIENT)
 
     def bytes(self) -> bytes:
         """Return the program's bytes.
