@@ -20,7 +20,7 @@ class ReadLimits:
         calls: subroutines in subroutines.
     """
 
-    looped_blocks: int = 150_000
+    looped_blocks: int = 100_000
     motions: int = 5_000_000
     line_length: int = 10_000
     nesting: int = 40
