@@ -169,7 +169,7 @@ class Run:
         line = self._kept.get(at.offset)
         if line is None:
             line = self._understood(at)
-            if self._flow.nested and len(self._kept) < MOST_KEPT:
+            if (self._flow.nested or at.offset < self._furthest) and len(self._kept) < MOST_KEPT:
                 self._kept[at.offset] = line
         if isinstance(line, Parsed):
             return self._execute(block_of(line, self._control.parameters))
