@@ -75,11 +75,21 @@ def _nowhere(program: NcProgram) -> NDArray[np.bool_]:
     for home in program.homeward:
         for axis in range(3):
             row, height = home, motions.end[home, axis]
-            moved = height != motions.start[home, axis] or (home > 0 and nowhere[home - 1, axis])
-            while moved and row < len(motions) and motions.end[row, axis] == height:
+            told = home == motions.known_from[axis] or (home > 0 and nowhere[home - 1, axis])
+            moved = told or height != motions.start[home, axis]
+            while moved and row < len(motions) and motions.end[row, axis] == height and not nowhere[row, axis]:
                 nowhere[row, axis] = True
                 row += 1
     return nowhere
+
+
+def at_home(program: NcProgram) -> NDArray[np.bool_]:
+    """Return (n, 3) whether a motion ends, along an axis that the program has set before, at a place of the machine.
+
+    Args:
+        program: as it was read, or with its motions anchored.
+    """
+    return _nowhere(program) & (np.arange(len(program.motions))[:, None] >= program.motions.known_from)
 
 
 def misfits(program: NcProgram, machine: Machine) -> tuple[Problem, ...]:

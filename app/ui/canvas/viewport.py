@@ -74,11 +74,11 @@ class Viewport(QWidget):
 
     def fit_to(self, box: Box) -> None:
         """Show a box in mm at once, and again when the size of the widget changes, until the view is moved."""
-        self.set_view(fitted(box, self._free()))
+        self.set_view(fitted(box, self.free_area(box)))
         self._fitted = box
 
-    def _free(self) -> QRectF:
-        """Return the part of the area that nothing laid over it covers; a narrow widget has no room to spare."""
+    def free_area(self, box: Box) -> QRectF:
+        """Return the part of the area that a box in mm is fitted into: nothing laid over it covers it, unless there is no room."""
         covered = self.covered_right if self.covered_right < _SPARE * self.area.width() else 0.0
         return self.area.adjusted(0.0, 0.0, -covered, 0.0)
 
@@ -113,7 +113,7 @@ class Viewport(QWidget):
 
     def glide_to_box(self, box: Box) -> None:
         """Go to the view that shows a box in mm, as `fit_to` does."""
-        self.glide_to(fitted(box, self._free()))
+        self.glide_to(fitted(box, self.free_area(box)))
         self._fitted = box
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
@@ -132,7 +132,7 @@ class Viewport(QWidget):
         old = event.oldSize()
         if self._fitted is not None:
             self._glide.stop()
-            self.view = fitted(self._fitted, self._free())
+            self.view = fitted(self._fitted, self.free_area(self._fitted))
         elif old.isValid():
             self.view = self.view.panned((self.width() - old.width()) / 2, (self.height() - old.height()) / 2)
         self.repaint_scene()

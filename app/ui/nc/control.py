@@ -19,7 +19,7 @@ from app.ui.computation import State
 from app.ui.figures import counted
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
-from app.ui.nc.jobs import compared, framed, restarted
+from app.ui.nc.jobs import Drawn, compared, drawn, framed, restarted
 from app.ui.nc.motion_shapes import Side
 from app.ui.nc.places import Compared, difference_places
 from app.ui.nc.program_text import program_text
@@ -247,8 +247,14 @@ class NcControl(QObject):
             self._window.actions_["compute"].trigger()
 
     def _draw_side(self, side: Side) -> None:
-        programs = [shown.shapes for shown in self._view.missing_pictures(side)]
-        self.reading.draw(programs, side, self._view.add_pictures)
+        """Have the side painted that is missing; a job on its way ends first, and what it shows asks again."""
+        shown = self._view.shown
+        if shown is not None and not self.reading.worker.busy:
+            self.reading.start(partial(drawn, shown, self._view.compared, side), self._on_drawn)
+
+    def _on_drawn(self, pictures: Drawn) -> None:
+        pictures.keep()
+        self._view.set_side(self._view.side)
 
     def _on_busy(self, busy: bool) -> None:
         if busy or not self._window.worker.busy:

@@ -2,16 +2,34 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.progress import Progress
+from app.ui.nc.motion_picture import MotionPicture
 from app.ui.nc.motion_shapes import Side
-from app.ui.nc.places import Compared
+from app.ui.nc.places import Compared, drawn_apart
 from app.ui.nc.reading import Shown, Source, read_shown
 
 if TYPE_CHECKING:
     from app.workflow.make import Made
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """A program seen from another side, and what it and the one that it is compared with do alone."""
+
+    shown: Shown
+    picture: MotionPicture
+    both: Compared | None
+    alone: tuple[MotionPicture, MotionPicture] | None
+
+    def keep(self) -> None:
+        """Hand the pictures to what they are of; on the window's thread."""
+        self.shown.pictures[self.picture.side] = self.picture
+        if self.both is not None and self.alone is not None:
+            self.both.pictures[self.picture.side] = self.alone
 
 
 def framed(made: Made, name: str, side: Side, progress: Progress) -> Shown:
@@ -52,4 +70,17 @@ def compared(shown: Shown, other: Source, side: Side, progress: Progress) -> tup
 
     second = read_shown(other, side, progress.part(0.0, 0.5))
     progress.step(0.5, "Comparing")
-    return shown, Compared(second, compare(shown.program, second.program, progress=progress.part(0.5, 1.0)))
+    differences = compare(shown.program, second.program, progress=progress.part(0.5, 0.9))
+    return shown, Compared(second, differences, {side: drawn_apart(shown, second, differences, side)})
+
+
+def drawn(shown: Shown, both: Compared | None, side: Side, progress: Progress) -> Drawn:
+    """Return the pictures of another side.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    progress.step(0.0, "Preparing the picture")
+    picture = MotionPicture(shown.shapes, side)
+    progress.step(0.5, "Preparing the picture")
+    return Drawn(shown, picture, both, drawn_apart(shown, both.other, both.differences, side) if both is not None else None)

@@ -57,7 +57,7 @@ def _codes(shapes: MotionShapes) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
     tools, at = np.unique(shapes.tool, return_inverse=True)
     of_tool = np.array([CUT + order.get(int(tool), 0) for tool in tools])[at]
     plain = np.where(shapes.look == Look.RAPID, RAPID, PLUNGE)
-    cuts = shapes.look == Look.CUT
+    cuts = (shapes.look == Look.CUT) | (shapes.look == Look.CONTOUR)
     kinds = shapes.program.motions.kind.astype(np.int64)
     return np.where(cuts, of_tool, plain).astype(np.uint8), np.where(cuts, CUT + kinds, plain).astype(np.uint8)
 

@@ -6,32 +6,29 @@ import math
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
-from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
+from PySide6.QtGui import QColor, QPainter, QPen
 
 from app.edit.sample import Box
 from app.model.motion import MotionKind
 from app.nc.read.program import StockNote, ToolNote
-from app.ui.canvas.curve_path import MANY, path_of
+from app.ui.canvas.curve_path import MANY
 from app.ui.canvas.pens import FINE, screen_pen
 from app.ui.canvas.program_chunks import rapids_path
-from app.ui.canvas.program_geometry import RUN
-from app.ui.canvas.program_picture import CUT_WIDTH, RAPID_DOTS, RAPID_WIDTH, paint_plunges
+from app.ui.canvas.program_picture import CONTOUR_DASHES, CUT_WIDTH, RAPID_DOTS, RAPID_WIDTH, paint_plunges
 from app.ui.canvas.view import View
-from app.ui.nc.motion_shapes import Look, MotionShapes, Side, tools_of
-from app.ui.theme import Theme, text_font
-
-Floats = NDArray[np.float64]
+from app.ui.nc.motion_chunks import Chunk, Chunks, chunks_by_style, contour_chunks
+from app.ui.nc.motion_shapes import Floats, Ints, Look, MotionShapes, Side, tools_of
+from app.ui.nc.path_key import KeyRow
+from app.ui.theme import Theme
 
 _MANY_RAPIDS = 1_500
 """So many dotted lines take Qt too long; they are painted faint instead."""
 
 
-_KEY_PX, _MOST_TOOLS = 18, 8
+_MOST_TOOLS = 8
 _MIX = np.uint64(0x9E3779B97F4A7C15)
 _KIND_NAMES = {MotionKind.RAPID: "G0 rapid", MotionKind.LINE: "G1 line", MotionKind.ARC_CW: "G2 clockwise",
                MotionKind.ARC_CCW: "G3 counter-clockwise", MotionKind.SPLINE: "Spline"}
@@ -57,16 +54,6 @@ class PathPaint:
     colour: PathColour = PathColour.TOOL
     one: QColor | None = None
     width: float = CUT_WIDTH
-
-
-@dataclass(frozen=True, slots=True)
-class _Chunk:
-    """Motions of one look: a path in mm, and what its colour depends on."""
-
-    path: QPainterPath
-    look: Look
-    tool: int
-    kind: MotionKind
 
 
 def tool_colour(order: int, theme: Theme) -> QColor:
@@ -101,65 +88,68 @@ def paint_stock(painter: QPainter, view: View, stock: StockNote | None, side: Si
         painter.drawRect(QRectF(view.to_screen((low[0], high[1])), view.to_screen((high[0], low[1]))))
 
 
-def paint_key(painter: QPainter, area: QRectF, key: list[tuple[str, QColor]], theme: Theme) -> None:
-    """Paint what colours mean in the upper right corner of an area, px."""
-    painter.setFont(text_font(12))
-    wide = max((painter.fontMetrics().horizontalAdvance(words) for words, _ in key), default=0)
-    left, top = area.right() - wide - 48, area.top() + 10
-    ground = QColor(theme.canvas)
-    ground.setAlphaF(0.88)
-    painter.fillRect(QRectF(left - 8, top - 4, wide + 48, len(key) * _KEY_PX + 8), ground)
-    for at, (words, colour) in enumerate(key):
-        middle = top + (at + 0.5) * _KEY_PX
-        painter.fillRect(QRectF(left, middle - 1, 20, 2), colour)
-        painter.setPen(theme.muted)
-        painter.drawText(QRectF(left + 28, middle - _KEY_PX / 2, wide + 4, _KEY_PX), Qt.AlignmentFlag.AlignVCenter, words)
-
-
 class MotionPicture:
     """One program seen from one side, ready to paint.
 
     Attributes:
-        shapes: its motions. side: from where they are seen.
+        shapes: its motions. side: from where they are seen. only: which of them are shown; None = all.
         tools: T numbers that cut, in order; what colours by tool count.
     """
 
-    def __init__(self, shapes: MotionShapes, side: Side) -> None:
+    def __init__(self, shapes: MotionShapes, side: Side, only: Ints | None = None) -> None:
         """Build every path once, in mm."""
-        self.shapes, self.side, self.tools = shapes, side, tools_of(shapes)
+        self.shapes, self.side, self.only, self.tools = shapes, side, only, tools_of(shapes)
         self._order = {tool: at for at, tool in enumerate(self.tools)}
-        self._chunks: list[_Chunk] = []
-        self._boxes: Floats = np.zeros((0, 4))
-        self._sizes = np.zeros(0, np.int64)
-        columns = list(side.value)
-        motions = shapes.program.motions
-        plunge = shapes.look == Look.PLUNGE
-        self._plunges = _once(motions.end[plunge][:, columns]) if side is Side.XY else np.zeros((0, 2))
-        rapid = np.hstack([motions.start[:, columns], motions.end[:, columns]])[shapes.look == Look.RAPID]
+        columns, motions = list(side.value), shapes.program.motions
+        rows = shapes.seen(side, only)
+        looks = shapes.look[rows]
+        plunge = rows[looks == Look.PLUNGE] if side is Side.XY else rows[:0]
+        self._plunges = _once(motions.end[plunge][:, columns])
+        rapid = np.hstack([motions.start[:, columns], motions.end[:, columns]])[rows[looks == Look.RAPID]]
         self._rapids = _once(rapid[np.any(rapid[:, :2] != rapid[:, 2:], axis=1)])
-        self._cut(shapes)
+        feeds = (Look.CUT,) if side is Side.XY else (Look.CUT, Look.PLUNGE)
+        plain, contour = chunks_by_style(shapes, side, rows[np.isin(looks, feeds)]), rows[looks == Look.CONTOUR]
+        self._chunks = {colour: Chunks.joined([plain, contour_chunks(shapes, side, contour, colour is PathColour.MOTION)])
+                        for colour in PathColour}
 
     @cached_property
     def box(self) -> Box | None:
         """x0, y0, x1, y1 of all that is seen, mm; None when there is nothing."""
-        return self.box_of(None)
+        return self.box_of(self.only)
 
-    def key(self, how: PathPaint) -> list[tuple[str, QColor]]:
-        """Return what each colour means, of the first eight tools or of the kinds of motion that there are."""
-        plunge = [("Plunge", how.theme.plunge)] if np.any(self.shapes.look == Look.PLUNGE) else []
+    @property
+    def some(self) -> bool:
+        """Whether any motions are shown."""
+        return len(self.shapes if self.only is None else self.only) > 0
+
+    def key(self, how: PathPaint) -> list[KeyRow]:
+        """Return what lines mean, of the first eight tools or of the kinds of motion that there are."""
+        theme, looks = how.theme, self.shapes.look
+        plunge = [KeyRow("Plunge", theme.plunge)] if np.any(looks == Look.PLUNGE) else []
         if how.colour is PathColour.TOOL:
-            notes = {note.number: note for note in reversed(self.shapes.program.tools)}
-            tools = self.tools[:_MOST_TOOLS]
-            return [(_tool_name(tool, notes.get(tool)), tool_colour(at, how.theme)) for at, tool in enumerate(tools)] + plunge
+            return [row for at in range(min(len(self.tools), _MOST_TOOLS)) for row in self._tool_rows(at, theme)] + plunge
         kinds = np.unique(self.shapes.program.motions.kind).tolist()
-        return [(_KIND_NAMES[MotionKind(kind)], motion_colour(MotionKind(kind), how.theme)) for kind in kinds] + plunge
+        rows = [KeyRow(_KIND_NAMES[MotionKind(kind)], motion_colour(MotionKind(kind), theme)) for kind in kinds]
+        contour = [KeyRow("Contour", theme.muted, dashed=True)] if np.any(looks == Look.CONTOUR) else []
+        return rows + contour + plunge
 
-    def box_of(self, motions: NDArray[np.int64] | None) -> Box | None:
+    def _tool_rows(self, at: int, theme: Theme) -> list[KeyRow]:
+        """Return the lines of the key for the tool at a place in order: what it cuts, and dashed the contours that it cuts."""
+        tool = self.tools[at]
+        note = next((note for note in self.shapes.program.tools if note.number == tool), None)
+        words, colour = _tool_name(tool, note), tool_colour(at, theme)
+        own = self.shapes.look[self.shapes.tool == tool]
+        contour = np.any(own == Look.CONTOUR)
+        rows = [KeyRow(words, colour)] if np.any(own == Look.CUT) or not contour else []
+        return [*rows, KeyRow(f"{words}, contour", colour, dashed=True)] if contour else rows
+
+    def box_of(self, motions: Ints | None) -> Box | None:
         """Return x0, y0, x1, y1 of some motions seen from this side, mm."""
-        corners = self.shapes.box(motions)
-        if corners is None:
+        rows, columns = self.shapes.seen(self.side, motions), list(self.side.value)
+        if not len(rows):
             return None
-        (x0, y0), (x1, y1) = (corner[list(self.side.value)].tolist() for corner in corners)
+        x0, y0 = self.shapes.low[rows][:, columns].min(axis=0).tolist()
+        x1, y1 = self.shapes.high[rows][:, columns].max(axis=0).tolist()
         return (x0, y0, x1, y1)
 
     def paint(self, painter: QPainter, view: View, box: Box, how: PathPaint) -> None:
@@ -168,12 +158,15 @@ class MotionPicture:
         painter.setTransform(view.transform(), True)
         painter.setBrush(Qt.BrushStyle.NoBrush)
         self._paint_rapids(painter, box, how)
-        boxes = self._boxes
+        boxes, sizes = self._chunks[how.colour].boxes, self._chunks[how.colour].sizes
         near = (boxes[:, 0] <= box[2]) & (boxes[:, 2] >= box[0]) & (boxes[:, 1] <= box[3]) & (boxes[:, 3] >= box[1])
         seen = np.flatnonzero(near)
-        width = FINE if int(self._sizes[seen].sum()) > MANY else how.width
-        for chunk in (self._chunks[k] for k in seen):
-            painter.setPen(screen_pen(painter, self._colour(chunk, how), width))
+        width = FINE if int(sizes[seen].sum()) > MANY else how.width
+        for chunk in (self._chunks[how.colour].chunks[k] for k in seen):
+            pen = screen_pen(painter, self._colour(chunk, how), width, CONTOUR_DASHES if chunk.look is Look.CONTOUR else ())
+            if chunk.begins_at:
+                pen.setDashOffset(chunk.begins_at * view.scale * painter.device().devicePixelRatioF() / pen.widthF())
+            painter.setPen(pen)
             painter.drawPath(chunk.path)
         painter.restore()
         paint_plunges(painter, view, self._plunges, box, (how.one or how.theme.plunge, how.theme.canvas))
@@ -188,39 +181,12 @@ class MotionPicture:
             painter.setPen(screen_pen(painter, colour, RAPID_WIDTH, RAPID_DOTS))
         painter.drawPath(path)
 
-    def _colour(self, chunk: _Chunk, how: PathPaint) -> QColor:
+    def _colour(self, chunk: Chunk, how: PathPaint) -> QColor:
         if how.one is not None:
             return how.one
         if chunk.look is Look.PLUNGE:
             return how.theme.plunge
         return motion_colour(chunk.kind, how.theme) if how.colour is PathColour.MOTION else tool_colour(self._order[chunk.tool], how.theme)
-
-    def _cut(self, shapes: MotionShapes) -> None:
-        """Cut the feeds into chunks of about 96 motions of one look, tool and kind."""
-        seen = shapes.look != Look.RAPID
-        if self.side is Side.XY:
-            seen &= shapes.look != Look.PLUNGE
-        rows = np.flatnonzero(seen)
-        tools, tool = np.unique(shapes.tool[rows], return_inverse=True)
-        codes = (tool * len(Look) + shapes.look[rows]) * len(MotionKind) + shapes.program.motions.kind[rows]
-        boxes, sizes = [np.zeros((0, 4))], [np.zeros(0, np.int64)]
-        for code in np.unique(codes).tolist():
-            own = rows[codes == code]
-            look, kind = Look(code // len(MotionKind) % len(Look)), MotionKind(code % len(MotionKind))
-            elements, at = shapes.elements(own, self.side, RUN)
-            edges = np.append(at[:-1:RUN], at[-1])
-            data = elements.tobytes()
-            for first, last in pairwise((edges * elements.itemsize).tolist()):
-                self._chunks.append(_Chunk(path_of(data[first:last]), look, int(tools[code // len(MotionKind) // len(Look)]), kind))
-            boxes.append(self._boxes_of(own))
-            sizes.append(np.diff(edges))
-        self._boxes, self._sizes = np.concatenate(boxes), np.concatenate(sizes)
-
-    def _boxes_of(self, motions: NDArray[np.int64]) -> Floats:
-        """Return (k, 4) boxes of every 96 of some motions, mm."""
-        columns, first = list(self.side.value), np.arange(0, len(motions), RUN)
-        low, high = self.shapes.low[motions][:, columns], self.shapes.high[motions][:, columns]
-        return np.hstack([np.minimum.reduceat(low, first), np.maximum.reduceat(high, first)])
 
 
 def _once(rows: Floats) -> Floats:

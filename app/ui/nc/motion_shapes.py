@@ -11,11 +11,13 @@ from PySide6.QtGui import QPainterPath
 
 from app.model.motion import MotionKind
 from app.model.motion_path import arc_paths, lengths, spline_points
+from app.nc.extent import at_home
 from app.nc.read.program import NcProgram
 from app.ui.canvas.curve_path import CURVE_DATA, CURVE_TO, ELEMENT, LINE_TO, MOVE_TO, PIECE, Elements, path_of
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
 _SPLINE_CHORDS = 96
 _MOST_PIECES = 1_600
@@ -43,6 +45,7 @@ class Look(IntEnum):
     RAPID = 0
     CUT = 1
     PLUNGE = 2
+    CONTOUR = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +59,7 @@ class MotionShapes:
         low, high: (n, 3) corners of the box round each motion's elements, mm.
         length: (n,) mm.
         look: (n,) uint8 Look. tool: (n,) int32 T number.
+        home: (n, 3) whether the motion ends, along an axis, at a place that only the machine knows. away: whether it begins there.
         by_line: (n,) the motions in the order of their lines. lines: (n,) those lines, 1-based, not decreasing.
     """
 
@@ -68,6 +72,8 @@ class MotionShapes:
     length: Floats
     look: NDArray[np.uint8]
     tool: NDArray[np.int32]
+    home: Bools
+    away: Bools
     by_line: Ints
     lines: NDArray[np.int32]
 
@@ -84,21 +90,29 @@ class MotionShapes:
         end = int(np.searchsorted(self.lines, row + 2))
         return int(self.by_line[end - 1]) if end else None
 
-    def box(self, motions: Ints | None = None) -> tuple[Floats, Floats] | None:
-        """Return the corners of the box round some motions, or round all; None when there are none."""
-        rows = slice(None) if motions is None else motions
-        low, high = self.low[rows], self.high[rows]
-        return (low.min(axis=0), high.max(axis=0)) if len(low) else None
+    def seen(self, side: Side, motions: Ints | None = None) -> Ints:
+        """Return those of some motions, or of all, whose way seen from a side is known."""
+        rows = np.arange(len(self)) if motions is None else motions
+        columns = list(side.value)
+        unknown = (self.home[rows] | self.away[rows])[:, columns].any(axis=1)
+        return np.asarray(rows[~unknown])
 
-    def elements(self, motions: Ints, side: Side, run: int = _MOST_LIT) -> tuple[Elements, Ints]:
+    def breaks(self, motions: Ints) -> Bools:
+        """Return (k,) which of some motions do not begin where the one before in the list ends."""
+        broken = np.ones(len(motions), bool)
+        broken[1:] = np.any(self.program.motions.start[motions[1:]] != self.program.motions.end[motions[:-1]], axis=1)
+        return broken
+
+    def elements(self, motions: Ints, side: Side, heads: Ints | None = None) -> tuple[Elements, Ints]:
         """Return painter path elements of some motions seen from a side, and where each one's begin, (k + 1,).
 
-        A motion that does not begin where the one before it in the list ends begins with MOVE_TO, and so does every
-        `run`-th of the list.
+        A motion that does not begin where the one before it in the list ends begins with MOVE_TO, and so do those that
+        `heads` counts.
         """
         start = self.program.motions.start
-        head = np.arange(len(motions)) % run == 0
-        head[1:] |= np.any(start[motions[1:]] != self.program.motions.end[motions[:-1]], axis=1)
+        head = self.breaks(motions)
+        if heads is not None:
+            head[heads] = True
         size = self.offset[motions + 1] - self.offset[motions]
         at = np.concatenate([[0], np.cumsum(size + head)]).astype(np.int64)
         made = np.zeros(int(at[-1]), dtype=ELEMENT)
@@ -112,10 +126,9 @@ class MotionShapes:
         return made, at
 
     def path(self, motions: Ints, side: Side) -> QPainterPath:
-        """Return the painter path in mm of some motions, of very many the first 4,000."""
-        if not len(motions):
-            return QPainterPath()
-        return path_of(self.elements(motions[:_MOST_LIT], side)[0].tobytes())
+        """Return the painter path in mm of what is known of some motions' ways, of very many the first 4,000."""
+        seen = self.seen(side, motions[:_MOST_LIT])
+        return path_of(self.elements(seen, side)[0].tobytes()) if len(seen) else QPainterPath()
 
 
 def tools_of(shapes: MotionShapes) -> list[int]:
@@ -124,27 +137,38 @@ def tools_of(shapes: MotionShapes) -> list[int]:
     return [int(tool) for tool in tools[np.argsort(first)]]
 
 
-def shape_motions(program: NcProgram) -> MotionShapes:
-    """Return a program's motions prepared for painting and picking."""
-    motions = program.motions
+def shape_motions(program: NcProgram, contour: Bools | None = None) -> MotionShapes:
+    """Return a program's motions prepared for painting and picking.
+
+    Args:
+        program: as it was read.
+        contour: (n,) which motions go along a contour.
+    """
+    motions, home = program.motions, at_home(program)
+    away = np.concatenate([np.zeros((1, 3), bool), home])[: len(home)]
+    away &= (motions.kind == MotionKind.RAPID)[:, None] | (motions.kind == MotionKind.LINE)[:, None]
     kinds, points, offset = _elements(program)
     low, high = motions.start.copy(), motions.start.copy()
     if len(motions):
         low = np.minimum(low, np.minimum.reduceat(points, offset[:-1]))
         high = np.maximum(high, np.maximum.reduceat(points, offset[:-1]))
+    length = lengths(motions)
+    length[np.any((home | away) & (motions.start != motions.end), axis=1)] = 0.0
     tools = np.array([state.tool for state in program.states], np.int32)
     by_line = np.argsort(motions.line, kind="stable")
     return MotionShapes(
-        program, kinds, points, offset, low, high, lengths(motions), _looks(program), tools[motions.state], by_line, motions.line[by_line],
+        program, kinds, points, offset, low, high, length, _looks(program, contour), tools[motions.state], home, away,
+        by_line, motions.line[by_line],
     )  # fmt: skip
 
 
-def _looks(program: NcProgram) -> NDArray[np.uint8]:
+def _looks(program: NcProgram, contour: Bools | None) -> NDArray[np.uint8]:
     """Return the look of each motion; a plunge is a feed straight down."""
     motions = program.motions
     way = motions.end - motions.start
     down = (motions.kind == MotionKind.LINE) & (way[:, 2] < 0) & np.all(way[:, :2] == 0, axis=1)
-    looks = np.where(down, Look.PLUNGE, Look.CUT)
+    along = Look.CUT if contour is None else np.where(contour, Look.CONTOUR, Look.CUT)
+    looks = np.where(down, Look.PLUNGE, along)
     return np.where(motions.kind == MotionKind.RAPID, Look.RAPID, looks).astype(np.uint8)
 
 

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 from app.ui.figures import clock, counted, grouped
 from app.ui.nc.heads import PathHead
 from app.ui.nc.line_looks import Ints
-from app.ui.nc.motion_picture import MotionPicture, PathColour
+from app.ui.nc.motion_picture import PathColour
 from app.ui.nc.motion_shapes import Side
 from app.ui.nc.path_view import PathView
 from app.ui.nc.places import Compared, difference_places, differing_rows, rows_of
@@ -112,8 +112,7 @@ class NcView(QWidget):
         """Show a program that was read; of the same text, the picked line stays."""
         self.show_comparison(None)
         self.pane.show_program(shown)
-        self._show_side()
-        self.path.fit_now()
+        self.set_side(self.side)
         if shown.program.error is not None:
             self.pane.go_to_problem(shown.program.error)
         elif self.pane.text.current >= 0:
@@ -136,30 +135,19 @@ class NcView(QWidget):
             self.other.mark_differing(differing_rows([item.b for item in items]))
             self.differences.show_places(*difference_places(compared.differences))
         self.pane.mark_differing(differing_rows([item.a for item in items]))
-        self._show_side()
-        self.path.fit_now()
-
-    def add_pictures(self, pictures: tuple[MotionPicture, ...]) -> None:
-        """Take the pictures of a side that was missing."""
-        for shown in self._programs():
-            for picture in pictures:
-                if picture.shapes is shown.shapes:
-                    shown.pictures[picture.side] = picture
         self.set_side(self.side)
-
-    def missing_pictures(self, side: Side) -> list[Shown]:
-        """Return the programs that have no picture of a side yet."""
-        return [shown for shown in self._programs() if side not in shown.pictures]
 
     def set_side(self, side: Side) -> None:
         """Look at the path from above or from a side."""
         self.side = side
         self.path_head.side.show_value(side)
-        if self.missing_pictures(side):
-            self.side_wanted.emit(side)
-        elif self.shown is not None:
+        if self.shown is None:
+            return
+        if side in self.shown.pictures and (self.compared is None or side in self.compared.pictures):
             self._show_side()
             self.path.fit_now()
+        else:
+            self.side_wanted.emit(side)
 
     def set_colour(self, colour: PathColour) -> None:
         """Let colours tell the tool or the kind of motion."""
@@ -200,12 +188,9 @@ class NcView(QWidget):
         else:
             super().keyPressEvent(event)
 
-    def _programs(self) -> list[Shown]:
-        both = (self.shown, self.compared.other if self.compared is not None else None)
-        return [shown for shown in both if shown is not None]
-
     def _show_side(self) -> None:
-        self.path.show_pictures(*(shown.pictures.get(self.side) for shown in self._programs()))
+        picture = self.shown.pictures.get(self.side) if self.shown is not None else None
+        self.path.show_pictures(picture, self.compared.pictures.get(self.side) if self.compared is not None else None)
         if self.shown is not None and self.pane.text.current >= 0:
             self.path.light(self.shown.shapes.of_rows(*self.pane.text.selection))
 

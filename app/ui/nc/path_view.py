@@ -14,17 +14,18 @@ from app.edit.sample import Box, union
 from app.model.curves import Point
 from app.ui.canvas import overlay
 from app.ui.canvas.grid import paint_origin, paint_paper, paint_ruler_marks, paint_rulers
-from app.ui.canvas.view import fitted
+from app.ui.canvas.view import View, fitted
 from app.ui.canvas.viewport import Viewport
 from app.ui.nc.line_looks import Ints
 from app.ui.nc.motion_hover import describe_motion, nearest_motion
-from app.ui.nc.motion_picture import MotionPicture, PathColour, PathPaint, paint_key, paint_stock
+from app.ui.nc.motion_picture import MotionPicture, PathColour, PathPaint, paint_stock
 from app.ui.nc.motion_shapes import Side
+from app.ui.nc.path_key import Corner, KeyRow, beside_key, cuts_within, key_place, key_size, paint_key
 from app.ui.theme import LIGHT, Theme, text_font
 
 _PICK_PX, _CLICK_PX, _BLEED_PX, _EDGE_PX = 6.0, 4.0, 8.0, 16.0
-_HALO_PX = 3.6
-"""Width of another program's path, which shows as a rim where the two are alike."""
+_ALONE_PX = 2.2
+"""Width of what only one of two programs does."""
 
 _NONE: Ints = np.zeros(0, np.int64)
 _FRAME = (0.0, 0.0, 100.0, 100.0)
@@ -49,6 +50,8 @@ class PathView(Viewport):
         self._how = PathPaint(LIGHT)
         self.picture: MotionPicture | None = None
         self.other: MotionPicture | None = None
+        self._alone: MotionPicture | None = None
+        self.corner = Corner.TOP_RIGHT
         self._lit, self._lit_other, self._under = QPainterPath(), QPainterPath(), QPainterPath()
         self._band, self._band_other = _NONE, _NONE
         self._hover: int | None = None
@@ -73,11 +76,18 @@ class PathView(Viewport):
     def set_colour(self, colour: PathColour) -> None:
         """Colour by tool or by kind of motion."""
         self._how = PathPaint(self._how.theme, colour)
+        self.corner = self._free_corner(self.view) or self.corner
         self.repaint_scene()
 
-    def show_pictures(self, picture: MotionPicture | None = None, other: MotionPicture | None = None) -> None:
-        """Show a program's motions, and perhaps another program's under them; what was lit up is not any more."""
-        self.picture, self.other = picture, other
+    def show_pictures(self, picture: MotionPicture | None = None, alone: tuple[MotionPicture, MotionPicture] | None = None) -> None:
+        """Show a program's motions; what was lit up is not any more.
+
+        Args:
+            picture: of the program; None = nothing.
+            alone: where it is compared, what only this program does, and what only the other one does.
+        """
+        self.picture = picture
+        self._alone, self.other = alone or (None, None)
         self._hover, self._under = None, QPainterPath()
         self.light(_NONE)
         problem = picture.shapes.program.error if picture is not None else None
@@ -121,10 +131,11 @@ class PathView(Viewport):
         paint_paper(painter, self.view, area, None, theme)
         if self.picture is not None:
             paint_stock(painter, self.view, self.picture.shapes.program.stock, self.picture.side, theme)
-        if self.other is not None:
-            self.other.paint(painter, self.view, box, PathPaint(theme, one=theme.left, width=_HALO_PX))
         if self.picture is not None:
             self.picture.paint(painter, self.view, box, self._how)
+        for alone, hue in ((self._alone, theme.parameter), (self.other, theme.left)):
+            if alone is not None:
+                alone.paint(painter, self.view, box, PathPaint(theme, self._how.colour, hue, _ALONE_PX))
         paint_origin(painter, self.view, theme)
         self._name_axes(painter)
 
@@ -146,7 +157,8 @@ class PathView(Viewport):
             overlay.paint_highlight(painter, self.view, self._under, accent, 1.5)
         if self._ends_at is not None:
             overlay.paint_place(painter, self.view.to_screen(self._ends_at), theme.error)
-        paint_key(painter, self.area, self._key(), theme)
+        key = self._key()
+        paint_key(painter, key_place(key_size(key), self.area, self.corner), key, theme)
         painter.setClipping(False)
         if self._mouse is not None and self.area.contains(self._mouse):
             paint_ruler_marks(painter, self._mouse, theme)
@@ -205,12 +217,30 @@ class PathView(Viewport):
         side = self.picture.side if self.picture is not None else Side.XY
         return (float(point[side.value[0]]), float(point[side.value[1]]))
 
-    def _key(self) -> list[tuple[str, QColor]]:
+    def free_area(self, box: Box) -> QRectF:
+        """Return the part of the area that a box in mm is fitted into, the key in a corner of it or beside it."""
+        corner = self._free_corner(fitted(box, self.area))
+        self.corner = corner or Corner.TOP_RIGHT
+        rooms = beside_key(key_size(self._key()), self.area)
+        return self.area if corner is not None else max(rooms, key=lambda room: fitted(box, room).scale)
+
+    def _free_corner(self, view: View) -> Corner | None:
+        """Return a corner where the key would lie on nothing that is cut, if there is one."""
+        size = key_size(self._key())
+        programs = [picture for picture in (self.picture, self.other) if picture is not None]
+        for corner in Corner:
+            box = view.world_box(key_place(size, self.area, corner))
+            if not any(cuts_within(picture.shapes, picture.side, box) for picture in programs):
+                return corner
+        return None
+
+    def _key(self) -> list[KeyRow]:
         """Return what the colours mean."""
         if self.picture is None:
             return []
-        key = self.picture.key(self._how)
-        return [*key, ("The second program", self._how.theme.left)] if self.other is not None else key
+        theme = self._how.theme
+        both = (("Only in the first", self._alone, theme.parameter), ("Only in the second", self.other, theme.left))
+        return self.picture.key(self._how) + [KeyRow(words, hue) for words, alone, hue in both if alone is not None and alone.some]
 
     def _paint_end(self, painter: QPainter, theme: Theme) -> None:
         """Paint where the last of the lit motions ends: this is where the tool is."""

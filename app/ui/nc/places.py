@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.nc.compare import Difference, DifferenceKind, Differences, Span
 from app.nc.read.program import Problem, Severity
 from app.ui.figures import counted
+from app.ui.nc.motion_picture import MotionPicture
+from app.ui.nc.motion_shapes import Ints, Side
 from app.ui.nc.places_panel import Place, Weight
 from app.ui.nc.reading import Shown
 
@@ -21,10 +22,26 @@ class Compared:
 
     Attributes:
         other: the second program. differences: between the shown one (a) and the second (b).
+        pictures: by side, what only the first does and what only the second does.
     """
 
     other: Shown
     differences: Differences
+    pictures: dict[Side, tuple[MotionPicture, MotionPicture]]
+
+
+_APART = (DifferenceKind.PATH, DifferenceKind.RAPID, DifferenceKind.MISSING, DifferenceKind.EXTRA)
+
+
+def drawn_apart(first: Shown, second: Shown, differences: Differences, side: Side) -> tuple[MotionPicture, MotionPicture]:
+    """Return pictures of what only the first program does, and of what only the second does: where paths differ, not their feeds."""
+    items = [item for item in differences.items if item.kind in _APART]
+    one, other = (_motions([getattr(item, name) for item in items]) for name in "ab")
+    return MotionPicture(first.shapes, side, one), MotionPicture(second.shapes, side, other)
+
+
+def _motions(spans: Sequence[Span]) -> Ints:
+    return np.unique(np.concatenate([np.zeros(0, np.int64), *(np.arange(span.first, span.stop) for span in spans)]))
 
 
 def in_order(problems: Sequence[Problem]) -> tuple[Problem, ...]:
@@ -73,7 +90,7 @@ def rows_of(span: Span) -> tuple[int, int]:
     return first, last
 
 
-def differing_rows(spans: Sequence[Span]) -> NDArray[np.int64]:
+def differing_rows(spans: Sequence[Span]) -> Ints:
     """Return the rows (0-based) of stretches, in order, each once; a stretch without motions has none."""
     rows = [np.arange(first, last + 1) for first, last in (rows_of(span) for span in spans if span.stop > span.first)]
     return np.unique(np.concatenate(rows)).astype(np.int64) if rows else np.zeros(0, np.int64)

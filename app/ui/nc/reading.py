@@ -100,6 +100,7 @@ def read_shown(source: Source, side: Side, progress: Progress) -> Shown:
     from app.model.motion_path import anchored
     from app.nc.duration import duration
     from app.nc.read.guess import guess_dialect
+    from app.nc.read.notes_operation import contour_motions
     from app.nc.read.reader import read_program
 
     progress.step(0.0, f"Reading {source.name}")
@@ -108,9 +109,9 @@ def read_shown(source: Source, side: Side, progress: Progress) -> Shown:
     guessed = guess_dialect(data)
     dialect = source.dialect or guessed
     program = read_program(data, source.options(dialect), progress.part(0.05, 0.6))
-    program = replace(program, motions=anchored(program.motions))
     progress.step(0.6, "Preparing the picture")
-    shapes = shape_motions(program)
+    program = replace(program, motions=anchored(program.motions))
+    shapes = shape_motions(program, contour_motions(data, program))
     progress.step(0.7, "Preparing the picture")
     picture = MotionPicture(shapes, side)
     progress.step(0.95, "Estimating the time")
@@ -149,10 +150,6 @@ class Reading(QObject):
         """Read a program, then show it."""
         self.start(lambda progress: read_shown(source, side, progress), then)
 
-    def draw(self, programs: list[MotionShapes], side: Side, then: Callable[[tuple[MotionPicture, ...]], None]) -> None:
-        """Prepare pictures of another side."""
-        self.start(lambda progress: _drawn(programs, side, progress), then)
-
     def _on_done(self, answer: Answer) -> None:
         if answer.job_id == self._job:
             self._then(answer.value)
@@ -160,11 +157,6 @@ class Reading(QObject):
     def _on_failed(self, answer: Answer) -> None:
         if answer.job_id == self._job:
             self.failed.emit(answer.error or "")
-
-
-def _drawn(programs: list[MotionShapes], side: Side, progress: Progress) -> tuple[MotionPicture, ...]:
-    progress.step(0.0, "Preparing the picture")
-    return tuple(MotionPicture(shapes, side) for shapes in programs)
 
 
 def _nothing(_: object) -> None:
