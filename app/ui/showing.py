@@ -89,6 +89,7 @@ class Showing(QObject):
         self.view = view
         self._window.actions_[view.value].setChecked(True)
         self._window.views.show_view(view)
+        self._window.tool_strip.setVisible(view is not View.NC)
         self._window.status.show_message(self._standing())
         self.show_missing()
 

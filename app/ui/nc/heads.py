@@ -131,9 +131,10 @@ class PathHead(QWidget):
     """Sides and colours of the path.
 
     Signals:
-        side_chosen(Side). colour_chosen(PathColour).
+        side_chosen(Side). colour_chosen(PathColour). fit_asked(): show everything.
     """
 
+    fit_asked = Signal()
     side_chosen = Signal(Side)
     colour_chosen = Signal(PathColour)
 
@@ -155,6 +156,10 @@ class PathHead(QWidget):
         self.key = muted("Colour by")
         row.addWidget(self.key)
         row.addWidget(self.colour)
+        self.fit = IconButton("fit", "Fit (F)")
+        self.fit.clicked.connect(self.fit_asked)
+        row.addSpacing(4)
+        row.addWidget(self.fit)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Leave out what explains itself where there is no room for it."""

@@ -31,7 +31,7 @@ def nearest_motion(shapes: MotionShapes, side: Side, at: Point, reach: float) ->
     columns = list(side.value)
     place = np.asarray(at)
     near = np.all((shapes.low[:, columns] <= place + reach) & (shapes.high[:, columns] >= place - reach), axis=1)
-    rows = np.flatnonzero(near)
+    rows = shapes.seen(side, np.flatnonzero(near))
     if not len(rows):
         return None
     distance = _distances(shapes, rows, columns, place)
@@ -85,9 +85,16 @@ def describe_motion(shapes: MotionShapes, row: int) -> str:
         words.append(f"T{int(shapes.tool[row])}")
     if kind is not MotionKind.RAPID:
         words.append("no feed told" if np.isnan(motions.feed[row]) else f"F {motions.feed[row]:g}")
-    words.append(f"{grouped(float(shapes.length[row]))} mm")
+    words.append("to the machine's home" if row in shapes.program.homeward else f"{grouped(float(shapes.length[row]))} mm")
     if kind in (MotionKind.ARC_CW, MotionKind.ARC_CCW):
         words.append(f"R {float(np.linalg.norm((motions.start - motions.centre)[row])):.3f}")
-    first, last = motions.start[row, 2], motions.end[row, 2]
-    words.append(f"Z {last:.3f}" if abs(first - last) < 5e-4 else f"Z {first:.3f} to {last:.3f}")
+    words.append(_heights(shapes, row))
     return " · ".join(words)
+
+
+def _heights(shapes: MotionShapes, row: int) -> str:
+    """Return Z at the ends of a motion, "home" where only the machine knows it."""
+    motions = shapes.program.motions
+    ends = ((shapes.away, motions.start), (shapes.home, motions.end))
+    first, last = ("home" if home[row, 2] else f"{places[row, 2] + 0.0:.3f}" for home, places in ends)
+    return f"Z {last}" if first == last else f"Z {first} to {last}"

@@ -79,6 +79,7 @@ class NcView(QWidget):
         self.differences.picked.connect(self._go_to_difference)
         self.path.motion_picked.connect(self.pick_motion)
         self.path.other_picked.connect(self._pick_other)
+        self.path_head.fit_asked.connect(self.path.fit)
         self.path_head.side_chosen.connect(self.set_side)
         self.path_head.colour_chosen.connect(self.set_colour)
 

@@ -244,7 +244,7 @@ class PathView(Viewport):
 
     def _paint_end(self, painter: QPainter, theme: Theme) -> None:
         """Paint where the last of the lit motions ends: this is where the tool is."""
-        if self.picture is not None and len(self._band):
+        if self.picture is not None and len(self.picture.shapes.seen(self.picture.side, self._band[-1:])):
             painter.setPen(QPen(theme.accent_text, 1.8))
             painter.setBrush(theme.canvas)
             painter.drawEllipse(self.view.to_screen(self._seen(self.picture.shapes.program.motions.end[self._band[-1]])), 4.5, 4.5)

@@ -46,8 +46,7 @@ def state_items(shapes: MotionShapes, row: int, motion: int | None = None, times
     if len(own) and done is not None:
         items += _motion_items(shapes, done)
     if done is not None:
-        end = shapes.program.motions.end[done].tolist()
-        items += [Item(name, f"{value + 0.0:.3f}") for name, value in zip("XYZ", end, strict=True)]
+        items += _place_items(shapes, done)
         if times is not None:
             items.append(Item("Time", clock(float(times.ends[done]))))
     return items + _modal_items(state)
@@ -62,12 +61,20 @@ def _tool_items(state: ModalState) -> list[Item]:
     return [*items, Item("", coolant)] if coolant else items
 
 
+def _place_items(shapes: MotionShapes, motion: int) -> list[Item]:
+    """Return where a motion ends; of an axis that is at the machine's own home only the machine knows where that is."""
+    ends = zip("XYZ", shapes.program.motions.end[motion].tolist(), shapes.home[motion].tolist(), strict=True)
+    return [Item(name, "home" if home else f"{value + 0.0:.3f}") for name, value, home in ends]
+
+
 def _motion_items(shapes: MotionShapes, motion: int) -> list[Item]:
     motions = shapes.program.motions
     kind, feed = int(motions.kind[motion]), float(motions.feed[motion])
     items = [Item("", _WORDS[kind])]
     if kind:
         items.append(Item("F", "not told" if np.isnan(feed) else f"{grouped(feed, 0 if feed >= 10 else 2)}"))
+    if motion in shapes.program.homeward:
+        return [*items, Item("", "to the machine's home")]
     return [*items, Item("Length", f"{grouped(float(shapes.length[motion]))} mm")]
 
 
