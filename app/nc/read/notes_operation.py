@@ -25,6 +25,8 @@ def contour_motions(data: bytes, program: NcProgram) -> NDArray[np.bool_]:
         data: the bytes that the program was read from.
         program: what was read.
     """
+    if not len(program.motions):
+        return np.zeros(0, bool)
     begins = {event.line: False for event in program.events if event.kind is EventKind.TOOL_CHANGE}
     begins |= _operations(Text(data).data)
     if not any(begins.values()):
