@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 from PySide6.QtCore import QEasingCurve, QPointF, QRectF, Qt, QTimer, QVariantAnimation, Signal
 from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPixmap, QResizeEvent, QWheelEvent
@@ -115,6 +116,17 @@ class Viewport(QWidget):
         """Go to the view that shows a box in mm, as `fit_to` does."""
         self.glide_to(fitted(box, self.free_area(box)))
         self._fitted = box
+
+    def paint_more(self, paint: Callable[[QPainter], None]) -> None:
+        """Paint more into the kept scene; nothing where it is to be painted anew anyway."""
+        if self._scene is None or self._scene_view != self.view:
+            return
+        painter = QPainter(self._scene)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setClipRect(self.area)
+        paint(painter)
+        painter.end()
+        self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Show the kept scene and paint over it."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
 
@@ -29,6 +30,9 @@ _MANY_RAPIDS = 1_500
 
 
 _MOST_TOOLS = 8
+_PORTION = 15_000
+"""Elements of paths that are painted before the window listens again."""
+
 _MIX = np.uint64(0x9E3779B97F4A7C15)
 _KIND_NAMES = {MotionKind.RAPID: "G0 rapid", MotionKind.LINE: "G1 line", MotionKind.ARC_CW: "G2 clockwise",
                MotionKind.ARC_CCW: "G3 counter-clockwise", MotionKind.SPLINE: "Spline"}
@@ -154,25 +158,40 @@ class MotionPicture:
 
     def paint(self, painter: QPainter, view: View, box: Box, how: PathPaint) -> None:
         """Paint what lies in a box in mm; the painter works in screen px."""
-        painter.save()
-        painter.setTransform(view.transform(), True)
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        self._paint_rapids(painter, box, how)
+        for paint_portion in self.portions(view, box, how):
+            paint_portion(painter)
+
+    def portions(self, view: View, box: Box, how: PathPaint) -> Iterator[Callable[[QPainter], None]]:
+        """Yield what `paint` paints as portions that take a few ms each, to be painted in their order."""
+        yield lambda painter: self._paint_rapids(painter, view, box, how)
         boxes, sizes = self._chunks[how.colour].boxes, self._chunks[how.colour].sizes
         near = (boxes[:, 0] <= box[2]) & (boxes[:, 2] >= box[0]) & (boxes[:, 1] <= box[3]) & (boxes[:, 3] >= box[1])
         seen = np.flatnonzero(near)
-        width = FINE if int(sizes[seen].sum()) > MANY else how.width
-        for chunk in (self._chunks[how.colour].chunks[k] for k in seen):
-            pen = screen_pen(painter, self._colour(chunk, how), width, CONTOUR_DASHES if chunk.look is Look.CONTOUR else ())
+        share = np.cumsum(sizes[seen])
+        width = FINE if len(seen) and share[-1] > MANY else how.width
+        for part in np.split(seen, np.flatnonzero(np.diff(share // _PORTION)) + 1):
+            chunks = [self._chunks[how.colour].chunks[k] for k in part]
+            yield lambda painter, chunks=chunks: self._paint_chunks(painter, view, chunks, replace(how, width=width))  # type: ignore[misc]
+        colours = (how.one or how.theme.plunge, how.theme.canvas)
+        yield lambda painter: paint_plunges(painter, view, self._plunges, box, colours)
+
+    def _paint_chunks(self, painter: QPainter, view: View, chunks: list[Chunk], how: PathPaint) -> None:
+        painter.save()
+        painter.setTransform(view.transform(), True)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        for chunk in chunks:
+            pen = screen_pen(painter, self._colour(chunk, how), how.width, CONTOUR_DASHES if chunk.look is Look.CONTOUR else ())
             if chunk.begins_at:
                 pen.setDashOffset(chunk.begins_at * view.scale * painter.device().devicePixelRatioF() / pen.widthF())
             painter.setPen(pen)
             painter.drawPath(chunk.path)
         painter.restore()
-        paint_plunges(painter, view, self._plunges, box, (how.one or how.theme.plunge, how.theme.canvas))
 
-    def _paint_rapids(self, painter: QPainter, box: Box, how: PathPaint) -> None:
+    def _paint_rapids(self, painter: QPainter, view: View, box: Box, how: PathPaint) -> None:
         path = rapids_path(self._rapids, box)
+        painter.save()
+        painter.setTransform(view.transform(), True)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
         colour = QColor(how.one or how.theme.rapid)
         if path.elementCount() > 2 * _MANY_RAPIDS:
             colour.setAlphaF(0.35)
@@ -180,6 +199,7 @@ class MotionPicture:
         else:
             painter.setPen(screen_pen(painter, colour, RAPID_WIDTH, RAPID_DOTS))
         painter.drawPath(path)
+        painter.restore()
 
     def _colour(self, chunk: Chunk, how: PathPaint) -> QColor:
         if how.one is not None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import math
+import time
+from collections.abc import Callable, Iterable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
+from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPainterPath, QPen
 from PySide6.QtWidgets import QWidget
 
@@ -24,6 +26,9 @@ from app.ui.nc.path_key import Corner, KeyRow, beside_key, cuts_within, key_plac
 from app.ui.theme import LIGHT, Theme, text_font
 
 _PICK_PX, _CLICK_PX, _BLEED_PX, _EDGE_PX = 6.0, 4.0, 8.0, 16.0
+_AT_ONCE_S = 0.012
+"""So long a picture is painted that is shown for the first time before the window listens again."""
+
 _ALONE_PX = 2.2
 """Width of what only one of two programs does."""
 
@@ -52,6 +57,10 @@ class PathView(Viewport):
         self.other: MotionPicture | None = None
         self._alone: MotionPicture | None = None
         self.corner = Corner.TOP_RIGHT
+        self._fresh = False
+        self._rest: Iterator[Callable[[QPainter], None]] = iter(())
+        self._later = QTimer(self, singleShot=True, interval=0)
+        self._later.timeout.connect(self._paint_on)
         self._lit, self._lit_other, self._under = QPainterPath(), QPainterPath(), QPainterPath()
         self._band, self._band_other = _NONE, _NONE
         self._hover: int | None = None
@@ -88,7 +97,7 @@ class PathView(Viewport):
         """
         self.picture = picture
         self._alone, self.other = alone or (None, None)
-        self._hover, self._under = None, QPainterPath()
+        self._hover, self._under, self._fresh = None, QPainterPath(), True
         self.light(_NONE)
         problem = picture.shapes.program.error if picture is not None else None
         ended = picture is not None and problem is not None and len(picture.shapes)
@@ -131,13 +140,33 @@ class PathView(Viewport):
         paint_paper(painter, self.view, area, None, theme)
         if self.picture is not None:
             paint_stock(painter, self.view, self.picture.shapes.program.stock, self.picture.side, theme)
+        self._rest = self._portions(box)
+        self._paint_portions(painter, _AT_ONCE_S if self._fresh else math.inf)
+        self._fresh = False
+
+    def _portions(self, box: Box) -> Iterator[Callable[[QPainter], None]]:
+        """Yield what is to be painted of the paths, then zero and axes over them."""
+        theme = self._how.theme
         if self.picture is not None:
-            self.picture.paint(painter, self.view, box, self._how)
+            yield from self.picture.portions(self.view, box, self._how)
         for alone, hue in ((self._alone, theme.parameter), (self.other, theme.left)):
             if alone is not None:
-                alone.paint(painter, self.view, box, PathPaint(theme, self._how.colour, hue, _ALONE_PX))
-        paint_origin(painter, self.view, theme)
-        self._name_axes(painter)
+                yield from alone.portions(self.view, box, PathPaint(theme, self._how.colour, hue, _ALONE_PX))
+        yield lambda painter: paint_origin(painter, self.view, theme)
+        yield self._name_axes
+
+    def _paint_portions(self, painter: QPainter, seconds: float) -> None:
+        """Paint for a while; if there is more, go on with it when the window has listened."""
+        end = time.perf_counter() + seconds
+        for paint_portion in self._rest:
+            paint_portion(painter)
+            if time.perf_counter() > end:
+                self._later.start()
+                return
+
+    def _paint_on(self) -> None:
+        """Go on with painting a picture that is shown for the first time."""
+        self.paint_more(lambda painter: self._paint_portions(painter, _AT_ONCE_S))
 
     def paint_margins(self, painter: QPainter) -> None:
         """Paint the rulers."""

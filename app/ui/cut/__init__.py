@@ -1,0 +1,1 @@
+"""The Cut view: the stock as the program leaves it, in three dimensions."""

@@ -1,0 +1,111 @@
+"""What the Cut view shows: heights of the metal, what is known of each cell, and the way the tool went."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Heights = NDArray[np.float32]
+Floats = NDArray[np.float64]
+
+TOUCHED = 1e-5
+"""A cell lower than the top by more than this, mm, counts as cut where nobody says which move cut it."""
+
+
+@dataclass(frozen=True, eq=False)
+class CutMoves:
+    """What the numbers of cutting moves mean, n of them.
+
+    Attributes:
+        line: (n,) 1-based line of the NC program.
+        tool: (n,) T number.
+        surface: (n,) index of the surface or operation that the move belongs to; empty where nobody knows.
+    """
+
+    line: NDArray[np.int32]
+    tool: NDArray[np.int32]
+    surface: NDArray[np.int32]
+
+
+@dataclass(frozen=True, eq=False)
+class CutPaths:
+    """Straight pieces of the tool's way, n of them, in the order of going.
+
+    Attributes:
+        start, end: (n, 3) mm.
+        look: (n,) uint8 `app.ui.nc.motion_shapes.Look`.
+    """
+
+    start: Floats
+    end: Floats
+    look: NDArray[np.uint8]
+
+    def __len__(self) -> int:
+        return len(self.look)
+
+
+@dataclass(frozen=True, eq=False)
+class CutPicture:
+    """Stock after cutting, one height a cell.
+
+    Attributes:
+        heights: (rows, columns) mm; row 0 has the lowest Y; samples stand at the cells' centres.
+        x0, y0: lower left corner of the grid, mm. pitch: width of a cell, mm, > 0.
+        floor: bottom of the stock, mm. top: its top before the first cut, mm.
+        move: (rows, columns) index of the move that cut a cell last, -1 = none; None = nobody knows.
+        moves: what these indices mean.
+        deviation: (rows, columns) mm against the part, > 0 = metal left, < 0 = gouge; None = there is no part.
+        tolerance: deviation within which the part is right, mm, > 0.
+        unreachable: (rows, columns) bool, left metal that no tool of the job reaches.
+        paths: the way the tool went.
+    """
+
+    heights: Heights
+    x0: float
+    y0: float
+    pitch: float
+    floor: float
+    top: float
+    move: NDArray[np.int32] | None = None
+    moves: CutMoves | None = None
+    deviation: Heights | None = None
+    tolerance: float = 0.01
+    unreachable: NDArray[np.bool_] | None = None
+    paths: CutPaths | None = None
+
+    def __post_init__(self) -> None:
+        if self.heights.ndim != 2 or not self.heights.size or self.heights.dtype != np.float32:
+            raise ValueError("heights are a float32 array of rows and columns")
+        for channel in (self.move, self.deviation, self.unreachable):
+            if channel is not None and channel.shape != self.heights.shape:
+                raise ValueError("a channel of another size than the heights")
+
+    @property
+    def rows(self) -> int:
+        """Cells along Y."""
+        return int(self.heights.shape[0])
+
+    @property
+    def columns(self) -> int:
+        """Cells along X."""
+        return int(self.heights.shape[1])
+
+    @property
+    def low(self) -> Floats:
+        """Lower left corner of the stock's box, mm."""
+        return np.array([self.x0, self.y0, self.floor])
+
+    @property
+    def high(self) -> Floats:
+        """Upper right corner of the stock's box, mm."""
+        return np.array([self.x0 + self.columns * self.pitch, self.y0 + self.rows * self.pitch, self.top])
+
+    def uncut(self) -> NDArray[np.bool_]:
+        """Return (rows, columns) which cells no move has cut."""
+        return self.move < 0 if self.move is not None else self.heights >= np.float32(self.top - TOUCHED)
+
+    def move_at(self, row: int, column: int) -> int:
+        """Return the move that cut a cell last; -1 = none, or nobody knows."""
+        return int(self.move[row, column]) if self.move is not None else -1
