@@ -62,8 +62,7 @@ class Chunks:
 def chunks_by_style(shapes: MotionShapes, side: Side, rows: Ints) -> Chunks:
     """Return some motions in chunks of about 96 of one look, tool and kind."""
     codes = (shapes.tool[rows].astype(np.int64) * len(Look) + shapes.look[rows]) * len(MotionKind) + shapes.program.motions.kind[rows]
-    own = [rows[codes == code] for code in np.unique(codes).tolist()]
-    return Chunks.joined(_cut(shapes, side, group, np.arange(0, len(group), RUN)) for group in own)
+    return Chunks.joined(_cut(shapes, side, own, np.arange(0, len(own), RUN)) for own in _alike(rows, codes))
 
 
 def contour_chunks(shapes: MotionShapes, side: Side, rows: Ints, by_kind: bool) -> Chunks:
@@ -79,12 +78,17 @@ def contour_chunks(shapes: MotionShapes, side: Side, rows: Ints, by_kind: bool) 
     if by_kind and np.count_nonzero(np.diff(kinds[rows])) > _MOST_RUNS:
         return chunks_by_style(shapes, side, rows)
     parts = []
-    for tool in np.unique(shapes.tool[rows]).tolist():
-        own = rows[shapes.tool[rows] == tool]
+    for own in _alike(rows, shapes.tool[rows]):
         heads = np.arange(len(own)) % RUN == 0
         heads[1:] |= by_kind & (np.diff(kinds[own]) != 0)
         parts.append(_cut(shapes, side, own, _with_ends(np.flatnonzero(heads), shapes.breaks(own))))
     return Chunks.joined(parts)
+
+
+def _alike(rows: Ints, codes: NDArray[np.integer]) -> list[Ints]:
+    """Return the rows of each code, in their order."""
+    order = np.argsort(codes, kind="stable")
+    return [own for own in np.split(rows[order], np.flatnonzero(np.diff(codes[order])) + 1) if len(own)]
 
 
 def _with_ends(heads: Ints, breaks: NDArray[np.bool_]) -> Ints:

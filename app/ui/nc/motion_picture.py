@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
-from functools import cached_property
 
 import numpy as np
 from PySide6.QtCore import QRectF, Qt
@@ -98,6 +97,7 @@ class MotionPicture:
     Attributes:
         shapes: its motions. side: from where they are seen. only: which of them are shown; None = all.
         tools: T numbers that cut, in order; what colours by tool count.
+        box: x0, y0, x1, y1 of all that is seen, mm; None when there is nothing.
     """
 
     def __init__(self, shapes: MotionShapes, side: Side, only: Ints | None = None) -> None:
@@ -106,20 +106,19 @@ class MotionPicture:
         self._order = {tool: at for at, tool in enumerate(self.tools)}
         columns, motions = list(side.value), shapes.program.motions
         rows = shapes.seen(side, only)
-        looks = shapes.look[rows]
-        plunge = rows[looks == Look.PLUNGE] if side is Side.XY else rows[:0]
+        look = shapes.look[rows]
+        plunge = rows[look == Look.PLUNGE] if side is Side.XY else rows[:0]
         self._plunges = _once(motions.end[plunge][:, columns])
-        rapid = np.hstack([motions.start[:, columns], motions.end[:, columns]])[rows[looks == Look.RAPID]]
+        rapid = np.hstack([motions.start[:, columns], motions.end[:, columns]])[rows[look == Look.RAPID]]
         self._rapids = _once(rapid[np.any(rapid[:, :2] != rapid[:, 2:], axis=1)])
         feeds = (Look.CUT,) if side is Side.XY else (Look.CUT, Look.PLUNGE)
-        plain, contour = chunks_by_style(shapes, side, rows[np.isin(looks, feeds)]), rows[looks == Look.CONTOUR]
+        plain, contour = chunks_by_style(shapes, side, rows[np.isin(look, feeds)]), rows[look == Look.CONTOUR]
         self._chunks = {colour: Chunks.joined([plain, contour_chunks(shapes, side, contour, colour is PathColour.MOTION)])
                         for colour in PathColour}
-
-    @cached_property
-    def box(self) -> Box | None:
-        """x0, y0, x1, y1 of all that is seen, mm; None when there is nothing."""
-        return self.box_of(self.only)
+        self.box = self.box_of(only)
+        self._kinds = np.unique(motions.kind).tolist()
+        looks = np.unique(shapes.tool.astype(np.int64) * len(Look) + shapes.look)
+        self._looks = set(zip((looks // len(Look)).tolist(), (looks % len(Look)).tolist(), strict=True))
 
     @property
     def some(self) -> bool:
@@ -128,13 +127,12 @@ class MotionPicture:
 
     def key(self, how: PathPaint) -> list[KeyRow]:
         """Return what lines mean, of the first eight tools or of the kinds of motion that there are."""
-        theme, looks = how.theme, self.shapes.look
-        plunge = [KeyRow("Plunge", theme.plunge)] if np.any(looks == Look.PLUNGE) else []
+        theme, looks = how.theme, {look for _, look in self._looks}
+        plunge = [KeyRow("Plunge", theme.plunge)] if Look.PLUNGE in looks else []
         if how.colour is PathColour.TOOL:
             return [row for at in range(min(len(self.tools), _MOST_TOOLS)) for row in self._tool_rows(at, theme)] + plunge
-        kinds = np.unique(self.shapes.program.motions.kind).tolist()
-        rows = [KeyRow(_KIND_NAMES[MotionKind(kind)], motion_colour(MotionKind(kind), theme)) for kind in kinds]
-        contour = [KeyRow("Contour", theme.muted, dashed=True)] if np.any(looks == Look.CONTOUR) else []
+        rows = [KeyRow(_KIND_NAMES[MotionKind(kind)], motion_colour(MotionKind(kind), theme)) for kind in self._kinds]
+        contour = [KeyRow("Contour", theme.muted, dashed=True)] if Look.CONTOUR in looks else []
         return rows + contour + plunge
 
     def _tool_rows(self, at: int, theme: Theme) -> list[KeyRow]:
@@ -142,9 +140,8 @@ class MotionPicture:
         tool = self.tools[at]
         note = next((note for note in self.shapes.program.tools if note.number == tool), None)
         words, colour = _tool_name(tool, note), tool_colour(at, theme)
-        own = self.shapes.look[self.shapes.tool == tool]
-        contour = np.any(own == Look.CONTOUR)
-        rows = [KeyRow(words, colour)] if np.any(own == Look.CUT) or not contour else []
+        contour = (tool, Look.CONTOUR) in self._looks
+        rows = [KeyRow(words, colour)] if (tool, Look.CUT) in self._looks or not contour else []
         return [*rows, KeyRow(f"{words}, contour", colour, dashed=True)] if contour else rows
 
     def box_of(self, motions: Ints | None) -> Box | None:

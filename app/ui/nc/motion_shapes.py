@@ -93,6 +93,8 @@ class MotionShapes:
     def seen(self, side: Side, motions: Ints | None = None) -> Ints:
         """Return those of some motions, or of all, whose way seen from a side is known."""
         rows = np.arange(len(self)) if motions is None else motions
+        if not self.program.homeward:
+            return rows
         columns = list(side.value)
         unknown = (self.home[rows] | self.away[rows])[:, columns].any(axis=1)
         return np.asarray(rows[~unknown])
