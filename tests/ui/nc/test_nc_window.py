@@ -14,53 +14,11 @@ from app.settings import load_settings
 from app.ui.computation import State
 from app.ui.nc.motion_picture import PathColour
 from app.ui.nc.motion_shapes import Side
-from app.ui.start import build
 from app.ui.views import View
 from tests.ui.nc.hand_made import long_program
+from tests.ui.nc.opened import SMALL, WAIT_MS, nc_of, open_file
 
-WAIT_MS = 20_000
 CTRL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
-SMALL = "G21 G90 G17 G94\nT1 M6\nS1000 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nG1 X40 F300\nG3 X40 Y20 J10\nG1 X0\nG0 Z5\nM2\n"
-
-
-@pytest.fixture
-def wiring(qtbot):
-    window, made = build()
-    window.resize(1280, 800)
-    with qtbot.waitActive(window):
-        window.show()
-        window.activateWindow()
-    yield made
-    window.worker.finish(20.0)
-    made.document.load(made.document.job)
-    window.close()
-    window.deleteLater()
-
-
-def nc_of(wiring):
-    return wiring.window_.views.nc
-
-
-def open_file(qtbot, wiring, path):
-    """Open a program as the user would, and wait until it is read."""
-    wiring.files.open_file(path)
-    qtbot.waitUntil(lambda: nc_of(wiring).shown is not None and nc_of(wiring).shown.source.path == path, timeout=WAIT_MS)
-    return nc_of(wiring)
-
-
-@pytest.fixture
-def small(qtbot, wiring, tmp_path):
-    path = tmp_path / "small.ngc"
-    path.write_text(SMALL)
-    return open_file(qtbot, wiring, path)
-
-
-@pytest.fixture
-def computed(qtbot, wiring):
-    """The sample part, computed, and its program read."""
-    wiring.files.open_sample()
-    qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT and nc_of(wiring).shown is not None, timeout=WAIT_MS)
-    return wiring
 
 
 def on_screen(nc, point):
