@@ -1,0 +1,43 @@
+"""Colours and light of the Cut view made from the theme."""
+
+from __future__ import annotations
+
+from PySide6.QtGui import QColor
+
+from app.ui.cut.colouring import Inks, Rgb8
+from app.ui.cut.stage import CutLook, Rgb, Rgba
+from app.ui.theme import Theme
+
+_DEPTH = ((241, 233, 200), (142, 201, 180), (63, 143, 168), (52, 87, 143), (43, 42, 92))
+_ORDER = ((59, 62, 145), (138, 79, 158), (204, 108, 139), (238, 159, 104), (246, 221, 128))
+
+
+def look_of(theme: Theme) -> CutLook:
+    """Return how the cut is painted by day or by night."""
+    dark = theme.name == "dark"
+    paths = (theme.rapid, theme.pocket, theme.plunge, theme.contour)
+    rapid, pocket, plunge, contour = (_rgba(colour) for colour in paths)
+    return CutLook(
+        canvas=_share(theme.canvas), stock=(0.36, 0.38, 0.41) if dark else (0.60, 0.62, 0.65), hatch=_share(theme.unreachable),
+        paths=(rapid, pocket, plunge, contour), strength=(0.34, 0.68, 0.10, 0.50) if dark else (0.40, 0.66, 0.10, 0.40),
+    )  # fmt: skip
+
+
+def inks_of(theme: Theme) -> Inks:
+    """Return the colours that tell cells apart by day or by night."""
+    dark = theme.name == "dark"
+    metal = (178, 182, 188) if dark else (204, 207, 211)
+    return Inks(metal, tuple(_bytes(colour) for colour in theme.regions), _DEPTH, _ORDER,
+                _bytes(theme.gouge), metal, _bytes(theme.left))
+
+
+def _bytes(colour: QColor) -> Rgb8:
+    return colour.red(), colour.green(), colour.blue()
+
+
+def _share(colour: QColor) -> Rgb:
+    return colour.redF(), colour.greenF(), colour.blueF()
+
+
+def _rgba(colour: QColor) -> Rgba:
+    return (*_share(colour), 1.0)

@@ -1,0 +1,61 @@
+"""Where a cut is painted, and in what colours and light. No Qt."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import moderngl
+
+Rgb = tuple[float, float, float]
+Rgba = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class CutLook:
+    """Colours, 0 to 1, and light.
+
+    Attributes:
+        canvas: ground. stock: metal that was not cut, and sides. hatch: face of a section, and what is out of reach.
+        paths: colours of paths by look. widths: px. dashes: period and drawn part, px; (0, 0) = solid.
+        light: towards the light, as (right, up, towards the eye).
+        strength: of the ambient light, of the light, of its mirror image, of the shade in corners.
+        relief: how many times a small slope is made steeper, so that cusps show, and up to about which slope.
+    """
+
+    canvas: Rgb
+    stock: Rgb
+    hatch: Rgb
+    paths: tuple[Rgba, Rgba, Rgba, Rgba]
+    widths: tuple[float, float, float, float] = (1.2, 1.6, 1.8, 1.8)
+    dashes: tuple[tuple[float, float], ...] = ((5.0, 1.5), (0.0, 0.0), (0.0, 0.0), (9.0, 5.5))
+    light: Rgb = (-0.45, 0.62, 0.64)
+    strength: Rgba = (0.36, 0.70, 0.10, 0.45)
+    relief: tuple[float, float] = (2.5, 0.15)
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """Two framebuffers of one size: painted into, several samples a pixel, and shown."""
+
+    back: moderngl.Framebuffer
+    front: moderngl.Framebuffer
+    held: tuple[moderngl.Renderbuffer, ...]
+
+    @staticmethod
+    def made(ctx: moderngl.Context, size: tuple[int, int], samples: int) -> Stage:
+        """Return new framebuffers.
+
+        Args:
+            ctx: the graphics context. size: width and height, px.
+            samples: a pixel, >= 0.
+        """
+        colour, depth = ctx.renderbuffer(size, 4, samples=samples), ctx.depth_renderbuffer(size, samples=samples)
+        shown = ctx.renderbuffer(size, 4)
+        return Stage(ctx.framebuffer([colour], depth), ctx.framebuffer([shown]), (colour, depth, shown))
+
+    def release(self) -> None:
+        """Give the memory back."""
+        for held in (self.back, self.front, *self.held):
+            held.release()
