@@ -38,6 +38,7 @@ NO_DRAWING = Missing("Nothing is drawn yet. Pick a tool at the left, type  rect 
 NO_PATHS = Missing("There are no tool paths yet.", "Compute  F5", "compute")
 NO_NC = Missing("There is no NC program yet.", "Compute  F5", "compute")
 NO_PROGRAM = Missing("There is no NC program yet. Draw a part and compute it, or open a program.", "Open an NC program", "nc_open")
+NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
 COMPUTING = Missing("The paths are being computed.", "Cancel  Shift+F5", "cancel")
 
 
@@ -90,8 +91,13 @@ class Showing(QObject):
         self._window.actions_[view.value].setChecked(True)
         self._window.views.show_view(view)
         self._window.tool_strip.setVisible(view is not View.NC)
+        self.show_prompt()
         self._window.status.show_message(self._standing())
         self.show_missing()
+
+    def show_prompt(self) -> None:
+        """Say what the command line takes: on the canvas what the tool in hand wants, beside a program what it is for."""
+        self._window.command_line.set_prompt(NC_PROMPT if self.view is View.NC else self._window.canvas.prompt)
 
     def refresh(self, change: Change) -> None:
         """Show what changed in the document."""

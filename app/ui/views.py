@@ -93,6 +93,10 @@ class Views(QStackedWidget):
             self.setCurrentWidget(self.canvas)
             self.canvas.set_mode(CanvasMode.PATHS if view is View.PATHS else CanvasMode.DRAW)
 
+    def take_focus(self) -> None:
+        """Have the keys go to the view at the front."""
+        (self.nc if self.view is View.NC else self.canvas).setFocus()
+
     @property
     def viewport(self) -> Canvas | PathView:
         """What zooms and fits in the view at the front."""

@@ -129,17 +129,22 @@ class Wiring(QObject):
         canvas, window = self.window_.canvas, self.window_
         names = {tool: name for name, tool in TOOLS.items()}
         for name, tool in TOOLS.items():
-            self._on(name, partial(canvas.set_tool, tool))
+            self._on(name, partial(self._take_tool, tool))
         window.actions_["tool_select"].setChecked(True)
         canvas.cursor_moved.connect(window.status.show_place)
         canvas.view_changed.connect(lambda: window.status.show_grid(canvas.grid_step))
         window.status.show_grid(canvas.grid_step)
-        canvas.prompt_changed.connect(window.command_line.set_prompt)
+        canvas.prompt_changed.connect(lambda _: self.showing.show_prompt())
         canvas.hovered.connect(self.showing.show_hovered)
         canvas.message.connect(lambda text: window.status.show_message(text, error=True))
         canvas.key_typed.connect(window.command_line.begin)
         canvas.tool_changed.connect(lambda tool: window.actions_[names[tool]].setChecked(True))
-        window.command_line.set_prompt(canvas.prompt)
+
+    def _take_tool(self, tool: CanvasTool) -> None:
+        """Take a tool in hand, on the canvas."""
+        if self.showing.view is View.NC:
+            self.showing.show_view(View.DRAW)
+        self.window_.canvas.set_tool(tool)
 
     def run(self, line: str) -> None:
         """Carry out one line of the drawing language; what is wrong with it stands in the log."""
@@ -162,14 +167,14 @@ class Wiring(QObject):
     def _on_entered(self, text: str) -> None:
         name = WORDS.get(text.lower())
         if name is not None:
-            self.window_.canvas.setFocus()
             self.window_.actions_[name].trigger()
+            self.window_.views.take_focus()
         elif not self.window_.canvas.type_text(text):
             self.run(text)
 
     def _on_escape(self) -> None:
         self.window_.canvas.cancel()
-        self.window_.canvas.setFocus()
+        self.window_.views.take_focus()
 
     def _on_computed(self) -> None:
         made = self.computation.made

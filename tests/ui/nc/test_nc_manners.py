@@ -119,3 +119,20 @@ def test_a_line_of_ten_megabytes_does_not_stop_the_window(qtbot, wiring, tmp_pat
     qtbot.wait(100)
     assert nc.shown.program.error is not None
     assert max(gaps.longest.values()) < 500
+
+
+def test_a_tool_that_draws_is_taken_to_the_drawing(qtbot, wiring, small):
+    window = wiring.window_
+    prompt = window.command_line.edit.placeholderText()
+    assert "Ctrl+F" in prompt
+    window.actions_["tool_line"].trigger()
+    assert wiring.showing.view is View.DRAW
+    assert window.tool_strip.buttons["tool_line"].isChecked()
+    assert window.command_line.edit.placeholderText() == window.canvas.prompt != prompt
+
+
+def test_escape_in_the_command_line_gives_the_keys_back_to_the_program(qtbot, wiring, small):
+    edit = wiring.window_.command_line.edit
+    edit.setFocus()
+    qtbot.keyClick(edit, Qt.Key.Key_Escape)
+    assert small.pane.text.hasFocus()
