@@ -6,7 +6,7 @@ written as two halves, an arc as a fan of chords are "the same path, other block
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import Enum
 from itertools import chain, pairwise
@@ -43,6 +43,9 @@ class DifferenceKind(Enum):
     TOOL = "tool"
     SPINDLE = "spindle"
     COOLANT = "coolant"
+    WORK_OFFSET = "work offset"
+    LENGTH_OFFSET = "tool length"
+    PATH_MODE = "path mode"
     PAUSE = "dwell or stop"
 
 
@@ -234,13 +237,13 @@ class _Comparison:
                           "the same places in another order or sense")
 
     def _changes(self, pairs: Rows) -> Iterator[Difference]:
-        """Yield where motions along the same path have another feed, tool, spindle or coolant."""
+        """Yield where motions along the same path have another feed, or something else in force."""
         pairs = pairs[:, np.argsort(pairs[0], kind="stable")]
         a, b = self._a.program, self._b.program
         feeds = a.motions.feed[pairs[0]], b.motions.feed[pairs[1]]
         differ = ~(np.abs(feeds[0] - feeds[1]) <= FEED) & ~(np.isnan(feeds[0]) & np.isnan(feeds[1]))
         yield from self._grouped(DifferenceKind.FEED, pairs, differ & (a.motions.kind[pairs[0]] != MotionKind.RAPID))
-        for kind, told in ((DifferenceKind.TOOL, _tool), (DifferenceKind.SPINDLE, _spindle), (DifferenceKind.COOLANT, _coolant)):
+        for kind, told in _IN_FORCE.items():
             names: dict[str, int] = {}
             codes = [np.array([names.setdefault(told(state), len(names)) for state in side.states])[side.motions.state[rows]]
                      for side, rows in zip((a, b), pairs, strict=True)]
@@ -260,8 +263,7 @@ class _Comparison:
         if kind is DifferenceKind.FEED:
             first, second = (_feed(float(side.program.motions.feed[row])) for side, row in ((self._a, a), (self._b, b)))
         else:
-            tell = {DifferenceKind.TOOL: _tool, DifferenceKind.SPINDLE: _spindle, DifferenceKind.COOLANT: _coolant}[kind]
-            first, second = tell(self._a.state(a)), tell(self._b.state(b))
+            first, second = _IN_FORCE[kind](self._a.state(a)), _IN_FORCE[kind](self._b.state(b))
         return f"{first} in the first, {second} in the second"
 
     def _pauses(self, pairs: list[Rows], size: tuple[int, int]) -> Iterator[Difference]:
@@ -309,3 +311,25 @@ def _spindle(state: ModalState) -> str:
 
 def _coolant(state: ModalState) -> str:
     return " and ".join(name for name, on in (("flood", state.flood), ("mist", state.mist)) if on) or "no coolant"
+
+
+def _work_offset(state: ModalState) -> str:
+    return state.work_offset
+
+
+def _length_offset(state: ModalState) -> str:
+    return f"G43 H{state.length_offset}" if state.length_offset else "no length (G49)"
+
+
+def _path_mode(state: ModalState) -> str:
+    """Return the path mode with its P in mm, to two digits: one tolerance written in mm and in inch is the same."""
+    words = [word for word in state.path.split() if not word.startswith("P")]
+    if words[0] == "G64" and state.path_tolerance is not None:
+        words.insert(1, f"P {state.path_tolerance:.2g} mm")
+    return " ".join(words)
+
+
+_IN_FORCE: dict[DifferenceKind, Callable[[ModalState], str]] = {
+    DifferenceKind.TOOL: _tool, DifferenceKind.SPINDLE: _spindle, DifferenceKind.COOLANT: _coolant,
+    DifferenceKind.WORK_OFFSET: _work_offset, DifferenceKind.LENGTH_OFFSET: _length_offset, DifferenceKind.PATH_MODE: _path_mode,
+}  # fmt: skip

@@ -12,7 +12,10 @@ from hypothesis import strategies as st
 
 from app.model.motion import MotionKind, Motions, Nurbs, Plane
 from app.nc.compare import DifferenceKind, compare
+from app.nc.read.dialect import Dialect
+from app.nc.read.options import ReadOptions
 from app.nc.read.program import Event, EventKind, ModalState, NcProgram
+from app.nc.read.reader import read_program
 from tests.nc.motion_programs import Course
 
 TOLERANCE = 1e-3
@@ -153,6 +156,9 @@ def test_a_rapid_instead_of_a_feed_is_told():
     (replace(CUTTING, spindle=-1), DifferenceKind.SPINDLE, "M3 in the first, S 12000 M4 in the second"),
     (replace(CUTTING, spindle=0), DifferenceKind.SPINDLE, "spindle off in the second"),
     (replace(CUTTING, flood=False), DifferenceKind.COOLANT, "flood in the first, no coolant in the second"),
+    (replace(CUTTING, work_offset="G55"), DifferenceKind.WORK_OFFSET, "G54 in the first, G55 in the second"),
+    (replace(CUTTING, length_offset=2), DifferenceKind.LENGTH_OFFSET, "no length (G49) in the first, G43 H2 in the second"),
+    (replace(CUTTING, path="G61", path_tolerance=0.0), DifferenceKind.PATH_MODE, "G64 in the first, G61 in the second"),
 ])  # fmt: skip
 def test_what_is_in_force_is_compared(state, kind, told):
     program = pocket().program(CUTTING, state)
@@ -162,6 +168,33 @@ def test_what_is_in_force_is_compared(state, kind, told):
     assert item.kind is kind
     assert (item.a.first, item.a.stop) == (5, 9)
     assert told in item.text
+
+
+@pytest.mark.parametrize(("dialect", "word", "other", "kind", "told"), [
+    (Dialect.LINUXCNC, "G54", "G55", DifferenceKind.WORK_OFFSET, "G54 in the first, G55 in the second"),
+    (Dialect.HAAS, "G54", "G54.1 P12", DifferenceKind.WORK_OFFSET, "G54 in the first, G54.1 P12 in the second"),
+    (Dialect.HAAS, "G43 H2", "G43 H1", DifferenceKind.LENGTH_OFFSET, "G43 H2 in the first, G43 H1 in the second"),
+    (Dialect.LINUXCNC, "G43", "", DifferenceKind.LENGTH_OFFSET, "G43 H2 in the first, no length (G49) in the second"),
+    (Dialect.LINUXCNC, "G64 P0.01", "G64", DifferenceKind.PATH_MODE, "G64 P 0.01 mm in the first, G64 in the second"),
+    (Dialect.LINUXCNC, "G64 P0.01", "G64 P0.1", DifferenceKind.PATH_MODE, "P 0.01 mm in the first, G64 P 0.1 mm in the second"),
+    (Dialect.LINUXCNC, "G64 P0.01", "G61", DifferenceKind.PATH_MODE, "P 0.01 mm in the first, G61 in the second"),
+])  # fmt: skip
+def test_every_word_that_changes_what_the_machine_does_is_a_difference(dialect, word, other, kind, told):
+    first, second = (
+        read_program(f"G21\nT2 M6\n{each}\nG0 Z5.\nG0 X1. Y2.\nG1 Z-1. F50.\nX5.\nM30\n".encode(), ReadOptions(dialect))
+        for each in (word, other)
+    )
+    found = compare(first, second)
+    (item,) = found.items
+    assert (item.kind, item.a.first_line, item.a.last_line) == (kind, 4, 7)
+    assert told in item.text
+    assert not found.same_motion
+    assert compare(first, first).items == ()
+
+
+def test_one_path_tolerance_in_mm_and_in_inch_is_no_difference():
+    mm, inch = (read_program(text, ReadOptions()) for text in (b"G21 G64 P0.01\nG1 X25.4 F254\nM2\n", b"G20 G64 P0.0004\nG1 X1 F10\nM2\n"))
+    assert compare(mm, inch).items == ()
 
 
 def test_feeds_are_compared_also_where_blocks_differ():

@@ -67,7 +67,8 @@ def difference_places(differences: Differences) -> tuple[str, list[Place]]:
     """Return title and rows for differences."""
     items = differences.items
     if not items:
-        return "Both programs do the same.", [Place("No motion, feed, tool, spindle, coolant or dwell differs.", "", Weight.REMARK)]
+        words = "No motion, feed, tool, length, work offset, spindle, coolant, path mode or dwell differs."
+        return "Both programs do the same.", [Place(words, "", Weight.REMARK)]
     motion = "the same motion" if differences.same_motion else f"paths up to {differences.largest_distance:.3f} mm apart"
     return f"{counted(len(items), 'difference')}, {motion}", [_difference_place(item) for item in items]
 
