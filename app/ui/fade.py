@@ -42,7 +42,7 @@ class Fade(QWidget):
         self._picture = QPixmap()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
-        """Paint the picture as faint as it is by now."""
+        """Paint the picture as faint as it is by now, where it was: room comes and goes at the left."""
         painter = QPainter(self)
         painter.setOpacity(self._opacity)
-        painter.drawPixmap(0, 0, self._picture)
+        painter.drawPixmap(self.width() - round(self._picture.deviceIndependentSize().width()), 0, self._picture)

@@ -123,6 +123,7 @@ class Views(QStackedWidget):
         self.legend.adjustSize()
         self.legend.fit_into(self.height() - _RULER_PX - _MARGIN_PX)
         self.legend.move(self.width() - self.legend.width() - _MARGIN_PX, _RULER_PX + 12)
+        self.fade.resize(self.size())
         self.empty.adjustSize()
         self.empty.move((self.width() - self.empty.width()) // 2, (self.height() - self.empty.height()) // 2)
 

@@ -46,6 +46,7 @@ class NcWiring(QObject):
         view.path.hovered.connect(showing.show_hovered)
         view.path.cursor_moved.connect(lambda right, up: window.status.show_place(right, up, view.side.name))
         control.changed.connect(self._refresh)
+        window.computation.changed.connect(self._offer_frame)
         self._refresh()
 
     def _on(self, name: str, act: Callable[[], object]) -> None:
@@ -60,7 +61,12 @@ class NcWiring(QObject):
 
         self._on(name, bring_and_act)
 
+    def _offer_frame(self) -> None:
+        made = self._window.computation.made
+        self._window.actions_["nc_frame"].setEnabled(made is not None and bool(made.files))
+
     def _refresh(self) -> None:
+        self._offer_frame()
         actions, control = self._window.actions_, self._control
         actions["nc_back"].setEnabled(control.foreign)
         for name in ("nc_save", "nc_find", "nc_find_next", "nc_find_before", "nc_line"):

@@ -136,3 +136,19 @@ def test_escape_in_the_command_line_gives_the_keys_back_to_the_program(qtbot, wi
     edit.setFocus()
     qtbot.keyClick(edit, Qt.Key.Key_Escape)
     assert small.pane.text.hasFocus()
+
+
+def test_the_view_before_fades_where_it_was(qtbot, wiring):
+    views = wiring.window_.views
+    views.fade.begin(views.grab())
+    left = views.mapToGlobal(views.rect().topLeft()).x()
+    wiring.window_.tool_strip.hide()
+    wiring.window_.lay_out_now()
+    qtbot.waitUntil(lambda: views.mapToGlobal(views.rect().topLeft()).x() < left, timeout=2000)
+    assert views.fade.size() == views.size()
+
+
+def test_the_frame_is_offered_when_there_is_a_job_to_go_round(qtbot, wiring):
+    assert not wiring.window_.actions_["nc_frame"].isEnabled()
+    wiring.files.open_sample()
+    qtbot.waitUntil(wiring.window_.actions_["nc_frame"].isEnabled, timeout=WAIT_MS)
