@@ -8,15 +8,17 @@ tool, length, spindle, coolant, work offset, blending. Motions that belong to no
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.errors import HitofudeError
 from app.model.job import Job
 from app.model.motion import Floats, MotionKind, Plane
 from app.model.moves import MoveKind, Moves, Program
 from app.model.stock_box import stock_box, work_origin
+from app.nc.check_elsewhere import FRESH, Standing, elsewhere, read_elsewhere
 from app.nc.check_lines import MeantPath, Owned, Rows, owned
 from app.nc.check_path import distances
 from app.nc.check_state import Expected, wrong_states
@@ -26,6 +28,12 @@ from app.nc.read.program import EventKind, NcProgram, Problem
 from app.nc.read.reader import read_program
 from app.nc.write import NcFile, writing_tolerance
 from app.progress import NO_PROGRESS, Progress
+
+NOISE = 1e-9
+"""mm; what moving a path to another zero and back may add."""
+
+LEFT_SO = ("That is so on a machine that stands elsewhere, or has other modes in force, when the program begins: the program has to say "
+           "itself what it needs.")  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +81,7 @@ class _Compared:
     expected: Expected
     safe_z: float
     tolerance: float
+    standing: Standing = FRESH
 
     @property
     def begins(self) -> Rows:
@@ -101,18 +110,35 @@ def check(data: bytes, file: NcFile, meant: Meant, progress: Progress = NO_PROGR
         Cancelled: the job was asked to stop.
     """
     program, job, post = meant.program, meant.job, meant.post
-    read = read_program(data, ReadOptions(dialect=post.dialect, tool_table=_tool_table(job)), progress)
+    options = ReadOptions(dialect=post.dialect, tool_table=_tool_table(job))
+    read = read_program(data, options, progress.part(0.0, 0.5))
     stop = file.first + len(file.nc.lines)
     moves = Moves(**{name: column[file.first:stop] for name, column in program.moves.columns().items()})  # type: ignore[arg-type]
     origin = work_origin(job, stock_box(job, program.regions))
     step = writing_tolerance(job, post)
     compared = _Compared(read, moves, MeantPath.of(moves, origin), file, Expected.of(job, post), job.safe_z - origin[2], step)
-    mine = owned(read.motions, file.nc.lines, compared.begins, compared.meant, step)
-    far = distances(read.motions, compared.meant, mine)
-    problems = (*read.problems, *sorted(_problems(compared, mine, far), key=lambda problem: problem.line))
+    mine, far, problems = _differences(compared)
+    if not problems:
+        problems = _elsewhere(compared, data, options, progress.part(0.5, 1.0))
     move = np.minimum(np.searchsorted(file.nc.lines, read.motions.line), len(moves) - 1)
     move[mine.rows] = mine.move
     return Check(float(np.max(far)), step, problems, read, move + file.first)
+
+
+def _differences(compared: _Compared) -> tuple[Owned, Floats, tuple[Problem, ...]]:
+    """Return which motions belong to which moves, how far each move is missed, and every difference."""
+    read = compared.read
+    mine = owned(read.motions, compared.file.nc.lines, compared.begins, compared.meant, compared.tolerance)
+    far = distances(read.motions, compared.meant, mine)
+    return mine, far, (*read.problems, *sorted(_problems(compared, mine, far), key=lambda problem: problem.line))
+
+
+def _elsewhere(compared: _Compared, data: bytes, options: ReadOptions, progress: Progress) -> tuple[Problem, ...]:
+    """Return the differences on a machine that was left as another job left it."""
+    standing = elsewhere(compared.expected.job.out_units)
+    read = read_elsewhere(data, options, standing, progress)
+    *_, problems = _differences(replace(compared, read=read, tolerance=compared.tolerance + NOISE, standing=standing))
+    return tuple(replace(problem, text=f"{problem.text} {LEFT_SO}") for problem in problems)
 
 
 def _tool_table(job: Job) -> dict[int, ToolOffset]:
@@ -165,32 +191,43 @@ def _kind_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
 
 
 def _lift_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
-    """Yield motions that belong to no move and are no lifts."""
+    """Yield motions that belong to no move and are no lifts; only the post's own home blocks go by the machine's coordinates."""
     motions = compared.read.motions
     free = np.ones(len(motions), bool)
     free[mine.rows] = False
-    level = np.hypot(*(motions.end - motions.start)[:, :2].T) > 0
+    level = np.hypot(*(motions.end - motions.start)[:, :2].T) > NOISE
+    machine = _machine(compared.read)
+    stays = np.abs(motions.end[:, 2] - motions.start[:, 2]) <= NOISE
+    up = np.where(machine, _at_home(compared), np.abs(motions.end[:, 2] - compared.safe_z) <= compared.tolerance)
     home = np.isin(motions.line, compared.file.nc.home_lines)
-    stays = motions.end[:, 2] == motions.start[:, 2]
-    last = np.append(motions.line[1:] != motions.line[:-1], True)
-    up = last & (motions.end[:, 2] == _home_heights(compared)[motions.state])
-    right = stays | np.where(home, up, np.abs(motions.end[:, 2] - compared.safe_z) <= compared.tolerance)
-    wrong = free & ((motions.kind != MotionKind.RAPID) | level | ~right)
+    wrong = np.where(free, (motions.kind != MotionKind.RAPID) | level | ~(stays & ~machine | up), False) | (machine & (~home | ~free))
+    wrong |= home & ~machine & ~stays
     if wrong.any():
         yield _problem(motions.line[np.argmax(wrong)], "", "this motion belongs to no move of the path and is no lift to clearance.")
     yield from _home_problems(compared)
 
 
-def _home_heights(compared: _Compared) -> Floats:
-    """Return where the tool's tip is along Z when the machine is at home, for each state."""
+def _machine(read: NcProgram) -> NDArray[np.bool_]:
+    """Tell of each motion whether it goes by the machine's own coordinates."""
+    machine = np.zeros(len(read.motions), bool)
+    machine[list(read.homeward)] = True
+    return machine
+
+
+def _at_home(compared: _Compared) -> NDArray[np.bool_]:
+    """Tell of each motion whether the tool's tip ends where one of the post's home blocks sends it along Z."""
+    standing, motions = compared.standing, compared.read.motions
+    heights = [standing.homes[code][2] for code in compared.expected.homes] + list(compared.expected.home_heights)
     lengths = _tool_table(compared.expected.job)
-    return np.array([-lengths[state.length_offset].offset[2] if state.length_offset in lengths else 0.0 for state in compared.read.states])
+    tip = np.array([lengths[state.length_offset].offset[2] if state.length_offset in lengths else 0.0 for state in compared.read.states])
+    place = motions.end[:, 2] + standing.zero[2] + tip[motions.state]
+    return np.any([np.abs(place - height) <= NOISE for height in heights], axis=0) if heights else np.zeros(len(motions), bool)
 
 
 def _home_problems(compared: _Compared) -> Iterator[Problem]:
     """Yield the first place where the tool should go home and does not."""
     motions, lines = compared.read.motions, np.array(compared.file.nc.home_lines, int)
-    there = motions.line[motions.end[:, 2] == _home_heights(compared)[motions.state]]
+    there = motions.line[_machine(compared.read) & _at_home(compared)]
     blocks = np.cumsum(np.diff(lines, prepend=0) != 1)
     away = [int(lines[blocks == block][0]) for block in np.unique(blocks) if not np.isin(lines[blocks == block], there).any()]
     if away:

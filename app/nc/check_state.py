@@ -19,6 +19,7 @@ from app.nc.write import blend_mm
 WORK_OFFSET = re.compile(r"G5[4-9](?:\.\d)?")
 STOP = re.compile(r"\bM0?[01]\b")
 BLEND = re.compile("G64.*{blend}")
+HOME_HEIGHT = re.compile(r"G53\b.*Z(-?[0-9.]+)")
 END = re.compile(r"\bM0?(?:2|30)\b")
 
 
@@ -34,6 +35,7 @@ class Expected:
         exact: G61. blend_mm: how far G64 P and Q may let the control leave the path; None = no word says it.
         dwell_s: what the spindle has to reach its speed; None = the post lets the control wait.
         stops: the post's own blocks stop the program. ends: they end it.
+        homes: codes by which the post's own blocks go home. home_heights: where G53 sends them along Z, mm, machine coordinates.
         feed_step: of the last decimal of F, mm/min.
     """
 
@@ -48,6 +50,8 @@ class Expected:
     dwell_s: float | None
     stops: bool
     ends: bool
+    homes: tuple[str, ...]
+    home_heights: tuple[float, ...]
     feed_step: float
 
     @staticmethod
@@ -65,6 +69,8 @@ class Expected:
             blend_mm=None if job.exact_path or not BLEND.match(post.blending.blend) else blend_mm(job, post),
             dwell_s=post.spindle.dwell_s if any("{dwell" in line for line in lines.tool) else None,
             stops=any(STOP.search(line) for line in blocks), ends=any(END.search(line) for line in blocks),
+            homes=tuple(code for code in ("G28", "G30") if code in " ".join(lines.home)),
+            home_heights=tuple(float(z) * job.out_units.value for z in HOME_HEIGHT.findall("\n".join(lines.home))),
             feed_step=job.out_units.value * 10.0 ** -post.digits(job.out_units).F,
         )  # fmt: skip
 
@@ -97,6 +103,8 @@ def _state_faults(state: ModalState, number: int, expected: Expected) -> Iterato
         yield f"T{state.tool} is in the spindle where T{number} was meant."
     if expected.lengths and state.length_offset != number:
         yield f"the tool length is H{state.length_offset} where H{number} was meant."
+    if not expected.lengths and state.length_offset:
+        yield f"the tool length H{state.length_offset} of an earlier program is in force; G49 ends it."
     if state.spindle != 1 or state.constant_surface:
         yield "the spindle does not turn clockwise (M3)."
     if state.speed != round(tool.spindle_speed):
