@@ -15,6 +15,9 @@ from app.nc.standing import Axis, Standing
 PLANES = ("G17", "G18", "G19")
 ARC_MODES = (Dialect.LINUXCNC, Dialect.GRBL, Dialect.MACH3)
 """They know G91.1 and G92.1."""
+HOMEWARD = {Dialect.FANUC: ("G91 G28 Z0.", "G90"), Dialect.HAAS: ("G53 G0 Z0.",)}
+"""Up to the machine's home along Z, wherever the tool stands, as the posts of these controls write it. Where nothing is named here,
+no such words are safe on every machine: a LinuxCNC machine may have no home at its top, a router none at all."""
 LEAST = 1e-6
 """mm; shorter ways are none."""
 
@@ -40,8 +43,8 @@ def lead_in(standing: Standing, approach: Approach) -> list[str]:
     """Return the blocks, one a line."""
     writer = _Writer(standing)
     way = list(writer.way(approach))
-    blocks = [*writer.modes(), *writer.parameters(), *writer.zeros(), *writer.tool(approach), *way, *writer.rest(way, approach.feed)]
-    return [block for block in blocks if block]
+    before = [*writer.modes(), *writer.parameters(), *writer.zeros(), *writer.up(), *writer.tool(approach)]
+    return [block for block in (*before, *way, *writer.rest(way, approach.feed)) if block]
 
 
 class _Writer:
@@ -91,18 +94,35 @@ class _Writer:
         if self._dialect is Dialect.LINUXCNC and offsets.set_here_on and offsets.set_here != ZERO:
             yield f"G52 {self._words(offsets.set_here)}"
 
+    def up(self) -> Iterator[str]:
+        """Yield the way off the work, before tool and spindle are touched."""
+        modal = self._modal
+        if modal.tool or modal.spindle or modal.length_offset:
+            yield from HOMEWARD.get(self._dialect, ())
+
     def tool(self, approach: Approach) -> Iterator[str]:
         """Yield tool, length, spindle and coolant."""
         modal, habits = self._modal, self._control.habits
         if modal.tool and habits.tool_changes:
             yield f"T{modal.tool} M6"
         if modal.length_offset:
-            yield f"G43 H{modal.length_offset}"
+            length = f"G43 H{modal.length_offset}"
+            yield f"G0 {length} {self._word('Z', approach.clearance)}" if self._length_moves else length
         if modal.speed:
             yield f"S{_plain(modal.speed, 4).removesuffix('.')}{('', ' M3', ' M4')[modal.spindle]}"
         if modal.spindle and approach.spin_up:
-            yield f"G4 P{_plain(approach.spin_up / habits.dwell_unit_with_point_s, 3)}"
+            yield f"G4 P{self._dwell(approach.spin_up)}"
         yield from (code for code, on in (("M7", modal.mist), ("M8", modal.flood)) if on)
+
+    def _dwell(self, seconds: float) -> str:
+        """Return P of G4: where whole numbers count milliseconds, without the point that a Fanuc refuses."""
+        unit = self._control.habits.dwell_unit_s
+        return _plain(seconds / unit, 3) if unit == 1.0 else f"{round(seconds / unit)}"
+
+    @property
+    def _length_moves(self) -> bool:
+        """Whether G43 may move Z by itself, so that it must stand with the Z that is meant."""
+        return self._dialect in HOMEWARD and self._modal.length_offset > 0
 
     @property
     def _added(self) -> Place:
@@ -116,7 +136,8 @@ class _Writer:
         machine = added(self._control.at, self._control.offsets.tool)
         before = added(goal, extra)
         high = (before[0], before[1], approach.clearance + extra[2])
-        yield from self._to(high, machine, (2,))
+        if not (axes[2] is Axis.WORK and self._length_moves):
+            yield from self._to(high, machine, (2,))
         yield from self._to(before, machine, (0, 1))
         if extra != ZERO:
             yield f"G92 {self._words((goal[0], goal[1], approach.clearance))}"

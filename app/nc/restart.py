@@ -12,7 +12,7 @@ from itertools import islice
 import numpy as np
 
 from app.errors import InputError
-from app.nc.lead_in import Approach, lead_in
+from app.nc.lead_in import HOMEWARD, Approach, lead_in
 from app.nc.read.control import Control
 from app.nc.read.options import ReadOptions
 from app.nc.read.places import KEYWORDS, label_of
@@ -25,6 +25,8 @@ from app.progress import NO_PROGRESS, Progress
 O_WORD = re.compile(rf"/?(?:n[0-9.]+)?o(<[^>]+>|[0-9]+)({'|'.join(sorted(KEYWORDS, key=len, reverse=True))})")
 OPENS = {"sub": "endsub", "if": "endif", "while": "endwhile", "repeat": "endrepeat", "do": "while"}
 INNER = {"else": "if", "elseif": "if", "return": "sub", "break": "", "continue": ""}
+
+STAND_CLEAR = "(THE TOOL MUST STAND CLEAR ABOVE THE WORK BEFORE THE START)"
 
 
 @dataclass(frozen=True)
@@ -128,7 +130,10 @@ def _leader(text: Text, line: int, control: Control) -> list[str]:
     if begin and line <= begin[-1]:
         raise InputError(f"Line {line} is the program's beginning; run the whole program, or start at line {begin[-1] + 1}.")
     plain = re.sub(r"[^ -~]|[()%;]", " ", lines[line - 1])[:50].strip()
-    return [*(lines[number - 1].strip() for number in begin), f"(RESTART FROM LINE {line})", f"({plain or 'an empty line'})"]
+    told = [f"(RESTART FROM LINE {line})", f"({plain or 'an empty line'})"]
+    if control.options.dialect not in HOMEWARD:
+        told.append(STAND_CLEAR)
+    return [*(lines[number - 1].strip() for number in begin), *told]
 
 
 def _subroutines(text: Text, line: int) -> list[str]:
@@ -159,7 +164,10 @@ def _approach(whole: NcProgram, standing: Standing, options: RestartOptions) -> 
         name = "XYZ"[standing.axes.index(Axis.FREE)]
         raise InputError(f"Where {name} is at this line the program does not say, and the tool would have to go down there; "
                          f"start behind the first block that says {name}.")
-    return Approach(max(clearance, height), options.approach, feed, options.spin_up)
+    clearance = max(clearance, height) if standing.axes[2] is Axis.WORK else clearance
+    if control.options.dialect in HOMEWARD and control.modal.length_offset and not np.isfinite(clearance):
+        raise InputError("The program says no height to which the tool could go with its length; say a clearance.")
+    return Approach(clearance, options.approach, feed, options.spin_up)
 
 
 def _check(made: bytes, original: tuple[NcProgram, int], standing: Standing, options: RestartOptions, progress: Progress) -> None:
@@ -186,6 +194,7 @@ def _first_other(a: NcProgram, b: NcProgram, first: int, skipped: int) -> int | 
     same = np.ones(len(one) - first, bool)
     for name in ("start", "end", "centre"):
         near = np.abs(getattr(one, name)[first:] - getattr(two, name)[skipped:])
+        near[: max(one.known_from[2] + (name == "start") - first, 0), 2] = 0  # where Z is unknown, a lead-in may go home
         same &= np.all((near < SAME) | np.isnan(near), axis=1)
     for name in ("kind", "plane", "turns"):
         same &= getattr(one, name)[first:] == getattr(two, name)[skipped:]
