@@ -57,6 +57,10 @@ class Parsed:
     words: tuple[Word, ...]
 
 
+SLASH = re.compile(r"(?:n[0-9.]+)?/[0-9]?")
+"""What marks a block that the control leaves out when it is told to."""
+
+
 def parse(code: str, nesting: int, free: bool = False) -> Parsed:
     """Return the words of a line.
 
@@ -69,9 +73,10 @@ def parse(code: str, nesting: int, free: bool = False) -> Parsed:
         Fault: something in it is no word.
     """
     values = Values(code, nesting)
-    deleted = code.startswith("/")
-    if deleted:
-        values.at = 2 if code[1:2].isdigit() else 1
+    slash = SLASH.match(code)
+    deleted = slash is not None
+    if slash is not None:
+        values.at = slash.end()
     settings: list[tuple[Setting, Value]] = []
     words: list[Word] = []
     while values.at < len(code):
@@ -182,6 +187,8 @@ def _add_code(block: Block, code: str, word: Word) -> None:
         block.unknown.append(code)
         return
     before = block.codes.get(group)
+    if group is Group.MOTION and before is not None and "G80" in (before, code):
+        code, before = (before if code == "G80" else code), None  # any other motion ends a cycle as G80 does
     both = {before, code} == {"M7", "M8"}
     if before is not None and not both and before != "G53" and code != "G53":
         raise Fault(f"{before} and {code} in one block contradict one another ({group.value}); write them in two.", column=-1 - word.begin)

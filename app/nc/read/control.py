@@ -40,7 +40,7 @@ class Control:
         homes: of G28 and G30, mm, machine coordinates.
         known: for each axis the first motion that the program itself set, -1 = none yet.
         cycle: the last canned cycle with its words, None after another motion. initial: the height at which their run began,
-            program coordinates and units.
+            program coordinates and units. before_cycle: the motion before it.
         curve: the spline over several blocks that is being written, None outside of one. last_offset: P, Q of the last G5, mm.
         compensation: G41 or G42, None = G40. stray: where the tool itself is when that is not where the program takes it to be,
             after G40.
@@ -62,6 +62,7 @@ class Control:
         self.known = [-1, -1, -1]
         self.cycle: Cycle | None = None
         self.initial = 0.0
+        self.before_cycle = "G0"
         self.curve: OpenNurbs | OpenFanucNurbs | None = None
         self.compensation: Compensation | None = None
         self.stray: Place | None = None

@@ -243,7 +243,7 @@ def _steps(cycle: Cycle, position: Point, initial: float, heights: tuple[float, 
     """Yield the way to each hole and what is done there.
 
     An initial height below R counts as R: the tool goes there first, even when it already is there. A tool that is not above
-    R rises on its way to the hole, at a slant, to the height that it will retract to.
+    R rises on its way to the hole, at a slant, to the height that it will retract to; on Fanuc and Haas it goes level.
     """
     r, bottom = heights
     first, second, height = (position[axis] for axis in cycle.plane.axes)
@@ -253,7 +253,8 @@ def _steps(cycle: Cycle, position: Point, initial: float, heights: tuple[float, 
     clear = r if cycle.retract_to_r else initial
     for _ in range(cycle.repeats):
         first, second = (_moved(word, at, cycle.absolute) for word, at in zip(cycle.hole, (first, second), strict=True))
-        hole, height = _Hole(cycle, (r, bottom, clear), first, second), clear if height <= r else height
+        hole = _Hole(cycle, (r, bottom, clear), first, second)
+        height = clear if height <= r and not cycle.fanuc else height
         yield hole.rapid(height)
         if height != r:
             yield hole.rapid(r)

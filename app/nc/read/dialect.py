@@ -51,8 +51,12 @@ _GRBL_LACKS = frozenset({
     "G85", "G86", "G87", "G88", "G89", "G90.1", "G95", "G96", "G97", "G98", "G99", "M6", "M98", "M99",
 })  # fmt: skip
 
+_LINUXCNC_LACKS = frozenset({
+    "G6.2", "G9", "G15", "G16", "G44", "G50", "G51", "G54.1", "G65", "G68", "G69", "G187", "M97",
+})  # fmt: skip
+
 HABITS: dict[Dialect, Habits] = {
-    Dialect.LINUXCNC: Habits("LinuxCNC"),
+    Dialect.LINUXCNC: Habits("LinuxCNC", missing=_LINUXCNC_LACKS),
     Dialect.GRBL: Habits("grbl", ngc_flow=False, tool_changes=False, splines="", missing=_GRBL_LACKS),
     Dialect.FANUC: Habits(
         "Fanuc", semicolon_comments=False, ngc_flow=False, fanuc_flow=True, least_mm=0.001, least_inch=0.0001, dwell_unit_s=0.001,

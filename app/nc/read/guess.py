@@ -9,14 +9,24 @@ from app.nc.read.dialect import Dialect
 _LOOKED_AT = 50_000
 """Bytes from the beginning; what tells a control's language stands there, or in none of the program."""
 
+_NAMED = r"(?:hitofude for|post|control|machine)[^)\n]{0,60}\b"
+"""A control's name in a comment counts where the comment says that the program is for it: a vise may be called Haas too."""
+
 _TELLING: tuple[tuple[Dialect, re.Pattern[str]], ...] = tuple(
     (dialect, re.compile(words, re.IGNORECASE | re.MULTILINE))
     for dialect, words in (
         (Dialect.GRBL, r"\bgrbl|^\s*\$[a-z0-9]"),
         (Dialect.MACH3, r"\bmach\s?3"),
-        (Dialect.LINUXCNC, r"linuxcnc|^\s*(n\d+\s*)?o\s*<|#\s*<|^\s*(n\d+\s*)?o\s*\d+\s*(sub|if|while|do|repeat|call)\b|g5\.[1-3]|g64\s*p"),
-        (Dialect.HAAS, r"\bhaas|g\s*(187|154\s*p|103\s*p)"),
-        (Dialect.FANUC, r"\bfanuc|^\s*[o:]\s*\d{1,5}\s*(\(|$)|\bif\s*\[.*goto|while\s*\[.*\]\s*do\s*\d|g54\.1|g6\.2|g0?5\s*p1\d{4}|g10\.6"),
+        (
+            Dialect.LINUXCNC,
+            r"linuxcnc|^\s*(n\d+\s*)?o\s*<|#\s*<|^\s*(n\d+\s*)?o\s*\d+\s*(sub|if|while|do|repeat|call)\b|g5\.[23]|g5\.1\s*[xyij]|g64\s*p",
+        ),
+        (Dialect.HAAS, _NAMED + r"haas|^[^(\n]*g\s*(187|154\s*p|103\s*p)"),
+        (
+            Dialect.FANUC,
+            _NAMED + r"fanuc|^\s*[o:]\s*\d{1,5}\s*(\(|$)|\bif\s*\[.*goto|while\s*\[.*\]\s*do\s*\d"
+            r"|g54\.1|g6\.2|g0?5\s*p1\d{4}|g0?5\.1\s*q|g10\.6",
+        ),
     )
 )
 

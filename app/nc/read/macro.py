@@ -140,6 +140,15 @@ def _goal(flow: Flow, code: str, number: int) -> tuple[str, Cursor]:
         if to is None:
             raise Fault(f"there is no block N{number} to call.", letter="p")
         return f"N{number}", to
+    return subroutine(flow, number)
+
+
+def subroutine(flow: Flow, number: int) -> tuple[str, Cursor]:
+    """Return label and first line of a program to call.
+
+    Raises:
+        Fault: it is not in this file.
+    """
     found = flow.places.subroutine(str(number))
     if found is None:
         raise Fault(f"there is no subroutine O{number} in this file.", letter="p")

@@ -14,6 +14,7 @@ from app.nc.read.curves import drop_curve, move_along_curve
 from app.nc.read.dialect import Dialect
 from app.nc.read.expression import whole
 from app.nc.read.fault import Fault
+from app.nc.read.foreign import warn_of_rotary
 from app.nc.read.holes import bore
 from app.nc.read.offsets import Place, replaced, taken
 from app.nc.read.program import FeedMode
@@ -41,17 +42,23 @@ def move(control: Control, block: Block) -> None:
     code = block.codes.get(Group.MOTION)
     axes = block.has(AXES + ROTARY)
     if once in ("G28", "G30"):
-        if code is not None and axes:
+        if code is not None and control.habits.fanuc_flow:
+            control.motion = code
+        elif code is not None and axes:
             raise Fault(f"{once} and {code} in one block both want its axis words; write them in two.", letter="g")
         _go_home(control, block, once)
         return
     if once is not None and once not in WITHOUT_AXES:
         return
     if code is not None:
+        if code in CYCLES and control.motion in ("G0", "G1", "G2", "G3"):
+            control.before_cycle = control.motion
         control.motion = code
     elif not axes and not (control.motion in ("G2", "G3") and block.has("ijk")) and not (control.motion == "G6.2" and block.has("k")):
         return
     _check_once(control, once)
+    if axes:
+        warn_of_rotary(control, block)
     if control.motion not in CYCLES:
         control.cycle = None
     if control.motion not in CURVES:
@@ -114,6 +121,10 @@ def _line(control: Control, block: Block) -> None:
 
 
 def _no_motion(control: Control, block: Block) -> None:
+    if control.habits.fanuc_flow:  # what was in force before the cycle is in force again
+        control.motion = control.before_cycle if control.before_cycle in ("G0", "G1") else "G0"
+        (_rapid if control.motion == "G0" else _line)(control, block)
+        return
     if block.has(AXES + ROTARY):
         letter = next(letter for letter in AXES + ROTARY if letter in block.values)
         raise Fault("there are axis words, but no G code that uses them is in force.", letter=letter)

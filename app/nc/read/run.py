@@ -6,12 +6,13 @@ import re
 
 import numpy as np
 
-from app.nc.read.block import Block, Parsed, block_of, parse
+from app.nc.read.block import SLASH, Block, Parsed, block_of, parse
 from app.nc.read.codes import CYCLES, TAKES, Group
 from app.nc.read.control import Control
 from app.nc.read.dialect import Dialect
 from app.nc.read.fault import Fault
 from app.nc.read.flow import MOST_KEPT, Flow
+from app.nc.read.foreign import adapt, call_macro, is_leader, warn_of_numbers
 from app.nc.read.lane import Plain, plain_blocks
 from app.nc.read.macro import call_or_return, is_macro, obey_macro
 from app.nc.read.moves import move
@@ -26,6 +27,9 @@ from app.progress import Progress
 LINES_A_STEP = 20_000
 """Lines between two looks at whether the job was cancelled."""
 
+PLAIN_LINES_A_BLOCK = 16
+"""Repeated plain lines that count as one repeated block: they take the lane less time than that."""
+
 LEADER = 4096
 """Bytes before the per cent sign that may be something else."""
 
@@ -35,6 +39,7 @@ _PLAIN = re.compile(rb"(?:[ \txyzijkrfnXYZIJKRFN0-9.+\-]+|[gG][ \t]*0?[0-3](?![ 
 _LEADER = re.compile(rb"[ \t\n\v\f\0]*%")
 _PERCENT = re.compile(rb"^[ \t]*%", re.MULTILINE)
 _O_WORD = re.compile(r"/?(?:n[0-9.]+)?[o:]")
+_PROGRAM_NUMBER = re.compile(r"^(/?(?:n[0-9.]+)?)[o:]")
 _MOTIONS = ("G0", "G1", "G2", "G3")
 _ENDS = ("M2", "M30")
 
@@ -83,6 +88,7 @@ class Run:
         """
         try:
             self._skip_leader()
+            warn_of_numbers(self._control, self._text.data)
             while self._flow.next.offset < len(self._text.data) and self._step():
                 pass
         except Fault as fault:
@@ -105,7 +111,7 @@ class Run:
         """Begin behind the per cent sign of a program that has one; Fanuc's and Haas' readers skip what stands before it."""
         data = self._text.data
         found = _LEADER.match(data) or (_PERCENT.search(data, 0, LEADER) if self._habits.fanuc_flow else None)
-        if found is not None:
+        if found is not None and is_leader(data[: found.start()]):
             offset = self._text.line_end(found.end()) + 1
             self._flow.next = Cursor(offset, data.count(b"\n", 0, offset) + 1)
 
@@ -161,7 +167,7 @@ class Run:
         flow.here, flow.next = begin, Cursor(offset, line)
         self._told += line - begin.line - 1
         if begin.offset < self._furthest:
-            control.unroll(line - begin.line - 1)
+            control.unroll((line - begin.line) // PLAIN_LINES_A_BLOCK)
         return True
 
     def _obey(self, at: Cursor) -> bool:
@@ -183,7 +189,13 @@ class Run:
         if self._text.line_end(at.offset) - at.offset > self._options.limits.line_length:
             raise Fault(f"the line is longer than {self._options.limits.line_length} characters.")
         code = code_of(self._text.line(at.offset), nested=self._options.dialect is not Dialect.LINUXCNC)
-        if not code or (code.startswith("/") and self._options.block_delete):
+        if self._options.block_delete and SLASH.match(code) is not None:
+            self._control.warn("blocks that begin with a slash are left out.", "/")
+            return ""
+        if code.startswith("$") and self._options.dialect is Dialect.GRBL:
+            self._control.warn("commands of the control itself ($) are passed over.")
+            return ""
+        if not code:
             return ""
         if code.startswith("%") or _O_WORD.match(code) is not None or (self._habits.fanuc_flow and is_macro(code)):
             return code
@@ -200,12 +212,19 @@ class Run:
             self._flow.obey(code)
         elif not self._habits.fanuc_flow:
             raise Fault(f"{self._habits.title} knows no O words.", column=-1)
+        else:
+            return _PROGRAM_NUMBER.sub(r"\1n", code, count=1)  # a number, and so as long that columns stay
         return ""
 
     def _execute(self, block: Block) -> bool:
         """Do a block; False at the end of the program."""
         control = self._control
+        if self._habits.fanuc_flow:
+            adapt(control, block)
         self._check_codes(block)
+        if block.codes.get(Group.ONCE) == "G65":
+            call_macro(self._flow, control, block)
+            return True
         before_motion(control, block)
         set_once(control, block)
         move(control, block)

@@ -12,6 +12,7 @@ from app.nc.read.block import Block
 from app.nc.read.codes import Group
 from app.nc.read.compensation import Compensation
 from app.nc.read.control import Control
+from app.nc.read.dialect import Dialect
 from app.nc.read.expression import whole
 from app.nc.read.fault import Fault
 from app.nc.read.offsets import ZERO, Place, added, offset_name, replaced, taken
@@ -44,7 +45,7 @@ def before_motion(control: Control, block: Block) -> None:
 def _feed_mode(control: Control, block: Block) -> None:
     code = block.codes[Group.FEED]
     mode = FeedMode(code)
-    if mode is not control.modal.feed_mode:
+    if mode is not control.modal.feed_mode or control.options.dialect is Dialect.LINUXCNC:
         control.change(feed_mode=mode)
         control.feed = math.nan
 
@@ -255,7 +256,7 @@ def _return_level(control: Control, block: Block) -> None:
 
 def _refused(control: Control, block: Block) -> None:
     """Refuse what would move the tool in a way that the reader does not follow."""
-    refused = {"G7": "the diameter mode of lathes", "G16": "polar coordinates", "G51": "scaling", "G68": "rotation", "G65": "a macro call"}
+    refused = {"G7": "the diameter mode of lathes", "G16": "polar coordinates", "G51": "scaling", "G68": "rotation"}
     for code in block.codes.values():
         if code in refused:
             raise Fault(f"{refused[code]} ({code}) is not followed; the reader stops here.", letter="g")

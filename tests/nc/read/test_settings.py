@@ -195,7 +195,7 @@ def test_axes_that_the_program_has_not_set() -> None:
 
 
 def test_fanuc_repeats_holes_by_k() -> None:
-    text = "G91 F100.\nG81 X1. Z-1. R1. K2\nG80\nM30\n"
+    text = "G21 G91 F100.\nG81 X1. Z-1. R1. K2\nG80\nM30\n"
     assert [end[0] for end in ends(read(text, Dialect.FANUC))][-1] == 2
     assert not warnings(text, Dialect.FANUC)
 
