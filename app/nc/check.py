@@ -18,6 +18,7 @@ from app.model.job import Job
 from app.model.motion import Floats, MotionKind, Plane
 from app.model.moves import MoveKind, Moves, Program
 from app.model.stock_box import stock_box, work_origin
+from app.nc.check_blocks import approach_problems, block_problems, blocks_of
 from app.nc.check_elsewhere import FRESH, Standing, elsewhere, read_elsewhere
 from app.nc.check_lines import MeantPath, Owned, Rows, owned
 from app.nc.check_path import distances
@@ -26,6 +27,7 @@ from app.nc.post import Post
 from app.nc.read.options import ReadOptions, ToolOffset
 from app.nc.read.program import EventKind, NcProgram, Problem
 from app.nc.read.reader import read_program
+from app.nc.read.text import Text
 from app.nc.write import NcFile, writing_tolerance
 from app.progress import NO_PROGRESS, Progress
 
@@ -120,6 +122,8 @@ def check(data: bytes, file: NcFile, meant: Meant, progress: Progress = NO_PROGR
     mine, far, problems = _differences(compared)
     if not problems:
         problems = _elsewhere(compared, data, options, progress.part(0.5, 1.0))
+    if read.error is None:
+        problems += tuple(_text_problems(compared, Text(data), post))
     move = np.minimum(np.searchsorted(file.nc.lines, read.motions.line), len(moves) - 1)
     move[mine.rows] = mine.move
     return Check(float(np.max(far)), step, problems, read, move + file.first)
@@ -139,6 +143,15 @@ def _elsewhere(compared: _Compared, data: bytes, options: ReadOptions, progress:
     read = read_elsewhere(data, options, standing, progress)
     *_, problems = _differences(replace(compared, read=read, tolerance=compared.tolerance + NOISE, standing=standing))
     return tuple(replace(problem, text=f"{problem.text} {LEFT_SO}") for problem in problems)
+
+
+def _text_problems(compared: _Compared, text: Text, post: Post) -> Iterator[Problem]:
+    """Yield what is wrong with the text beside its motions."""
+    code = text.data.decode(text.encoding)
+    tools = tuple(compared.moves.tool[compared.begins].tolist())
+    yield from block_problems(code, post, blocks_of(post, compared.expected.job, tools))
+    if text.line_count >= compared.file.nc.lines[-1]:
+        yield from approach_problems(code, compared.file.nc.lines[compared.begins].tolist())
 
 
 def _tool_table(job: Job) -> dict[int, ToolOffset]:
@@ -286,12 +299,20 @@ class _Sections:
                 yield _problem(line, "", f"the spindle has {dwell[section]:g} s to reach its speed, not {expected.dwell_s:g}.")
             if not self._clear(section, max(changes[section], default=0)):
                 yield _problem(line, "", f"T{tool} does not go to clearance height before it moves in X or Y.")
+            if section and changes[section] and not self._left(section, min(changes[section])):
+                yield _problem(line, "", f"the tool before T{tool} is not lifted to clearance before it is changed.")
 
     def _clear(self, section: int, changed: int) -> bool:
         """Tell whether a tool goes to clearance by Z alone between its change and its first motion level."""
-        motions, row, safe = self.compared.read.motions, int(self.first[section]), self.compared.safe_z
-        level = bool(np.any(motions.end[row, :2] != motions.start[row, :2]))
-        return not level or (row > changed and abs(motions.end[row - 1, 2] - safe) <= self.compared.tolerance)
+        motions, row = self.compared.read.motions, int(self.first[section])
+        return row > changed and abs(motions.end[row - 1, 2] - self.compared.safe_z) <= self.compared.tolerance
+
+    def _left(self, section: int, changed: int) -> bool:
+        """Tell whether the tool before was lifted to clearance by its own moves or behind them, before it went home or was changed."""
+        motions, home = self.compared.read.motions, _machine(self.compared.read)
+        rows = np.arange(self.last[section - 1], changed)
+        rows = rows[~home[rows]]
+        return bool(len(rows)) and motions.end[rows[-1], 2] >= self.compared.safe_z - self.compared.tolerance
 
 
 def _problem(line: int, word: str, text: str) -> Problem:

@@ -69,7 +69,7 @@ def test_a_difference_that_a_fresh_control_hides_is_told_as_one() -> None:
     (file,) = written.files
     found = problems(file.nc.text.replace("G91.1\n", "\n"), written)
     assert found
-    assert all("the program has to say itself what it needs" in text for _, text in found)
+    assert any("the program has to say itself what it needs" in text for _, text in found)
 
 
 @pytest.mark.parametrize("home", [("G53 G0 Z0",), ("G91 G28 Z0", "G90"), ("G91 G30 Z0", "G90"), ("G53 G0 Z-2.5",)])
