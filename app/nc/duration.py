@@ -3,8 +3,10 @@
 Model. Along each motion the speed rises and falls at the machine's acceleration and never exceeds what the feed, the
 axes' rapid rates and, on curves, sqrt(acceleration x radius) allow. From one motion to the next the speed is bounded by
 the corner: where the control may leave it by a distance d, by that of an arc tangent to both motions that passes the
-corner at d; and always by the change of velocity that the axes can make in one servo period. The control looks ahead
-over the whole program. It stops where feed and rapid motions meet, where G61.1 says so, and where anything but motion
+corner at d; it is never less than what the change of velocity that the axes can make in one servo period carries on. Short
+lines may stand for a curve: at a corner its radius is estimated from the turn and the straight ways on both sides, and
+sqrt(acceleration x radius) bounds the speed there too, so that a circle of chords takes the time of the arc. The control
+looks ahead over the whole program. It stops where feed and rapid motions meet, where G61.1 says so, and where anything but motion
 is done. What real controls do besides (jerk limits, short look-ahead, planning of their own) is not in it.
 
 References: the corner's arc is the usual junction deviation, v^2 = a d s / (1 - s) with s the sine of half the corner's
@@ -79,7 +81,7 @@ def duration(program: NcProgram, machine: Machine) -> Duration:
         program: as it was read; stops (M0, M1) take no time, as nobody knows how long the operator waits.
         machine: its rates and accelerations.
     """
-    from app.nc.duration_kernels import corners, run
+    from app.nc.duration_kernels import corners, curves, run
 
     motions = program.motions
     waiting, tool = _waits(program, machine)
@@ -90,11 +92,12 @@ def duration(program: NcProgram, machine: Machine) -> Duration:
     moving = np.zeros(len(motions))
     if len(rows):
         speed, acceleration = _limits(motions, machine, length, arcs)
-        entry = np.empty(len(rows) + 1)
-        into, out = (vectors[rows] for vectors in reversed(directions(motions, arcs)))
-        corners(into, out, _corners(program, machine, rows), _accelerations(machine), entry)
-        seconds = np.empty(len(rows))
-        run(length[rows], speed[rows], acceleration[rows], entry, seconds)
+        own = np.column_stack([column[rows] for column in (length, speed, acceleration)])
+        ways = np.stack([vectors[rows] for vectors in directions(motions, arcs)], axis=1)
+        entry, seconds, limits = np.empty(len(rows) + 1), np.empty(len(rows)), np.stack([_rapids(machine), _accelerations(machine)])
+        corners(ways, own, _corners(program, machine, rows), limits, entry)
+        curves(ways, own, limits, entry)
+        run(own, entry, seconds)
         moving[rows] = seconds
     return Duration(moving, waiting, tool, motions.kind == MotionKind.RAPID, int(np.sum(feedless)))
 
@@ -113,14 +116,18 @@ def _waits(program: NcProgram, machine: Machine) -> tuple[Floats, NDArray[np.int
     return waiting, np.append(of_state[program.motions.state], held).astype(np.int32)
 
 
+def _rapids(machine: Machine) -> Floats:
+    """Return (3,) the axes' greatest velocities, mm/s."""
+    return np.array([axis.rapid for axis in machine.axes], float) / 60
+
+
 def _accelerations(machine: Machine) -> Floats:
     return np.array([axis.acceleration for axis in machine.axes], float)
 
 
 def _limits(motions: Motions, machine: Machine, length: Floats, arcs: ArcPaths) -> tuple[Floats, Floats]:
     """Return (n,) greatest speed, mm/s, and acceleration, mm/s2, along each motion."""
-    rapids = np.array([axis.rapid for axis in machine.axes]) / 60
-    accelerations = _accelerations(machine)
+    rapids, accelerations = _rapids(machine), _accelerations(machine)
     shares = np.abs(motions.end - motions.start) / np.maximum(length, STILL)[:, None]
     shares[arcs.rows] = _arc_shares(arcs)
     for row in motions.splines:
