@@ -24,6 +24,7 @@ from app.nc.check_lines import MeantPath, Owned, Rows, owned
 from app.nc.check_path import distances
 from app.nc.check_state import Expected, wrong_states
 from app.nc.post import Post
+from app.nc.posts import comes_with_program
 from app.nc.read.options import ReadOptions, ToolOffset
 from app.nc.read.program import EventKind, NcProgram, Problem
 from app.nc.read.reader import read_program
@@ -47,6 +48,7 @@ class Check:
         tolerance_mm: how far it may be.
         problems: every way in which the text differs from the moves, the first line of each; none = it is what was meant.
         program: what the text was read as.
+        post: by which it was written.
         move: (n,) index of the program's move that each motion was written for; lifts count to the move before them, the
             approach of a tool to its first move.
     """
@@ -55,6 +57,7 @@ class Check:
     tolerance_mm: float
     problems: tuple[Problem, ...]
     program: NcProgram
+    post: Post
     move: Rows
 
     def require(self, name: str) -> None:
@@ -68,8 +71,10 @@ class Check:
         """
         if self.problems:
             more = f" ({len(self.problems) - 1} more differences)" if len(self.problems) > 1 else ""
-            raise HitofudeError(f"{self.problems[0].told(name)}{more} What was written is not the path that was computed, so it is not "
-                                "kept; please report this with the drawing and the post.")  # fmt: skip
+            mend = ("please report this with the drawing and the post" if comes_with_program(self.post) else
+                    f"{self.post.title} is a post of your own: mend its file, where a post that comes with the program shows how")
+            raise HitofudeError(f"{self.problems[0].told(name)}{more} What was written cannot be proven to be the path that was computed, "
+                                f"so it is not kept; {mend}.")  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +131,7 @@ def check(data: bytes, file: NcFile, meant: Meant, progress: Progress = NO_PROGR
         problems += tuple(_text_problems(compared, Text(data), post))
     move = np.minimum(np.searchsorted(file.nc.lines, read.motions.line), len(moves) - 1)
     move[mine.rows] = mine.move
-    return Check(float(np.max(far)), step, problems, read, move + file.first)
+    return Check(float(np.max(far)), step, problems, read, post, move + file.first)
 
 
 def _differences(compared: _Compared) -> tuple[Owned, Floats, tuple[Problem, ...]]:

@@ -63,6 +63,11 @@ def load_post(name: str) -> Post:
     return read_post(path)
 
 
+def comes_with_program(post: Post) -> bool:
+    """Tell whether a post is one of the program's own, word for word, rather than the user's."""
+    return any(post == read_post(path) for path in _own_posts().values())
+
+
 def read_post(path: Path) -> Post:
     """Return the post in a file.
 

@@ -155,7 +155,8 @@ def finish(
     deepest, rapids = gouge(program, job), rapids_in_material(program, job)
     coverage = measure(program, job, progress.part(0.4, 0.95))
     own = (*_gouge_findings(deepest, program), *_rapid_findings(rapids, program), *_shape_findings(program, job),
-           *(written.misfits() if machine else ()), *coverage_findings(coverage), *_ring_findings(program))
+           *written.coarseness(job.out_units), *(written.misfits() if machine else ()),
+           *coverage_findings(coverage), *_ring_findings(program))
     findings = worst_first((*own, *program.findings, *drawing_findings))
     progress.step(1.0, "Done")
     report = make_report(Measured(program, job, written, deepest, rapids, coverage, findings))

@@ -132,7 +132,7 @@ def _line(measured: Measured, move: int) -> Json:
 
 def _check(written: Written) -> Json:
     checks = written.checks
-    return {"largest_distance_mm": max((each.largest_distance_mm for each in checks), default=0.0),
+    return {"largest_distance_mm": written.largest_distance_mm,
             "tolerance_mm": max((each.tolerance_mm for each in checks), default=0.0),
             "differences": sum(len(each.problems) for each in checks), "motions": len(written.kind),
             "files": [file.suffix for file in written.files], "method": CHECK_METHOD}
@@ -160,7 +160,8 @@ def _tool_time(number: int, measured: Measured) -> float:
 def _gouge(measured: Measured) -> Json:
     gouge = measured.gouge
     return {"max_mm": gouge.max_mm, "x": gouge.x, "y": gouge.y, "z": gouge.z, **_line(measured, gouge.move),
-            "count": gouge.count, "counts_from_mm": tolerances.LEVEL, "method": GOUGE_METHOD}
+            "count": gouge.count, "counts_from_mm": tolerances.LEVEL, "path": "as computed",
+            "written_within_mm": measured.written.largest_distance_mm, "method": GOUGE_METHOD}
 
 
 def _place(place: Place) -> Json:

@@ -16,6 +16,7 @@ from app.model.machine import Machine
 from app.model.motion import MotionKind
 from app.model.motion_path import anchored, lengths
 from app.model.moves import Program
+from app.model.part import Units
 from app.nc.check import Check, Meant, check
 from app.nc.duration import Duration, duration
 from app.nc.extent import NOWHERE, Extent, extent, misfits
@@ -25,6 +26,9 @@ from app.nc.write import NcFile, write_files
 from app.progress import NO_PROGRESS, Progress
 
 Floats = NDArray[np.float64]
+
+COARSE = 0.005
+"""mm; a path that is written farther from the computed one is a finding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +73,11 @@ class Written:
         return _joined([each.moving for each in self.durations], np.float64)
 
     @property
+    def largest_distance_mm(self) -> float:
+        """How far the written path is from the computed one at most, as read back; 0 without files."""
+        return max((each.largest_distance_mm for each in self.checks), default=0.0)
+
+    @property
     def changes_s(self) -> float:
         """Seconds for changing tools between files, and for the first one, where no file says so."""
         return len(self.files) * self.machine.tool_change if self.post.file_per_tool else 0.0
@@ -89,6 +98,20 @@ class Written:
             Finding(FindingKind.MACHINE, f"NC line {problem.line}{_in_file(file)}: {problem.text}")
             for file, program in zip(self.files, self._programs, strict=True) for problem in misfits(program, self.machine)
         )  # fmt: skip
+
+    def coarseness(self, units: Units) -> tuple[Finding, ...]:
+        """Return that the post's decimals are too few.
+
+        Args:
+            units: of the program.
+        """
+        far, decimals = self.largest_distance_mm, self.post.digits(units).X
+        if far <= COARSE:
+            return ()
+        table = "inch" if units is Units.INCH else "mm"
+        text = (f"The post {self.post.title} writes {decimals} decimals: the path written is up to {far:.3f} mm from the computed one, for "
+                f"which gouges and what is left are measured; set more decimals in the post (decimals.{table}).")
+        return (Finding(FindingKind.TOLERANCE, text, amount=far),)
 
 
 def write_and_check(program: Program, job: Job, post: Post, machine: Machine | None, progress: Progress = NO_PROGRESS) -> Written:

@@ -15,7 +15,10 @@ from app.model.machine import Machine
 from app.model.moves import MoveKind
 from app.model.part import Units
 from app.nc import write
+from app.nc.check import Meant, check
+from app.nc.post import Decimals, WordDecimals
 from app.nc.posts import load_post, post_names
+from app.settings import config_folder
 from app.workflow.make import Made, finish, make
 from app.workflow.options import MakeOptions
 from app.workflow.written import write_and_check
@@ -97,3 +100,43 @@ def test_a_writer_that_errs_is_refused(made: Made, monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(write, "work_moves", wrong)
     with pytest.raises(HitofudeError, match=r"^LinuxCNC program:\d+: the written path is 0\.0100 mm from the move .* not kept"):
         write_and_check(made.program, made.job, load_post("linuxcnc"), None)
+
+
+@pytest.mark.parametrize(("decimals", "units", "far"), [
+    (0, Units.MM, 0.5), (1, Units.MM, 0.05), (2, Units.INCH, 0.1), (2, Units.MM, 0.0055),
+])  # fmt: skip
+def test_decimals_that_are_too_few_are_a_finding_that_counts(made: Made, decimals: int, units: Units, far: float) -> None:
+    post = load_post("linuxcnc")
+    few = WordDecimals(decimals, decimals, decimals, decimals, decimals, 1)
+    written = write_and_check(made.program, replace(made.job, out_units=units), replace(post, decimals=Decimals(few, few)), None)
+    (finding,) = written.coarseness(units)
+    assert finding.kind is FindingKind.TOLERANCE
+    assert finding.counts
+    assert finding.amount is not None
+    assert far <= finding.amount == written.largest_distance_mm <= 1.01 * units.value * 10.0**-decimals
+    assert f"writes {decimals} decimals: the path written is up to {finding.amount:.3f} mm from the computed one" in finding.text
+
+
+def test_the_report_of_a_coarse_post_says_of_which_path_its_gouges_are(made: Made) -> None:
+    folder = config_folder() / "posts"
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "coarse.toml").write_text('extends = "linuxcnc"\n[decimals.mm]\nX = 1\nY = 1\nZ = 1\nI = 1\nJ = 1\n')
+    this = finish(made.program, replace(made.job, post="coarse"))
+    assert not this.clean
+    gouge = this.report.data["gouge"]
+    assert gouge["path"] == "as computed"
+    assert gouge["written_within_mm"] == this.report.data["check"]["largest_distance_mm"] > 0.05
+    assert made.report.data["gouge"]["written_within_mm"] < 2e-4
+    assert not any(finding.kind is FindingKind.TOLERANCE for finding in made.findings)
+
+
+def test_who_is_to_mend_what_is_refused(made: Made) -> None:
+    """A post of the program is ours to mend, one of the user's is the user's."""
+    post = load_post("linuxcnc")
+    wrong = replace(post, title="Mine", program=replace(post.program, leave=()))
+    with pytest.raises(HitofudeError, match=r"it is not kept; Mine is a post of your own: mend its file"):
+        write_and_check(made.program, made.job, wrong, None)
+    right = write_and_check(made.program, made.job, post, None)
+    broken = check(right.files[0].nc.text.replace("M5", "M4").encode(), right.files[0], Meant(made.program, made.job, post))
+    with pytest.raises(HitofudeError, match=r"it is not kept; please report this with the drawing and the post"):
+        broken.require("part.ngc")
