@@ -18,6 +18,7 @@ from app.model.part import Units
 from app.nc.compare import Differences
 from app.nc.read.dialect import Dialect
 from app.nc.read.options import ToolOffset
+from app.nc.read.program import Problem, Severity
 from app.nc.restart import RestartOptions, restart
 from app.nc.tool_offsets import tool_offsets
 from app.progress import Progress
@@ -69,6 +70,8 @@ def _parser() -> OptionParser:
     parser.add_argument("--dialect", choices=list(CONTROLS), help="the control's language (default: as the text looks)")
     parser.add_argument("--tools", metavar="FILE", type=Path, help="tools: LinuxCNC's .tbl, or a library .toml or .csv")
     parser.add_argument("--tool-units", choices=["mm", "in"], default="mm", help="of the lengths in a .tbl (default mm)")
+    parser.add_argument("--block-delete", choices=["on", "off"], default="on",
+                        help="leave out the blocks that begin with a slash, or do them (default on)")
     parser.add_argument("--machine", metavar="NAME|FILE", type=typed(machine_named), help=MACHINE_HELP)
     parser.add_argument("--compare", metavar="OTHER.ngc", type=Path, help="another program: where its motion differs")
     parser.add_argument("--frame", metavar="OUT.ngc", type=Path, help="write a program round the box of the cuts, by rapids, spindle off")
@@ -90,7 +93,7 @@ def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
 
 def _options(arguments: argparse.Namespace) -> ExamineOptions:
     dialect = Dialect(arguments.dialect) if arguments.dialect else None
-    return ExamineOptions(dialect, _tools(arguments.tools, arguments.tool_units), arguments.machine)
+    return ExamineOptions(dialect, _tools(arguments.tools, arguments.tool_units), arguments.machine, arguments.block_delete == "on")
 
 
 def _tools(path: Path | None, units: str) -> Mapping[int, ToolOffset]:
@@ -121,7 +124,7 @@ def _texts(
 
 def _lines(examined: Examined) -> list[str]:
     """Return the problems, and what was measured, for people."""
-    lines = [f"  ! {problem.told(examined.name)}" for problem in examined.problems[:TOLD]]
+    lines = [f"  ! {_problem_words(problem, examined.name)}" for problem in examined.problems[:TOLD]]
     if len(examined.problems) > TOLD:
         lines.append(f"  - {len(examined.problems) - TOLD} more; --report R.json lists them all")
     report = examined.report()
@@ -137,6 +140,10 @@ def _lines(examined: Examined) -> list[str]:
                  f"tool changes {_clock(parts['wait'])}), machine: {examined.machine.title}")
     lines += [f"  {_tool_words(tool)}: {_clock(tool['time_s'])} min" for tool in report["tools"]]
     return lines
+
+
+def _problem_words(problem: Problem, file: str) -> str:
+    return f"{problem.told(file)}{' (a warning)' if problem.severity is Severity.WARNING else ''}"
 
 
 def _tool_words(tool: dict[str, object]) -> str:

@@ -166,10 +166,32 @@ def test_a_wrong_option_is_told_in_one_line(arguments: str, words: str, plate: P
     assert "hitofude make" not in shown.err
 
 
+def test_block_delete_is_a_switch(plate: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    plate.write_text(PLATE.replace("G1 X10\n", "/G1 X5\nG1 X10\n"))
+    counts = {}
+    for switch in ((), ("--block-delete", "on"), ("--block-delete=off",)):
+        checked(plate, *switch, "--report", tmp_path / "r.json", "--quiet")
+        report = json.loads((tmp_path / "r.json").read_text())
+        counts[switch] = (report["moves"]["G1"], report["block_delete"])
+    assert list(counts.values()) == [(3, True), (3, True), (4, False)]
+    assert checked(plate, "--block-delete", "maybe") == 2
+    assert "--block-delete is 'maybe'; choose one of" in capsys.readouterr().err
+
+
+def test_warnings_are_shown_and_said_to_be_such(plate: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    plate.write_text(PLATE.replace("M5\n", "M101\nM5\n"))
+    assert checked(plate, "--report", tmp_path / "r.json") == 1
+    assert "  ! plate.ngc:15" in (shown := capsys.readouterr().out)
+    assert "(a warning)" in shown
+    (problem,) = json.loads((tmp_path / "r.json").read_text())["problems"]
+    assert problem["severity"] == "warning"
+
+
 def test_help_names_every_option(capsys: pytest.CaptureFixture[str]) -> None:
     assert checked("--help") == 0
     text = capsys.readouterr().out
-    for option in ("--dialect", "--tools", "--machine", "--compare", "--frame", "--restart-at", "--output", "--report", "--quiet"):
+    options = "--dialect --tools --block-delete --machine --compare --frame --restart-at --output --report --quiet"
+    for option in options.split():
         assert option in text
 
 

@@ -44,11 +44,13 @@ class ExamineOptions:
         dialect: the control's; None = as the text looks.
         tools: the control's tool table.
         machine: that the program has to fit; None = timed on a usual one.
+        block_delete: blocks that begin with a slash are left out, as the control does with its switch on.
     """
 
     dialect: Dialect | None = None
     tools: Mapping[int, ToolOffset] = field(default_factory=dict)
     machine: Machine | None = None
+    block_delete: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +109,7 @@ class Examined:
         long, rapid = lengths(motions), motions.kind == MotionKind.RAPID
         stops = sum(event.kind in (EventKind.STOP, EventKind.OPTIONAL_STOP) for event in self.program.events)
         return {
-            "file": self.name, "control": self.read.dialect.value, "lines": self.program.line_count,
+            "file": self.name, "control": self.read.dialect.value, "block_delete": self.read.block_delete, "lines": self.program.line_count,
             "problems": [{"line": each.line, "column": each.column, "word": each.word, "text": each.text, "severity": each.severity.value}
                          for each in self.problems],
             "moves": {name: int(np.sum(motions.kind == kind)) for name, kind in KINDS.items()},
@@ -143,7 +145,7 @@ def examine(name: str, data: bytes, options: ExamineOptions, progress: Progress 
     Raises:
         Cancelled: the job was asked to stop.
     """
-    read = ReadOptions(dialect=options.dialect or guess_dialect(data), tool_table=options.tools)
+    read = ReadOptions(dialect=options.dialect or guess_dialect(data), tool_table=options.tools, block_delete=options.block_delete)
     program = read_program(data, read, progress)
     program = replace(program, motions=anchored(program.motions))
     machine = options.machine or load_machine(DEFAULT_MACHINE)
