@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 from pathlib import Path
 
@@ -15,18 +16,27 @@ def kernel_modules() -> tuple[str, ...]:
     return tuple(sorted(".".join(("app", *file.parts)) for file in files))
 
 
-def warm(progress: Progress = NO_PROGRESS) -> None:
-    """Compile every kernel, or load it from the cache.
+def warm(progress: Progress = NO_PROGRESS) -> tuple[str, ...]:
+    """Compile every kernel, or load it from the cache; one that cannot be compiled stops none of the others.
+
+    Returns:
+        A sentence for each module that failed: what needs it tells of it in its turn, everything else works.
 
     Raises:
         Cancelled: between two modules.
     """
-    modules = kernel_modules()
+    modules, failed = kernel_modules(), []
     for done, name in enumerate(modules):
         progress.step(done / len(modules), f"Preparing {name.split('.')[1]}")
-        import_module(name)
+        try:
+            import_module(name)
+        except Exception as error:
+            cause = " ".join(str(error).split())[:200]
+            failed.append(f"{name} cannot be compiled, so what needs it will not work: {type(error).__name__}: {cause}")
     progress.step(1.0, "Ready")
+    return tuple(failed)
 
 
 if __name__ == "__main__":
-    warm()
+    for sentence in warm():
+        print(f"hitofude: {sentence}", file=sys.stderr)
