@@ -53,7 +53,8 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
     ("&View", (
         Spec("view_draw", "&Draw", "Ctrl+1", group="view", checkable=True),
         Spec("view_paths", "&Paths", "Ctrl+2", group="view", checkable=True),
-        Spec("view_nc", "&NC", "Ctrl+3", group="view", checkable=True),
+        Spec("view_cut", "C&ut", "Ctrl+3", group="view", checkable=True),
+        Spec("view_nc", "&NC", "Ctrl+4", group="view", checkable=True),
         SEPARATOR,
         Spec("fit", "&Fit", "Ctrl+0", "fit", key_hint="F"),
         Spec("zoom_in", "Zoom &in", "Ctrl++", "zoom-in"),
@@ -190,6 +191,7 @@ def keys_text() -> str:
     rows += [
         ("Zoom at the mouse", "wheel"), ("Pan", "middle button, Space + drag"), ("Leave a tool, clear the selection", "Esc"),
         ("Repeat the last tool, end a chain", "Enter"), ("Straight up or across while drawing", "Shift"),
+        ("Turn the cut; from above, front, right, isometric", "drag; 1, 2, 3, 4"),
         ("Cut an operation earlier, later", "Alt+Up, Alt+Down"), ("Place by number", "x,y   @dx,dy   @length<angle"),
     ]
     half = (len(rows) + 1) // 2

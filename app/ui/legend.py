@@ -17,7 +17,7 @@ from app.ui.samples import LineSample, Sample
 from app.ui.theme import LIGHT, Theme
 
 
-class _LegendRow(QToolButton):
+class LegendRow(QToolButton):
     """One kind of line; a click shows or hides it."""
 
     def __init__(self, sample: Sample) -> None:
@@ -75,9 +75,9 @@ class Legend(QFrame):
         column = QVBoxLayout(self.body)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
-        self.rows: dict[Sample, _LegendRow] = {}
+        self.rows: dict[Sample, LegendRow] = {}
         for sample in Sample:
-            row = _LegendRow(sample)
+            row = LegendRow(sample)
             row.toggled.connect(lambda on, s=sample: self.layer_switched.emit(s, on))
             self.rows[sample] = row
             column.addWidget(row)

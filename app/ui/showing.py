@@ -36,9 +36,11 @@ class Missing:
 NOTHING = Missing()
 NO_DRAWING = Missing("Nothing is drawn yet. Pick a tool at the left, type  rect 0,0 60,40  or open a drawing.", "Open a drawing")
 NO_PATHS = Missing("There are no tool paths yet.", "Compute  F5", "compute")
+NO_CUT = Missing("There is no cut yet.", "Compute  F5", "compute")
 NO_NC = Missing("There is no NC program yet.", "Compute  F5", "compute")
 NO_PROGRAM = Missing("There is no NC program yet. Draw a part and compute it, or open a program.", "Open an NC program", "nc_open")
 NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
+CUT_PROMPT = "Drag turns the cut, the middle button shifts it; 1 to 4 are standard views; click the metal to go to its line"
 COMPUTING = Missing("The paths are being computed.", "Cancel  Shift+F5", "cancel")
 
 
@@ -90,14 +92,15 @@ class Showing(QObject):
         self.view = view
         self._window.actions_[view.value].setChecked(True)
         self._window.views.show_view(view)
-        self._window.tool_strip.setVisible(view is not View.NC)
+        self._window.tool_strip.setVisible(view not in (View.CUT, View.NC))
         self.show_prompt()
         self._window.status.show_message(self._standing())
         self.show_missing()
 
     def show_prompt(self) -> None:
         """Say what the command line takes: on the canvas what the tool in hand wants, beside a program what it is for."""
-        self._window.command_line.set_prompt(NC_PROMPT if self.view is View.NC else self._window.canvas.prompt)
+        prompts = {View.CUT: CUT_PROMPT, View.NC: NC_PROMPT}
+        self._window.command_line.set_prompt(prompts.get(self.view, self._window.canvas.prompt))
 
     def refresh(self, change: Change) -> None:
         """Show what changed in the document."""
@@ -134,7 +137,7 @@ class Showing(QObject):
         self._window.views.show_missing(missing.sentence, missing.button, made is not None)
 
     def _missing(self) -> Missing:
-        if self._computation.made is not None or (self.view is View.NC and len(self._window.views.nc.pane.text.text)):
+        if self._has_something():
             return NOTHING
         if self._computation.state is State.RUNNING:
             return COMPUTING if self.view is not View.DRAW else NOTHING
@@ -142,7 +145,14 @@ class Showing(QObject):
             if self.view is View.NC:
                 return NO_PROGRAM
             return NOTHING if self._window.canvas.tool is not CanvasTool.SELECT else NO_DRAWING
-        return {View.PATHS: NO_PATHS, View.NC: NO_NC}.get(self.view, NOTHING)
+        return {View.PATHS: NO_PATHS, View.CUT: NO_CUT, View.NC: NO_NC}.get(self.view, NOTHING)
+
+    def _has_something(self) -> bool:
+        """Return whether the view at the front shows something besides the drawing."""
+        views = self._window.views
+        if self.view is View.CUT:
+            return views.cut.picture is not None or bool(views.cut.failure)
+        return self._computation.made is not None or (self.view is View.NC and len(views.nc.pane.text.text) > 0)
 
     def show_hovered(self, text: str) -> None:
         """Show what the mouse is over, or else where the paths stand."""
@@ -204,7 +214,7 @@ class Showing(QObject):
         if finding.x is None or finding.y is None:
             return
         self._window.canvas.set_findings((*self._marked(), finding))
-        if self.view is View.NC:
+        if self.view in (View.CUT, View.NC):
             self.show_view(View.PATHS)
         self._window.canvas.go_to(finding.x, finding.y, closely=True)
         self._window.canvas.setFocus()

@@ -1,4 +1,4 @@
-"""The middle of the window: Draw and Paths on one canvas, NC as text; a view with nothing to show says what is missing."""
+"""The middle of the window: Draw and Paths on one canvas, Cut in space, NC as text; a view with nothing to show says what is missing."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QLabel, QPushButton, QStackedWidget, QVBoxLayout, 
 
 from app.ui.canvas.canvas import Canvas
 from app.ui.canvas.modes import CanvasMode
+from app.ui.cut.cut_view import CutView
 from app.ui.fade import Fade
 from app.ui.legend import Legend
 from app.ui.nc.nc_view import NcView
@@ -25,6 +26,7 @@ class View(Enum):
 
     DRAW = "view_draw"
     PATHS = "view_paths"
+    CUT = "view_cut"
     NC = "view_nc"
 
 
@@ -67,13 +69,14 @@ class EmptyState(QWidget):
 
 
 class Views(QStackedWidget):
-    """Canvas and NC text, with legend and empty state laid over them."""
+    """Canvas, cut and NC text, with legend and empty state laid over them."""
 
     def __init__(self, canvas: Canvas) -> None:
         super().__init__()
-        self.canvas, self.nc = canvas, NcView()
+        self.canvas, self.cut, self.nc = canvas, CutView(), NcView()
         self.view = View.DRAW
         self.addWidget(canvas)
+        self.addWidget(self.cut)
         self.addWidget(self.nc)
         self.legend, self.empty, self.fade = Legend(self), EmptyState(self), Fade(self)
         self.legend.hide()
@@ -86,20 +89,22 @@ class Views(QStackedWidget):
             self.fade.hide()
             self.fade.begin(self.grab())
         self.view = view
-        if view is View.NC:
-            self.setCurrentWidget(self.nc)
-            self.nc.setFocus()
+        if view in (View.CUT, View.NC):
+            self.setCurrentWidget(self.cut if view is View.CUT else self.nc)
+            self.take_focus()
         else:
             self.setCurrentWidget(self.canvas)
             self.canvas.set_mode(CanvasMode.PATHS if view is View.PATHS else CanvasMode.DRAW)
 
     def take_focus(self) -> None:
         """Have the keys go to the view at the front."""
-        (self.nc if self.view is View.NC else self.canvas).setFocus()
+        {View.CUT: self.cut, View.NC: self.nc}.get(self.view, self.canvas).setFocus()
 
     @property
-    def viewport(self) -> Canvas | PathView:
+    def viewport(self) -> Canvas | CutView | PathView:
         """What zooms and fits in the view at the front."""
+        if self.view is View.CUT:
+            return self.cut
         return self.nc.path if self.view is View.NC else self.canvas
 
     def show_missing(self, sentence: str, button: str, shows_paths: bool) -> None:

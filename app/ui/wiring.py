@@ -136,13 +136,15 @@ class Wiring(QObject):
         window.status.show_grid(canvas.grid_step)
         canvas.prompt_changed.connect(lambda _: self.showing.show_prompt())
         canvas.hovered.connect(self.showing.show_hovered)
+        window.views.cut.hovered.connect(self.showing.show_hovered)
+        window.views.cut.cursor_moved.connect(window.status.show_place)
         canvas.message.connect(lambda text: window.status.show_message(text, error=True))
         canvas.key_typed.connect(window.command_line.begin)
         canvas.tool_changed.connect(lambda tool: window.actions_[names[tool]].setChecked(True))
 
     def _take_tool(self, tool: CanvasTool) -> None:
         """Take a tool in hand, on the canvas."""
-        if self.showing.view is View.NC:
+        if self.showing.view in (View.CUT, View.NC):
             self.showing.show_view(View.DRAW)
         self.window_.canvas.set_tool(tool)
 

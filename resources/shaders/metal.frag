@@ -1,65 +1,75 @@
 #version 330
-// Metal in the light: the normal of every pixel comes from the heights themselves, however coarse the triangles are.
-uniform sampler2D heights;
-uniform sampler2D values;     // per cell: place in the palette, 0 to 1; NaN = stock; 2 = out of reach
-uniform sampler2D palette;
+// Metal in the light: every pixel takes its normal from the map of the heights' relief, however coarse the triangles are.
+uniform sampler2D relief;     // per cell: x and y of the normal as sign and root, and the light that reaches a corner
+uniform sampler2D values;     // per cell: place in the palette
+uniform sampler2D palette;    // 256 colours
 uniform vec3 corner;
-uniform float floor_z;
 uniform vec3 light;           // towards the light, length 1
-uniform vec3 eye;             // towards the eye, length 1
+uniform vec3 halfway;         // between the light and the eye, length 1
 uniform vec3 stock;           // colours, 0 to 1
 uniform vec3 hatch;
-uniform vec4 strength;        // of the ambient light, of the light, of its mirror image, of the shade in corners
-uniform vec2 relief;          // how many times a small slope is made steeper, and up to which slope
+uniform vec3 strength;        // of the ambient light, of the light, of its mirror image
+uniform float floor_z;
 uniform int face;             // 0 = metal, 1 = face of the section
-in vec3 place;
-flat in vec3 side;
 out vec4 colour;
-
-vec2 count = vec2(textureSize(heights, 0));
-
-float height(vec2 cell, float level) {
-    return textureLod(heights, cell / count, level).r;
-}
-
-vec3 normal_at(vec2 cell, float width) {
-    float level = max(log2(width), 0.0);
-    float reach = 0.5 * max(width, 1.0);
-    vec2 slope = vec2(height(cell + vec2(reach, 0.0), level) - height(cell - vec2(reach, 0.0), level),
-                      height(cell + vec2(0.0, reach), level) - height(cell - vec2(0.0, reach), level)) / (2.0 * reach * corner.z);
-    slope *= 1.0 + (relief.x - 1.0) / (1.0 + dot(slope, slope) / (relief.y * relief.y));
-    return normalize(vec3(-slope, 1.0));
-}
-
-float shade_in_corners(vec2 cell) {
-    float shade = 0.0;
-    for (float level = 3.0; level < 6.0; level += 1.0)
-        shade += clamp((height(cell, level) - place.z) / (exp2(level) * corner.z), 0.0, 1.0);
-    return 1.0 - strength.w * min(shade, 1.0);
-}
 
 bool striped(float step, float width) {
     return mod(gl_FragCoord.x + gl_FragCoord.y, step) < width;
 }
 
-vec3 base_colour(vec2 cell) {
-    float value = texelFetch(values, clamp(ivec2(cell), ivec2(0), ivec2(count) - 1), 0).r;
-    if (isnan(value)) return stock;
-    if (value > 1.5) return striped(8.0, 2.5) ? hatch : mix(stock, hatch, 0.45);
-    return texture(palette, vec2(value, 0.5)).rgb;
+vec3 lit(vec3 base, vec3 normal, float open) {
+    float mirrored = max(dot(normal, halfway), 0.0);
+    mirrored *= mirrored;
+    mirrored *= mirrored;
+    mirrored *= mirrored;
+    mirrored *= mirrored;
+    return open * (base * (strength.x + strength.y * max(dot(normal, light), 0.0)) + strength.z * mirrored * mirrored);
+}
+
+#if defined(TOP) || defined(TOP_CLIPPED)
+in vec2 cell;
+uniform ivec2 last_cell;
+uniform sampler2D heights;
+
+// A wall belongs to whoever cut the lower of the cells that it stands between.
+ivec2 foot_of_wall(ivec2 here) {
+    ivec2 found = here;
+    float lowest = texelFetch(heights, here, 0).r;
+    for (int k = 0; k < 4; ++k) {
+        ivec2 near = clamp(here + ivec2((k & 1) * (k - 2), (1 - (k & 1)) * (k - 1)), ivec2(0), last_cell);
+        float z = texelFetch(heights, near, 0).r;
+        if (z < lowest) { lowest = z; found = near; }
+    }
+    return found;
 }
 
 void main() {
-    vec2 cell = (place.xy - corner.xy) / corner.z;
-    bool wall = side != vec3(0.0);
-    if (!wall && place.z <= floor_z + 1e-4) discard;
-    if (side.z < 0.0 && height(floor(cell) + 0.5, 0.0) <= floor_z) discard;
-    vec2 across = max(abs(dFdx(cell)), abs(dFdy(cell)));
-    vec3 normal = wall ? side : normal_at(cell, max(across.x, across.y));
-    vec3 base = wall ? stock : base_colour(cell);
-    if (face == 1) base = striped(10.0, 1.5) ? mix(base, hatch, 0.55) : base;
-    float lit = max(dot(normal, light), 0.0);
-    float mirrored = pow(max(dot(normal, normalize(light + eye)), 0.0), 40.0);
-    float shade = wall ? 1.0 : shade_in_corners(cell);
-    colour = vec4(base * (strength.x + strength.y * lit) * shade + strength.z * mirrored * shade, 1.0);
+    vec3 map = texture(relief, cell / vec2(last_cell + 1)).rgb;
+    vec2 root = map.xy * (255.0 / 127.0) - (128.0 / 127.0);
+    vec2 aside = root * abs(root);
+    vec3 normal = vec3(aside, sqrt(max(1.0 - dot(aside, aside), 0.0)));
+    ivec2 here = clamp(ivec2(cell), ivec2(0), last_cell);
+    if (normal.z < 0.5) here = foot_of_wall(here);
+    int number = int(texelFetch(values, here, 0).r * 255.0 + 0.5);
+    vec3 base = texelFetch(palette, ivec2(number, 0), 0).rgb;
+    if (number == 254 && striped(8.0, 2.5)) base = hatch;
+    colour = vec4(lit(base, normal, map.z), 1.0);
 }
+#elif defined(UNDERSIDE)
+in vec3 place;
+flat in vec3 side;
+uniform sampler2D heights;
+
+void main() {
+    ivec2 cell = ivec2((place.xy - corner.xy) / corner.z);
+    if (texelFetch(heights, clamp(cell, ivec2(0), textureSize(heights, 0) - 1), 0).r <= floor_z) discard;
+    colour = vec4(lit(stock, side, 1.0), 1.0);
+}
+#else
+flat in vec3 side;
+
+void main() {
+    vec3 base = face == 1 && striped(10.0, 1.5) ? mix(stock, hatch, 0.55) : stock;
+    colour = vec4(lit(base, side, 1.0), 1.0);
+}
+#endif

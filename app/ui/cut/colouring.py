@@ -13,10 +13,10 @@ from app.ui.cut.picture import CutPicture, Floats, Heights
 
 Rgb8 = tuple[int, int, int]
 
-OUT_OF_REACH = 2.0
-"""Value of a cell that no tool of the job reaches."""
+OUT_OF_REACH, STOCK = 254, 255
+"""Values of cells that no tool of the job reaches, and of those that nobody cut."""
 
-_STEPS = 256
+STEPS = 254
 _FINE, _COARSE = 1.0, 10.0
 
 
@@ -38,7 +38,8 @@ class Inks:
     Attributes:
         metal: what was cut. cycle: for things that are told apart by number.
         depth, order: ramps, from the top down and from the first move to the last.
-        gouge, right, left: too deep, within tolerance, too high.
+        gouge, right, left, unreachable: too deep, within tolerance, too high, and too high for any tool of the job.
+        stock: what was not cut.
     """
 
     metal: Rgb8
@@ -48,6 +49,8 @@ class Inks:
     gouge: Rgb8
     right: Rgb8
     left: Rgb8
+    unreachable: Rgb8
+    stock: Rgb8
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,13 +67,13 @@ class Colouring:
     """The colour of every cell, and what it means.
 
     Attributes:
-        values: (rows, columns) float32 place in the palette, 0 to 1; NaN = stock; 2 = out of reach.
-        palette: (k, 4) uint8.
+        values: (rows, columns) uint8 place in the palette.
+        palette: (256, 4) uint8; the last two are out of reach and stock.
         ticks: of a scale, lower end first; none where the colours are told apart by name.
         names: colour and name of what is told apart.
     """
 
-    values: Heights
+    values: NDArray[np.uint8]
     palette: NDArray[np.uint8]
     ticks: tuple[Tick, ...] = ()
     names: tuple[tuple[Rgb8, str], ...] = ()
@@ -93,32 +96,43 @@ def colouring(picture: CutPicture, colour: CutColour, inks: Inks) -> Colouring:
     return makers.get(colour if colour in possible(picture) else CutColour.METAL, _plain)(picture, inks)
 
 
-def ramp(colours: tuple[Rgb8, ...], places: Floats | None = None) -> NDArray[np.uint8]:
-    """Return a palette of 256 steps through colours.
+def ramp(colours: tuple[Rgb8, ...], places: Floats | None = None) -> Floats:
+    """Return 254 steps through colours, (254, 3).
 
     Args:
         colours: at least two.
         places: of each, from 0 to 1; None = evenly.
     """
     at = np.linspace(0.0, 1.0, len(colours)) if places is None else places
-    steps = np.linspace(0.0, 1.0, _STEPS)
-    bands = [np.interp(steps, at, [colour[band] for colour in colours]) for band in range(3)]
-    return np.round(np.column_stack([*bands, np.full(_STEPS, 255.0)])).astype(np.uint8)
+    steps = np.linspace(0.0, 1.0, STEPS)
+    return np.column_stack([np.interp(steps, at, [colour[band] for colour in colours]) for band in range(3)])
+
+
+def _palette(colours: Floats, inks: Inks) -> NDArray[np.uint8]:
+    """Return a palette that begins with colours, (k, 3)."""
+    made = np.full((256, 4), 255.0)
+    made[: len(colours), :3] = colours
+    made[OUT_OF_REACH, :3], made[STOCK, :3] = _mixed(inks.stock, inks.unreachable, 0.45), inks.stock
+    return np.round(made).astype(np.uint8)
+
+
+def _places(shares: Heights) -> NDArray[np.uint8]:
+    """Return the places in a ramp of shares, clipped to 0 to 1."""
+    return (np.clip(shares, 0.0, 1.0) * np.float32(STEPS - 1) + np.float32(0.5)).astype(np.uint8)
 
 
 def _plain(picture: CutPicture, inks: Inks) -> Colouring:
-    values = np.where(picture.uncut(), np.float32(np.nan), np.float32(0.5))
-    return Colouring(values, np.array([[*inks.metal, 255]], np.uint8), names=((inks.metal, "Cut"),))
+    values = np.where(picture.uncut(), np.uint8(STOCK), np.uint8(0))
+    return Colouring(values, _palette(np.array([inks.metal], float), inks), names=((inks.metal, "Cut"), (inks.stock, "Stock")))
 
 
 def _by_depth(picture: CutPicture, inks: Inks) -> Colouring:
     uncut = picture.uncut()
-    lowest = float(picture.heights[~uncut].min()) if not uncut.all() else picture.floor
+    lowest = float(np.min(picture.heights, where=~uncut, initial=picture.top))
     span = max(picture.top - lowest, 1e-6)
-    values = np.where(uncut, np.float32(np.nan), np.clip((picture.heights - np.float32(lowest)) / np.float32(span), 0.0, 1.0))
-    marks = np.linspace(0.0, 1.0, 5)
-    ticks = tuple(Tick(float(at), f"{lowest + at * span:.3f}") for at in marks)
-    return Colouring(values.astype(np.float32), ramp(inks.depth[::-1]), ticks)
+    values = np.where(uncut, np.uint8(STOCK), _places((picture.heights - np.float32(lowest)) / np.float32(span)))
+    ticks = tuple(Tick(float(at), f"{lowest + at * span:.3f}") for at in np.linspace(0.0, 1.0, 5))
+    return Colouring(values, _palette(ramp(inks.depth[::-1]), inks), ticks)
 
 
 def _by_tool(picture: CutPicture, inks: Inks) -> Colouring:
@@ -133,21 +147,20 @@ def _by_number(picture: CutPicture, numbers: NDArray[np.int32], name: str, inks:
     """Return one colour for each number that the moves have."""
     move = picture.move if picture.move is not None else np.full(picture.heights.shape, -1, np.int32)
     known, place = np.unique(numbers, return_inverse=True)
-    colours = [inks.cycle[k % len(inks.cycle)] for k in range(len(known))]
-    lookup = np.append((place + 0.5) / max(len(known), 1), np.nan).astype(np.float32)
-    palette = np.array([[*colour, 255] for colour in colours], np.uint8)
-    named = tuple((colour, name.format(number)) for colour, number in zip(colours, known.tolist(), strict=True))
-    return Colouring(lookup[np.where(move < 0, len(numbers), move)], palette, names=named)
+    count = min(len(inks.cycle), max(len(known), 1))
+    lookup = np.append(place % count, STOCK).astype(np.uint8)
+    named = tuple((inks.cycle[k % count], name.format(number)) for k, number in enumerate(known.tolist()))
+    return Colouring(lookup[move], _palette(np.array(inks.cycle[:count], float), inks), names=named)
 
 
 def _by_move(picture: CutPicture, inks: Inks) -> Colouring:
     move = picture.move if picture.move is not None else np.full(picture.heights.shape, -1, np.int32)
     last = max(int(move.max()), 1)
-    values = np.where(move < 0, np.float32(np.nan), (move / np.float32(last)).astype(np.float32))
+    values = np.where(move < 0, np.uint8(STOCK), _places((move / np.float32(last)).astype(np.float32)))
     lines = picture.moves.line if picture.moves is not None else None
     marks = [(at, round(at * last)) for at in (0.0, 0.25, 0.5, 0.75, 1.0)]
     ticks = tuple(Tick(at, f"line {lines[min(k, len(lines) - 1)]}" if lines is not None and len(lines) else str(k)) for at, k in marks)
-    return Colouring(values, ramp(inks.order), ticks)
+    return Colouring(values, _palette(ramp(inks.order), inks), ticks)
 
 
 def _by_deviation(picture: CutPicture, inks: Inks) -> Colouring:
@@ -157,18 +170,19 @@ def _by_deviation(picture: CutPicture, inks: Inks) -> Colouring:
     worst = max(float(np.nanmax(np.abs(deviation))), 2 * coarse)
     stops = np.array([-worst, -coarse, -fine, fine, coarse, worst])
     places = np.array([0.0, 0.24, 0.47, 0.53, 0.76, 1.0])
-    values = np.interp(deviation, stops, places).astype(np.float32)
+    values = _places(np.interp(deviation, stops, places).astype(np.float32))
+    values[picture.uncut() & (np.abs(deviation) <= fine)] = STOCK
     if picture.unreachable is not None:
         values[picture.unreachable & (deviation > fine)] = OUT_OF_REACH
     pale = [_mixed(inks.right, ink, 0.35) for ink in (inks.gouge, inks.left)]
     colours = (inks.gouge, _mixed(inks.right, inks.gouge, 0.7), pale[0], inks.right, inks.right, pale[1],
                _mixed(inks.right, inks.left, 0.7), inks.left)
-    palette = ramp(colours, np.array([0.0, 0.24, 0.4695, 0.47, 0.53, 0.5305, 0.76, 1.0]))
+    steps = ramp(colours, np.array([0.0, 0.24, 0.4695, 0.47, 0.53, 0.5305, 0.76, 1.0]))
     remarks = ("gouge", "", "", "", "left")
     texts = (-worst, -coarse, 0.0, coarse, worst)
     ticks = tuple(Tick(at, f"{value:+.3f}" if value else "0.000", f"± {picture.tolerance:.3f}" if not value else remark)
                   for at, value, remark in zip((0.0, 0.24, 0.5, 0.76, 1.0), texts, remarks, strict=True))
-    return Colouring(values, palette, ticks)
+    return Colouring(values, _palette(steps, inks), ticks)
 
 
 def _mixed(a: Rgb8, b: Rgb8, share: float) -> Rgb8:

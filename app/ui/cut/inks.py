@@ -18,8 +18,8 @@ def look_of(theme: Theme) -> CutLook:
     paths = (theme.rapid, theme.pocket, theme.plunge, theme.contour)
     rapid, pocket, plunge, contour = (_rgba(colour) for colour in paths)
     return CutLook(
-        canvas=_share(theme.canvas), stock=(0.36, 0.38, 0.41) if dark else (0.60, 0.62, 0.65), hatch=_share(theme.unreachable),
-        paths=(rapid, pocket, plunge, contour), strength=(0.34, 0.68, 0.10, 0.50) if dark else (0.40, 0.66, 0.10, 0.40),
+        canvas=_share(theme.canvas), stock=_parts(inks_of(theme).stock), hatch=_share(theme.unreachable),
+        paths=(rapid, pocket, plunge, contour), strength=(0.36, 0.66, 0.10) if dark else (0.50, 0.56, 0.08),
     )  # fmt: skip
 
 
@@ -28,11 +28,15 @@ def inks_of(theme: Theme) -> Inks:
     dark = theme.name == "dark"
     metal = (178, 182, 188) if dark else (204, 207, 211)
     return Inks(metal, tuple(_bytes(colour) for colour in theme.regions), _DEPTH, _ORDER,
-                _bytes(theme.gouge), metal, _bytes(theme.left))
+                _bytes(theme.gouge), metal, _bytes(theme.left), _bytes(theme.unreachable), (92, 97, 105) if dark else (153, 158, 166))
 
 
 def _bytes(colour: QColor) -> Rgb8:
     return colour.red(), colour.green(), colour.blue()
+
+
+def _parts(ink: Rgb8) -> Rgb:
+    return ink[0] / 255, ink[1] / 255, ink[2] / 255
 
 
 def _share(colour: QColor) -> Rgb:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +17,21 @@ if TYPE_CHECKING:
 _ROW = np.dtype([("from", "3f4"), ("to", "3f4"), ("gone", "f4"), ("look", "u4")])
 _LIFT_PX = 2.0
 """Paths are painted this much nearer to the eye than they are, so that the metal under them does not hide them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """How the scene is looked at.
+
+    Attributes:
+        camera: from where. size: of the picture, px. section: normal and offset of the plane that takes away what lies beyond.
+        reach: nothing is farther than this from the camera's target, mm.
+    """
+
+    camera: Camera
+    size: tuple[int, int]
+    section: tuple[float, float, float]
+    reach: float
 
 
 class PathRibbons:
@@ -47,19 +63,21 @@ class PathRibbons:
             array = self._ctx.vertex_array(self._program, [(buffer, "3f4 3f4 1f4 1u4/i", "from", "to", "gone", "look")])
             self._buffers.append((look, buffer, array, len(some)))
 
-    def draw(self, camera: Camera, size: tuple[int, int], look: CutLook, shown: frozenset[int],
-             section: tuple[float, float, float], reach: float) -> None:
+    def draw(self, look: CutLook, shown: frozenset[int], sight: Sight) -> None:
         """Paint the paths of some looks over what is there."""
+        camera, size = sight.camera, sight.size
         if not self._buffers:
             return
         program = self._program
-        program["to_clip"].write(camera.matrix(size, reach).T.tobytes())
-        program["size"].value = size
-        program["colours"].value, program["widths"].value, program["dashes"].value = list(look.paths), list(look.widths), list(look.dashes)
-        program["offset"].value = tuple(camera.axes[2] * _LIFT_PX / camera.scale)
-        program["scale"].value = camera.scale
-        program["section"].value = section
+        program["to_clip"] = tuple(camera.matrix(size, sight.reach).T.ravel())
+        program["size"] = size
+        program["colours"], program["widths"], program["dashes"] = list(look.paths), list(look.widths), list(look.dashes)
+        program["offset"] = tuple(camera.axes[2] * _LIFT_PX / camera.scale)
+        program["scale"] = camera.scale
+        program["section"] = sight.section
         self._ctx.enable(self._ctx.BLEND)
+        over = (self._ctx.SRC_ALPHA, self._ctx.ONE_MINUS_SRC_ALPHA, self._ctx.ONE, self._ctx.ONE)
+        self._ctx.blend_func = over  # type: ignore[assignment]  # four are taken too: the last two are for alpha
         for kind, _, array, count in self._buffers:
             if kind in shown:
                 array.render(self._ctx.TRIANGLE_STRIP, vertices=4, instances=count)

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+
+from app.ui.cut.relief import Bytes, relief
 
 Heights = NDArray[np.float32]
 Floats = NDArray[np.float64]
@@ -101,6 +104,11 @@ class CutPicture:
     def high(self) -> Floats:
         """Upper right corner of the stock's box, mm."""
         return np.array([self.x0 + self.columns * self.pitch, self.y0 + self.rows * self.pitch, self.top])
+
+    @cached_property
+    def relief(self) -> Bytes:
+        """What the light needs, see `relief`; made when first asked for, which may be on another thread than the window's."""
+        return relief(self.heights, self.pitch)
 
     def uncut(self) -> NDArray[np.bool_]:
         """Return (rows, columns) which cells no move has cut."""

@@ -20,8 +20,7 @@ class CutLook:
         canvas: ground. stock: metal that was not cut, and sides. hatch: face of a section, and what is out of reach.
         paths: colours of paths by look. widths: px. dashes: period and drawn part, px; (0, 0) = solid.
         light: towards the light, as (right, up, towards the eye).
-        strength: of the ambient light, of the light, of its mirror image, of the shade in corners.
-        relief: how many times a small slope is made steeper, so that cusps show, and up to about which slope.
+        strength: of the ambient light, of the light, of its mirror image.
     """
 
     canvas: Rgb
@@ -29,10 +28,9 @@ class CutLook:
     hatch: Rgb
     paths: tuple[Rgba, Rgba, Rgba, Rgba]
     widths: tuple[float, float, float, float] = (1.2, 1.6, 1.8, 1.8)
-    dashes: tuple[tuple[float, float], ...] = ((5.0, 1.5), (0.0, 0.0), (0.0, 0.0), (9.0, 5.5))
+    dashes: tuple[tuple[float, float], ...] = ((5.0, 2.0), (0.0, 0.0), (0.0, 0.0), (9.0, 5.5))
     light: Rgb = (-0.45, 0.62, 0.64)
-    strength: Rgba = (0.36, 0.70, 0.10, 0.45)
-    relief: tuple[float, float] = (2.5, 0.15)
+    strength: Rgb = (0.36, 0.70, 0.10)
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,5 +55,7 @@ class Stage:
 
     def release(self) -> None:
         """Give the memory back."""
-        for held in (self.back, self.front, *self.held):
-            held.release()
+        for framebuffer in (self.back, self.front):
+            framebuffer.release()
+        for buffer in self.held:
+            buffer.release()

@@ -1,0 +1,338 @@
+"""The Cut view: the stock as the program leaves it; orbit, pan, zoom, probe, section."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+import numpy as np
+from PySide6.QtCore import QEasingCurve, QEvent, QPointF, Qt, QVariantAnimation, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent, QWheelEvent
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+
+from app.errors import HitofudeError
+from app.ui.canvas.viewport import GLIDE_MS
+from app.ui.cut.camera import Camera, StandardView
+from app.ui.cut.colouring import CutColour, colouring, possible
+from app.ui.cut.cut_legend import CutLegend, Side
+from app.ui.cut.inks import inks_of, look_of
+from app.ui.cut.overlay import CutOverlay, Probe, facts_of, place_of
+from app.ui.cut.painting import Painting
+from app.ui.cut.picking import Hit, Section, pick
+from app.ui.cut.picture import CutPicture
+from app.ui.cut.surface import GlSurface, ImageSurface, made_surface, pixel_size
+from app.ui.nc.motion_shapes import Look
+from app.ui.samples import Sample
+from app.ui.theme import LIGHT, Theme
+
+_NOTCH, _CLICK_PX, _TURN, _STEP = 1.2, 4.0, 0.008, np.radians(15.0)
+_EDGE_PX = 16
+_LOOKS = {Sample.RAPID: Look.RAPID, Sample.POCKET: Look.CUT, Sample.PLUNGE: Look.PLUNGE, Sample.CONTOUR: Look.CONTOUR}
+_KEYS = {Qt.Key.Key_1: StandardView.TOP, Qt.Key.Key_2: StandardView.FRONT, Qt.Key.Key_3: StandardView.RIGHT,
+         Qt.Key.Key_4: StandardView.ISOMETRIC}
+_ARROWS = {Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Up: (0, 1), Qt.Key.Key_Down: (0, -1)}
+
+
+class Drag(Enum):
+    """What a held mouse button does."""
+
+    NONE = 0
+    ORBIT = 1
+    PAN = 2
+
+
+class CutView(QWidget):
+    """Shows a cut; whoever owns it computes it.
+
+    Signals:
+        cell_picked(x, y, z, move): the metal was clicked at a place, mm; move = index of the one that cut it last, -1 = none.
+        hovered(sentence): what is under the mouse, or "".
+        cursor_moved(x, y): the place under the mouse, mm.
+
+    Attributes:
+        picture: what is shown; None = nothing. colour: what its colours tell. camera: from where it is seen, in the screen's px.
+        hit: the cell under the mouse. failure: why nothing can be shown here, or "".
+    """
+
+    cell_picked = Signal(float, float, float, int)
+    hovered = Signal(str)
+    cursor_moved = Signal(float, float)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.picture: CutPicture | None = None
+        self.colour = CutColour.METAL
+        self.camera = Camera()
+        self.section: Section | None = None
+        self.hit: Hit | None = None
+        self.failure = ""
+        self.surface: GlSurface | ImageSurface | None = None
+        self.painting = Painting(self)
+        self._theme, self._shown = LIGHT, frozenset(int(look) for look in Look)
+        self._fitted, self._drag = True, Drag.NONE
+        self._pressed, self._last, self._pivot = QPointF(), QPointF(), np.zeros(3)
+        self.sentence = QLabel()
+        self.sentence.setProperty("role", "muted")
+        self.sentence.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.sentence.setWordWrap(True)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self.sentence)
+        self.overlay, self.legend = CutOverlay(self), CutLegend(self)
+        self._way = (self.camera, self.camera)
+        self._glide = QVariantAnimation(self)
+        self._glide.setDuration(GLIDE_MS)
+        self._glide.setEasingCurve(QEasingCurve.Type.OutCubic)
+        self._glide.setStartValue(0.0)
+        self._glide.setEndValue(1.0)
+        self._glide.valueChanged.connect(lambda share: self._look(self._way[0].towards(self._way[1], float(share))))
+        self._begin()
+
+    def _begin(self) -> None:
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setMinimumSize(200, 150)
+        self.setAccessibleName("Cut in three dimensions")
+        self.legend.colour_chosen.connect(self.set_colour)
+        self.legend.layer_switched.connect(self._on_layer)
+        self.legend.section_chosen.connect(self._on_section)
+        self.overlay.hide()
+        self.legend.hide()
+
+    def show_cut(self, picture: CutPicture | None) -> None:
+        """Show another cut; the view stays unless the stock is another one."""
+        before, self.picture = self.picture, picture
+        self.overlay.show_probe(None)
+        self.hit = None
+        self.overlay.setVisible(picture is not None)
+        self.legend.setVisible(picture is not None)
+        if picture is None:
+            self.update()
+            return
+        looks = set(picture.paths.look.tolist()) if picture.paths is not None else set()
+        self.legend.show_layers({sample for sample, look in _LOOKS.items() if look in looks})
+        self.painting.new_picture()
+        self._show_colours()
+        self._on_section(self.legend.chosen_side, self.legend.slider.value() / self.legend.slider.maximum())
+        if before is None or not (np.array_equal(before.low, picture.low) and np.array_equal(before.high, picture.high)):
+            self.look_now(self._fitted_camera())
+            self._fitted = True
+        if self.isVisible():
+            self._need_surface()
+
+    def set_colour(self, colour: CutColour) -> None:
+        """Let the colours of the metal tell something else."""
+        self.colour = colour
+        self._show_colours()
+
+    def set_theme(self, theme: Theme) -> None:
+        """Paint by day or by night."""
+        self._theme = theme
+        self._show_colours()
+
+    def fit(self) -> None:
+        """Show the whole stock in the direction that is looked in."""
+        if self.picture is not None:
+            self._glide_to(self._fitted_camera())
+            self._fitted = True
+
+    def zoom_by(self, factor: float, at: QPointF | None = None) -> None:
+        """Zoom; what is seen at a place, by default in the middle, stays there."""
+        ratio = self.devicePixelRatioF()
+        place = at * ratio if at is not None else QPointF(*pixel_size(self)) / 2
+        self.look_now(self.camera.zoomed(factor, (place.x(), place.y()), pixel_size(self)))
+
+    def stand(self, view: StandardView) -> None:
+        """Look from a standard direction at the whole stock."""
+        if self.picture is not None:
+            self._glide_to(self._fitted_camera(self.camera.seen_from(view)))
+            self._fitted = True
+
+    def look_now(self, camera: Camera) -> None:
+        """Look this way at once."""
+        self._glide.stop()
+        self._fitted = False
+        self._look(camera)
+
+    def probe(self, at: QPointF) -> Hit | None:
+        """Return the cell that is seen at a place of the widget, px; None beside the metal."""
+        if self.picture is None:
+            return None
+        place = at * self.devicePixelRatioF()
+        return pick(self.picture, self.camera.ray((place.x(), place.y()), pixel_size(self)), self.section)
+
+    def frame_parts(self) -> tuple[Camera, Section | None, frozenset[int]]:
+        """Return what is to be painted: from where, what is taken away, and which paths."""
+        return self.camera, self.section, self._shown
+
+    def showEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
+        """Make the surface when it is first needed: a window with OpenGL in it costs more to paint."""
+        if self.picture is not None:
+            self._need_surface()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Keep what was fitted fitted."""
+        for widget in (self.surface, self.overlay):
+            if widget is not None:
+                widget.setGeometry(self.rect())
+        self._place_legend()
+        if self.picture is not None and self._fitted:
+            self._look(self._fitted_camera())
+        else:
+            self.painting.moved()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Hold the stock: the left button turns it round the place under the mouse, the middle one shifts it."""
+        self._pressed = self._last = event.position()
+        pans = event.button() is not Qt.MouseButton.LeftButton or event.modifiers() & Qt.KeyboardModifier.ShiftModifier
+        self._drag = Drag.PAN if pans else Drag.ORBIT
+        hit = self.probe(event.position())
+        if hit is not None:
+            self._pivot = np.array(hit.place)
+        elif self.picture is not None:
+            self._pivot = (self.picture.low + self.picture.high) / 2
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Turn or shift what is held; else tell what is under the mouse."""
+        step, self._last = event.position() - self._last, event.position()
+        if self._drag is Drag.NONE:
+            self._hover(event.position())
+        elif (event.position() - self._pressed).manhattanLength() >= _CLICK_PX or not self.overlay.probe:
+            self._show_hit(None, event.position())
+            if self._drag is Drag.ORBIT:
+                self.look_now(self.camera.orbited(-step.x() * _TURN, step.y() * _TURN, self._pivot))
+            else:
+                ratio = self.devicePixelRatioF()
+                self.look_now(self.camera.panned(step.x() * ratio, step.y() * ratio))
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Let go; a click picks the cell."""
+        clicked = self._drag is Drag.ORBIT and (event.position() - self._pressed).manhattanLength() < _CLICK_PX
+        self._drag = Drag.NONE
+        self._hover(event.position())
+        if clicked and self.hit is not None and self.picture is not None:
+            self.cell_picked.emit(*self.hit.place, self.picture.move_at(self.hit.row, self.hit.column))
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
+        """The second press of two is a press like any other."""
+        self.mousePressEvent(event)
+
+    def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
+        """Nothing is under the mouse."""
+        self._show_hit(None, QPointF())
+
+    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
+        """Zoom at the mouse."""
+        if event.angleDelta().y() and self.picture is not None:
+            self._show_hit(None, event.position())
+            self.zoom_by(_NOTCH ** (event.angleDelta().y() / 120), event.position())
+        event.accept()
+
+    def event(self, event: QEvent) -> bool:
+        """Keep the digits and F from whoever types elsewhere."""
+        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and not event.modifiers() and event.key() in _KEYS:
+            event.accept()
+            return True
+        return super().event(event)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
+        """F fits, 1 to 4 are the standard views, arrows turn."""
+        key = Qt.Key(event.key())
+        if event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier:
+            super().keyPressEvent(event)
+        elif key == Qt.Key.Key_F:
+            self.fit()
+        elif key in _KEYS:
+            self.stand(_KEYS[key])
+        elif key in _ARROWS and self.picture is not None:
+            yaw, pitch = _ARROWS[key]
+            self._glide_to(self.camera.orbited(yaw * _STEP, pitch * _STEP, (self.picture.low + self.picture.high) / 2))
+        else:
+            super().keyPressEvent(event)
+
+    def _need_surface(self) -> None:
+        """Make what the cut is painted on, once; where that cannot be, say why."""
+        if self.surface is not None or self.failure:
+            return
+        try:
+            self.surface = made_surface(self, self.painting.paint)
+        except HitofudeError as error:
+            self.failure = str(error)
+            self.sentence.setText(self.failure)
+            self.overlay.hide()
+            return
+        self.surface.renewed.connect(self.painting.renew)
+        self.surface.setGeometry(self.rect())
+        self.surface.lower()
+        self.surface.show()
+
+    def _fitted_camera(self, camera: Camera | None = None) -> Camera:
+        """Return the camera that shows the whole stock beside the legend."""
+        if self.picture is None:
+            return self.camera
+        width, height = pixel_size(self)
+        covered = (self.legend.width() + _EDGE_PX) * self.devicePixelRatioF()
+        free = width - covered if covered < 0.45 * width else width
+        fitted = (camera or self.camera).fitted(self.picture.low, self.picture.high, (free, height))
+        return fitted.panned((free - width) / 2, 0.0)
+
+    def _look(self, camera: Camera) -> None:
+        self.camera = camera
+        self.overlay.show_camera(camera)
+        self.painting.moved()
+
+    def _glide_to(self, camera: Camera) -> None:
+        self._glide.stop()
+        self._show_hit(None, QPointF())
+        if not self.isVisible():
+            self._look(camera)
+            return
+        self._way = (self.camera, camera)
+        self._glide.start()
+
+    def _show_colours(self) -> None:
+        """Work the colours out, and explain them."""
+        if self.picture is None:
+            return
+        choices = possible(self.picture)
+        colour = self.colour if self.colour in choices else CutColour.METAL
+        made = colouring(self.picture, colour, inks_of(self._theme))
+        self.painting.new_colours(made, look_of(self._theme))
+        self.legend.show_colours(colour, made, choices)
+        self._place_legend()
+
+    def _place_legend(self) -> None:
+        self.legend.move(self.width() - self.legend.width() - _EDGE_PX, _EDGE_PX)
+
+    def _on_layer(self, sample: Sample, on: bool) -> None:
+        look = int(_LOOKS[sample])
+        self._shown = self._shown | {look} if on else self._shown - {look}
+        self.painting.moved()
+
+    def _on_section(self, side: Side, share: float) -> None:
+        """Cut the stock open across an axis; the part that the standard view looks from is taken away."""
+        self._place_legend()
+        if self.picture is None or side is Side.WHOLE:
+            self.section = None
+        else:
+            axis, sign = (0, 1.0) if side is Side.X else (1, -1.0)
+            low, high = self.picture.low[axis], self.picture.high[axis]
+            normal = (sign, 0.0) if axis == 0 else (0.0, sign)
+            self.section = Section(normal, sign * float(low + share * (high - low)))
+        self.painting.moved()
+
+    def _hover(self, at: QPointF) -> None:
+        self._show_hit(self.probe(at), at)
+
+    def _show_hit(self, hit: Hit | None, at: QPointF) -> None:
+        """Tell what is known of a cell, here and to whoever listens."""
+        if hit is None and self.hit is None:
+            return
+        self.hit = hit
+        if hit is None or self.picture is None:
+            self.overlay.show_probe(None)
+            self.hovered.emit("")
+            return
+        facts = facts_of(self.picture, hit)
+        self.overlay.show_probe(Probe(at, place_of(hit), facts))
+        self.hovered.emit(facts)
+        self.cursor_moved.emit(hit.place[0], hit.place[1])

@@ -1,0 +1,126 @@
+"""What lies over the cut: the axes, and what is known of the place under the mouse."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QWidget
+
+from app.ui.cut.camera import Camera
+from app.ui.cut.picking import Hit
+from app.ui.cut.picture import CutPicture
+from app.ui.theme import LIGHT, Theme, text_font
+
+_AXIS_PX, _AXES_EDGE_PX, _NAME_PX = 30.0, 52.0, 11.0
+_CARD_GAP_PX, _PAD_PX, _ROW_PX, _CROSS_PX = 18.0, 10.0, 18.0, 9.0
+
+
+@dataclass(frozen=True, slots=True)
+class Probe:
+    """What is known of one place: where it is on the screen, px, and two lines of words."""
+
+    at: QPointF
+    place: str
+    facts: str
+
+
+def number(value: float) -> str:
+    """Return a length in mm with three decimals and a true minus."""
+    return f"{round(value, 3) + 0.0:.3f}".replace("-", "\u2212")
+
+
+def facts_of(picture: CutPicture, hit: Hit) -> str:
+    """Return what there is to say about a cell: depth, tool and line that cut it, deviation."""
+    depth = picture.top - hit.height
+    facts = [f"{number(depth)} deep" if depth > 5e-4 else "not cut"]
+    move = picture.move_at(hit.row, hit.column)
+    if move >= 0 and picture.moves is not None and move < len(picture.moves.line):
+        facts += [f"T{picture.moves.tool[move]}", f"line {picture.moves.line[move]}"]
+    if picture.deviation is not None:
+        off = float(picture.deviation[hit.row, hit.column])
+        if abs(off) > picture.tolerance:
+            facts.append(f"{number(abs(off))} {'left' if off > 0 else 'too deep'}")
+    return " · ".join(facts)
+
+
+def place_of(hit: Hit) -> str:
+    """Return the coordinates of a hit."""
+    return "   ".join(f"{axis} {number(value)}" for axis, value in zip("XYZ", hit.place, strict=True))
+
+
+class CutOverlay(QWidget):
+    """Painted over the cut; mouse and keys pass through it."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self._theme, self._camera = LIGHT, Camera()
+        self.probe: Probe | None = None
+
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme."""
+        self._theme = theme
+        self.update()
+
+    def show_camera(self, camera: Camera) -> None:
+        """Turn the axes."""
+        if camera.axes.tolist() != self._camera.axes.tolist():
+            self._camera = camera
+            self.update()
+
+    def show_probe(self, probe: Probe | None) -> None:
+        """Show what is known of a place, or nothing."""
+        if probe != self.probe:
+            self.probe = probe
+            self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Paint axes and probe."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        self._paint_axes(painter)
+        if self.probe is not None:
+            self._paint_cross(painter, self.probe.at)
+            self._paint_card(painter, self.probe)
+
+    def _paint_axes(self, painter: QPainter) -> None:
+        """Paint the three axes, the nearest to the eye last."""
+        theme, origin = self._theme, QPointF(_AXES_EDGE_PX, self.height() - _AXES_EDGE_PX)
+        right, up, towards = self._camera.axes
+        painter.setFont(text_font(12))
+        for axis in sorted(range(3), key=lambda k: towards[k]):
+            way = QPointF(right[axis], -up[axis])
+            colour = (theme.plunge, theme.pocket, theme.left)[axis]
+            painter.setPen(QPen(colour, 1.8, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+            painter.drawLine(origin, origin + way * _AXIS_PX)
+            if right[axis] ** 2 + up[axis] ** 2 > 0.02:
+                name = origin + way * (_AXIS_PX + _NAME_PX)
+                painter.drawText(QRectF(name.x() - 8, name.y() - 8, 16, 16), Qt.AlignmentFlag.AlignCenter, "XYZ"[axis])
+
+    def _paint_cross(self, painter: QPainter, at: QPointF) -> None:
+        for colour, width in ((self._theme.canvas, 4.0), (self._theme.accent, 1.6)):
+            painter.setPen(QPen(colour, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.FlatCap))
+            for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+                painter.drawLine(at + QPointF(dx, dy) * 3.0, at + QPointF(dx, dy) * _CROSS_PX)
+
+    def _paint_card(self, painter: QPainter, probe: Probe) -> None:
+        """Paint the words beside the place, on the side where there is room."""
+        metrics = QFontMetricsF(text_font(12))
+        wide = max(metrics.horizontalAdvance(text) for text in (probe.place, probe.facts)) + 2 * _PAD_PX
+        card = QRectF(probe.at.x() + _CARD_GAP_PX, probe.at.y() - _CARD_GAP_PX - 2 * _ROW_PX - _PAD_PX, wide, 2 * _ROW_PX + _PAD_PX)
+        if card.right() > self.width() - 8:
+            card.moveRight(probe.at.x() - _CARD_GAP_PX)
+        if card.top() < 8:
+            card.moveTop(probe.at.y() + _CARD_GAP_PX)
+        ground = QColor(self._theme.raised)
+        ground.setAlphaF(0.96)
+        painter.setPen(QPen(self._theme.hairline, 1))
+        painter.setBrush(ground)
+        painter.drawRoundedRect(card, 4, 4)
+        painter.setFont(text_font(12))
+        rows = card.adjusted(_PAD_PX, _PAD_PX / 2, 0, 0)
+        for k, (text, colour) in enumerate(((probe.place, self._theme.ink), (probe.facts, self._theme.muted))):
+            painter.setPen(colour)
+            painter.drawText(QRectF(rows.left(), rows.top() + k * _ROW_PX, wide, _ROW_PX), Qt.AlignmentFlag.AlignVCenter, text)

@@ -1,0 +1,55 @@
+"""The relief of a cut for the light: normals, and how much light reaches corners. No Qt."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Bytes = NDArray[np.uint8]
+
+GAIN, LIMIT = 2.5, 0.15
+"""Slopes well under LIMIT are lit as if they were GAIN times as steep."""
+
+_WIDE = 7
+"""Cells that are taken together to tell which way a wall faces."""
+
+_COARSE = 4
+_SPANS = (3, 7, 15)
+"""Widths, in squares of 4 x 4 cells, of the neighbourhoods that a corner is compared with."""
+
+_DARKEST = 0.45
+
+
+def relief(heights: NDArray[np.float32], pitch: float) -> Bytes:
+    """Return (rows, columns, 4) bytes: x and y of each cell's normal, the light that reaches it, 255.
+
+    Args:
+        heights: (rows, columns) mm.
+        pitch: mm.
+    """
+    import cv2
+
+    from app.ui.cut.relief_kernels import relief_map
+
+    out, heights = np.empty(heights.shape, "<u4"), np.ascontiguousarray(heights)
+    smooth = np.asarray(cv2.GaussianBlur(heights, (_WIDE, _WIDE), 0.0, borderType=cv2.BORDER_REPLICATE))
+    relief_map(heights, smooth, corner_light(heights, pitch), np.float32(pitch), np.float32(GAIN), np.float32(LIMIT), out)
+    return out.view(np.uint8).reshape(*heights.shape, 4)
+
+
+def corner_light(heights: NDArray[np.float32], pitch: float) -> Bytes:
+    """Return (rows, columns) how much light reaches each cell, 255 = all: less, the more the metal round it stands higher.
+
+    A plane, however it slopes, gets all of it.
+    """
+    import cv2
+
+    rows, columns = heights.shape
+    size = (-(-columns // _COARSE), -(-rows // _COARSE))
+    small = np.asarray(cv2.resize(heights, size, interpolation=cv2.INTER_AREA))
+    shade = np.zeros_like(small)
+    for span in _SPANS:
+        around = np.asarray(cv2.blur(small, (span, span), borderType=cv2.BORDER_REFLECT_101))
+        shade += np.clip((around - small) / np.float32(span * _COARSE * pitch), 0.0, 0.5)
+    light = np.round(255.0 * (1.0 - _DARKEST * np.minimum(shade * 1.5, 1.0))).astype(np.uint8)
+    return np.ascontiguousarray(cv2.resize(light, (columns, rows), interpolation=cv2.INTER_LINEAR))

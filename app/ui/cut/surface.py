@@ -1,0 +1,169 @@
+"""Where a cut reaches the screen: a widget with OpenGL of its own, or, where there is none, a picture painted without a screen."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from functools import cache
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QImage, QOpenGLContext, QPainter, QPaintEvent, QSurfaceFormat
+from PySide6.QtOpenGLWidgets import QOpenGLWidget
+from PySide6.QtWidgets import QWidget
+
+from app.errors import HitofudeError
+from app.ui.cut.scene import CutScene
+
+if TYPE_CHECKING:
+    import moderngl
+
+T = TypeVar("T")
+Paint = Callable[[CutScene], None]
+
+_NEEDED = (3, 3)
+_HOW = "Install a graphics driver, or the packages libegl1 and libgl1, and start again."
+
+
+def surface_format() -> QSurfaceFormat:
+    """Return what the widget asks of OpenGL; depth and samples are those of the picture that it shows."""
+    made = QSurfaceFormat()
+    made.setVersion(*_NEEDED)
+    made.setProfile(QSurfaceFormat.OpenGLContextProfile.CoreProfile)
+    return made
+
+
+@cache
+def widgets_have_opengl() -> bool:
+    """Return whether widgets can paint with OpenGL 3.3 here; Qt's offscreen platform cannot."""
+    context = QOpenGLContext()
+    context.setFormat(surface_format())
+    return context.create() and context.format().version() >= _NEEDED
+
+
+def standalone_context() -> moderngl.Context:
+    """Return an OpenGL context without a screen, which is not current.
+
+    Raises:
+        HitofudeError: there is no OpenGL 3.3.
+    """
+    import moderngl
+
+    try:
+        settings: dict[str, Any] = {"backend": "egl"} if sys.platform == "linux" else {}
+        context = moderngl.create_context(require=330, standalone=True, **settings)
+    except Exception as fault:  # moderngl raises plain Exception
+        raise HitofudeError(f"The cut cannot be shown: there is no OpenGL 3.3 here ({fault}). {_HOW}") from fault
+    with context:
+        return context
+
+
+class GlSurface(QOpenGLWidget):
+    """Shows a scene by the OpenGL of the screen.
+
+    Signals:
+        renewed(): the scene is a new one and knows nothing.
+    """
+
+    renewed = Signal()
+
+    def __init__(self, parent: QWidget, paint: Paint) -> None:
+        super().__init__(parent)
+        self.setFormat(surface_format())
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self._paint = paint
+        self._scene: CutScene | None = None
+
+    def initializeGL(self) -> None:  # noqa: N802 (Qt's name)
+        """Make the scene; Qt calls this again when the widget moves to another window."""
+        import moderngl
+
+        self._scene = CutScene(moderngl.create_context(require=330))
+        self.context().aboutToBeDestroyed.connect(self._leave)
+        self.renewed.emit()
+
+    def paintGL(self) -> None:  # noqa: N802 (Qt's name)
+        """Paint what is due and copy it to the screen."""
+        if self._scene is not None:
+            target = self._scene.ctx.detect_framebuffer(self.defaultFramebufferObject())
+            self._paint(self._scene)
+            self._scene.copy_to(target)
+            target.use()
+
+    def work(self, act: Callable[[CutScene], T]) -> T | None:
+        """Do something with the scene between two paintings; None before the first one."""
+        if self._scene is None:
+            return None
+        self.makeCurrent()
+        try:
+            return act(self._scene)
+        finally:
+            self.doneCurrent()
+
+    def _leave(self) -> None:
+        """Give everything back before the context goes."""
+        self.work(CutScene.release)
+        self._scene = None
+
+
+class ImageSurface(QWidget):
+    """Shows a scene as a picture that is painted without a screen.
+
+    Signals:
+        renewed(): the scene is a new one and knows nothing.
+    """
+
+    renewed = Signal()
+
+    def __init__(self, parent: QWidget, paint: Paint) -> None:
+        """Make the scene.
+
+        Raises:
+            HitofudeError: there is no OpenGL 3.3.
+        """
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self._paint, self._context = paint, standalone_context()
+        with self._context:
+            self._scene = CutScene(self._context)
+
+    def work(self, act: Callable[[CutScene], T]) -> T | None:
+        """Do something with the scene; its context is current meanwhile and not a moment longer, for others want theirs."""
+        with self._context:
+            return act(self._scene)
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Paint what is due and show it."""
+        self.work(self._paint)
+        picture = self.work(image_of)
+        if picture is not None:
+            picture.setDevicePixelRatio(self.devicePixelRatioF())
+            QPainter(self).drawImage(0, 0, picture)
+
+
+def image_of(scene: CutScene) -> QImage:
+    """Return what a scene has painted last."""
+    pixels = scene.pixels()
+    height, width, _ = pixels.shape
+    return QImage(pixels.tobytes(), width, height, 3 * width, QImage.Format.Format_RGB888).copy()
+
+
+def made_surface(parent: QWidget, paint: Paint) -> GlSurface | ImageSurface:
+    """Return the surface that this screen can have.
+
+    Args:
+        parent: of the widget.
+        paint: paints what is due; called with the context current.
+
+    Raises:
+        HitofudeError: there is no OpenGL 3.3.
+    """
+    return GlSurface(parent, paint) if widgets_have_opengl() else ImageSurface(parent, paint)
+
+
+def pixel_size(widget: QWidget) -> tuple[int, int]:
+    """Return width and height of a widget in the screen's own px, at least 1."""
+    size: QSize = widget.size()
+    ratio = widget.devicePixelRatioF()
+    return max(1, round(size.width() * ratio)), max(1, round(size.height() * ratio))
