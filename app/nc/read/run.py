@@ -89,8 +89,11 @@ class Run:
         try:
             self._skip_leader()
             warn_of_numbers(self._control, self._text.data)
-            while self._flow.next.offset < len(self._text.data) and self._step():
-                pass
+            while self._flow.next.offset < len(self._text.data):
+                if not self._step():
+                    break
+            else:
+                self._miss_end()
         except Fault as fault:
             self._problems.append(self._located(fault, Severity.ERROR))
         except RecursionError:
@@ -106,6 +109,12 @@ class Run:
             motions, control.states, tuple(control.events), tuple(control.homeward), (*warnings, *self._problems), tools, stock,
             self._text.line_count,
         )  # fmt: skip
+
+    def _miss_end(self) -> None:
+        """Tell that the text has no end, if the control wants one."""
+        if self._options.dialect is Dialect.LINUXCNC and self._control.row:
+            self._control.line = self._text.line_count
+            self._control.warn("the program has no end; LinuxCNC wants M2, M30 or % behind it.")
 
     def _skip_leader(self) -> None:
         """Begin behind the per cent sign of a program that has one; Fanuc's and Haas' readers skip what stands before it."""

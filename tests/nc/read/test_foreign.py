@@ -107,3 +107,8 @@ def test_which_control_a_program_is_for(text: str, dialect: Dialect) -> None:
 def test_linuxcnc_wants_a_feed_behind_every_feed_mode() -> None:
     assert "a feed motion needs a feed rate" in told("F100\nG94\nG1 X1\n")
     assert "LinuxCNC does not know G187" in told("G187 P1\n")
+
+
+def test_a_program_without_an_end_is_told() -> None:
+    assert any("no end" in text for text in warnings("G0 X1\nG0 X2\n"))
+    assert not warnings("%\nG0 X1\n%\n") + warnings("G0 X1\nM30\n") + warnings("G0 X1\n", Dialect.GRBL)
