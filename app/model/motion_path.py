@@ -126,9 +126,21 @@ def _tangents(arcs: ArcPaths, fraction: float) -> Floats:
     angle = arcs.angle + arcs.sweep * fraction
     radius = arcs.start_radius + (arcs.end_radius - arcs.start_radius) * fraction
     grow, turn = arcs.end_radius - arcs.start_radius, radius * arcs.sweep
-    own = np.column_stack([grow * np.cos(angle) - turn * np.sin(angle), grow * np.sin(angle) + turn * np.cos(angle), arcs.rise])
+    cos, sin = np.cos(angle), np.sin(angle)
+    return along_xyz(np.column_stack([grow * cos - turn * sin, grow * sin + turn * cos, arcs.rise]), arcs.axes)
+
+
+def along_xyz(own: Floats, axes: NDArray[np.intp]) -> Floats:
+    """Return what is told along each arc's own axes along X, Y and Z.
+
+    Args:
+        own: (m, 3) along the plane's first and second axis and its normal.
+        axes: (m, 3) columns that these are.
+    """
+    if np.all(axes[:, 2] == Plane.XY.axes[2]):  # as nearly always: nothing to put elsewhere
+        return own
     moved = np.empty_like(own)
-    moved[np.arange(len(own))[:, None], arcs.axes] = own
+    np.put_along_axis(moved, axes, own, axis=1)
     return moved
 
 

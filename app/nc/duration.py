@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from app.model.machine import Machine
 from app.model.motion import Floats, MotionKind, Motions
-from app.model.motion_path import ArcPaths, arc_paths, directions, lengths, spline_points
+from app.model.motion_path import ArcPaths, along_xyz, arc_paths, directions, lengths, spline_points
 from app.nc.read.program import EventKind, ModalState, NcProgram
 
 STILL = 1e-9
@@ -93,7 +93,7 @@ def duration(program: NcProgram, machine: Machine) -> Duration:
     if len(rows):
         speed, acceleration = _limits(motions, machine, length, arcs)
         own = np.column_stack([column[rows] for column in (length, speed, acceleration)])
-        ways = np.stack([vectors[rows] for vectors in directions(motions, arcs)], axis=1)
+        ways = np.stack([np.take(vectors, rows, axis=0) for vectors in directions(motions, arcs)], axis=1)
         entry, seconds, limits = np.empty(len(rows) + 1), np.empty(len(rows)), np.stack([_rapids(machine), _accelerations(machine)])
         corners(ways, own, _corners(program, machine, rows), limits, entry)
         curves(ways, own, limits, entry)
@@ -151,16 +151,15 @@ def _arc_shares(arcs: ArcPaths) -> Floats:
     whole = np.maximum(arcs.lengths(), STILL)
     rise = np.abs(arcs.rise) / whole
     flat = np.sqrt(np.maximum(1 - rise**2, 0))
-    shares = np.empty((len(arcs), 3))
-    np.put_along_axis(shares, arcs.axes, np.column_stack([flat, flat, rise]), axis=1)
-    return shares
+    return along_xyz(np.column_stack([flat, flat, rise]), arcs.axes)
 
 
 def _round_curves(motions: Motions, arcs: ArcPaths, accelerations: Floats, speed: Floats) -> None:
     """Bound the speed on arcs and splines by the acceleration towards their centre."""
     inward = np.minimum(*(accelerations[arcs.axes[:, column]] for column in (0, 1)))
     radius = np.maximum(np.minimum(arcs.start_radius, arcs.end_radius), STILL)
-    flat = np.cos(np.arctan2(np.abs(arcs.rise), np.abs(arcs.sweep) * radius))
+    across = np.maximum(np.abs(arcs.sweep) * radius, STILL)
+    flat = across / np.hypot(across, arcs.rise)
     speed[arcs.rows] = np.minimum(speed[arcs.rows], np.sqrt(inward * radius) / np.maximum(flat, STILL))
     for row, spline in motions.splines.items():
         steps = np.diff(spline_points(spline), axis=0)

@@ -90,6 +90,17 @@ def test_a_circle_split_in_arcs_is_one_circle() -> None:
     assert seconds(halves) == pytest.approx(seconds(whole), rel=1e-6)
 
 
+@pytest.mark.parametrize("plane", list(Plane))
+def test_a_line_that_touches_an_arc_runs_into_it_in_every_plane(plane: Plane) -> None:
+    def at(first: float, second: float) -> tuple[float, float, float]:
+        place = [0.0, 0.0, 0.0]
+        place[plane.axes[0]], place[plane.axes[1]] = first, second
+        return place[0], place[1], place[2]
+
+    touching = Course(feed=600).line(*at(20, 0)).arc(at(20, 40), at(20, 20), arc=(plane, 1))
+    assert seconds(touching, ModalState(path="G61")) == pytest.approx((20 + 20 * math.pi) / 10 + 10 / 100)
+
+
 def around(plane: Plane, radius: float, angles: list[float], feed: float) -> Course:
     """Chords from angle to angle round the origin of a plane."""
     first, second, _ = plane.axes
