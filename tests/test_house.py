@@ -138,7 +138,7 @@ def test_a_kernel_that_calls_a_changed_kernel_of_another_file_is_compiled_again(
 
 def test_warming_reports_and_stops_when_asked() -> None:
     seen: list[tuple[float, str]] = []
-    warm(Progress(lambda fraction, text: seen.append((fraction, text))))
+    assert warm(Progress(lambda fraction, text: seen.append((fraction, text)))) == ()
     assert seen[-1][0] == 1.0
     stop = threading.Event()
     stop.set()

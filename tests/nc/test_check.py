@@ -224,7 +224,7 @@ def nearly_same_motion(text: str, changed: str, written: Written) -> bool:
     return max(gap, inside) <= step and feed <= 0.1 * written.job.out_units.value
 
 
-ALPHABET = "0123456789.-XYZGMFSTIJ \n"
+ALPHABET = "0123456789.-XYZGMFSTIJNAHP/#( \n"
 CASES = {name: Written(load_post(name), **({"out_units": Units.INCH} if name == "haas" else {})) for name in post_names()}  # type: ignore[arg-type]
 
 
