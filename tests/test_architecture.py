@@ -21,6 +21,7 @@ KNOWS = {
     "bitmap": {"model", "geometry"},
     "toolpath": {"model", "geometry", "fit", "bitmap"},
     "nc": {"model", "geometry", "fit"},
+    "dexel": {"model"},
     "files": {"model", "geometry", "fit"},
     "edit": {"model", "geometry", "fit", "files"},
     "workflow": {"model", "geometry", "fit", "bitmap", "toolpath", "nc", "files"},

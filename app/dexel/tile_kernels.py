@@ -1,0 +1,248 @@
+"""Tiles and pieces: which piece touches which tile, and one tile cut by all of its pieces, in their order."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from app.dexel.reach_kernels import SHORT, reach
+from app.dexel.run_kernels import LANES
+from app.dexel.sweep_kernels import STRIDE, TILE, cut_straight, sweep_arc, trace_straight
+from app.jit import kernel
+
+NOTHING, CUTS, ASKS = range(3)
+"""What a piece does: nothing, it cuts, or it only tells where it would cut."""
+
+_PLACES, _BEFORE, _SHAPE = "Array(float64, 2, 'C', True)", "Array(float32, 2, 'C', True)", "UniTuple(float64, 7)"
+_TABLES = "uint8[::1], int32[::1], int32[::1], float64[:, ::1], float64[:, ::1]"
+_COURSE = "UniTuple(float64, 4)"
+
+
+@kernel(f"{_COURSE}(UniTuple(float64, 3))")
+def course_of(way):
+    """Return length, horizontal direction and rise of a way; the length is 0 where it goes straight up or down."""
+    x, y, z = way
+    size = math.sqrt(x * x + y * y)
+    if size <= SHORT:
+        return 0.0, 1.0, 0.0, 0.0
+    return size, x / size, y / size, z / size
+
+
+@kernel(f"void({_PLACES}, {_PLACES}, {_TABLES}, int64, int64, boolean, float64[:, ::1])")
+def survey(start, end, does, cutter, arc, shapes, arcs, first, last, reduced, spans):
+    """Write between which places along them straight pieces must be evaluated, and their boxes with the cutter.
+
+    Args:
+        start, end: of all n pieces.
+        does: NOTHING, CUTS or ASKS. cutter: row of the cutter. arc: row of the arc, -1: it is straight.
+        shapes: rows of cutters, as `reach_kernels` says.
+        arcs: rows of arcs: centre, radius, box.
+        first, last: the pieces to do are first … last - 1.
+        reduced: pieces that go on are evaluated without the discs at their ends.
+        spans: (n, 6) from and to along straight pieces, mm (to < from: upright), low x, low y, high x, high y.
+    """
+    for i in range(first, last):
+        c, a = cutter[i], arc[i]
+        radius = shapes[c, 0]
+        course = course_of((end[i, 0] - start[i, 0], end[i, 1] - start[i, 1], end[i, 2] - start[i, 2]))
+        size, ux, uy, _ = course
+        low, high = (0.0, -1.0) if size == 0.0 else (-radius, size + radius)
+        if a >= 0:
+            spans[i, 2], spans[i, 3], spans[i, 4], spans[i, 5] = (
+                arcs[a, 3] - radius, arcs[a, 4] - radius, arcs[a, 5] + radius, arcs[a, 6] + radius)  # fmt: skip
+            continue
+        if reduced and size > 0.0 and does[i] == CUTS:
+            joins, goes_on, onward = False, False, course
+            if (i > 0 and does[i - 1] == CUTS and cutter[i - 1] == c and arc[i - 1] < 0
+                    and end[i - 1, 0] == start[i, 0] and end[i - 1, 1] == start[i, 1] and end[i - 1, 2] == start[i, 2]):  # fmt: skip
+                joins = math.hypot(end[i - 1, 0] - start[i - 1, 0], end[i - 1, 1] - start[i - 1, 1]) > SHORT
+            if (i + 1 < len(cutter) and does[i + 1] == CUTS and cutter[i + 1] == c and arc[i + 1] < 0
+                    and end[i, 0] == start[i + 1, 0] and end[i, 1] == start[i + 1, 1] and end[i, 2] == start[i + 1, 2]):  # fmt: skip
+                onward = course_of((end[i + 1, 0] - start[i + 1, 0], end[i + 1, 1] - start[i + 1, 1], end[i + 1, 2] - start[i + 1, 2]))
+                goes_on = onward[0] > 0.0
+            shape = (shapes[c, 0], shapes[c, 1], shapes[c, 2], shapes[c, 3], shapes[c, 4], shapes[c, 5], shapes[c, 6])
+            low, high = reach(shape, course, onward, joins, goes_on)
+        spans[i, 0], spans[i, 1] = low, high
+        half = max(0.5 * (high - low), 0.0)
+        middle = 0.5 * (low + high) if size > 0.0 else 0.0
+        x, y = start[i, 0] + ux * middle, start[i, 1] + uy * middle
+        wide, tall = (abs(ux) * half + abs(uy) * radius, abs(uy) * half + abs(ux) * radius) if size > 0.0 else (radius, radius)
+        spans[i, 2], spans[i, 3], spans[i, 4], spans[i, 5] = x - wide, y - tall, x + wide, y + tall
+
+
+@kernel("UniTuple(int64, 4)(UniTuple(float64, 4), UniTuple(float64, 3), UniTuple(int64, 2))")
+def tiles_met(box, grid, extent):
+    """Return the first and the last row and column of tiles that a box meets; the last before the first: none."""
+    x0, y0, pitch = grid
+    rows, cols = extent
+    first_col, last_col = max((box[0] - x0) / pitch - 1.0, 0.0), min((box[2] - x0) / pitch, cols - 1.0)
+    first_row, last_row = max((box[1] - y0) / pitch - 1.0, 0.0), min((box[3] - y0) / pitch, rows - 1.0)
+    if first_col > last_col or first_row > last_row:
+        return 0, -1, 0, -1
+    return int(first_row) // TILE, int(last_row) // TILE, int(first_col) // TILE, int(last_col) // TILE
+
+
+@kernel("boolean(UniTuple(float64, 4), UniTuple(float64, 2), float64, float64, boolean)")
+def misses(way, centre, radius, half, curved):
+    """Return whether a piece surely stays off a tile that its box meets.
+
+    Args:
+        way: x and y of a straight piece's start and end; or of an arc's centre, and its radius twice.
+        centre: of the tile. radius: of the cutter. half: of the tile's side.
+    """
+    x, y = centre
+    near = radius + half * 1.4143
+    if curved:
+        return abs(math.sqrt((x - way[0]) * (x - way[0]) + (y - way[1]) * (y - way[1])) - way[2]) > near
+    dx, dy = way[2] - way[0], way[3] - way[1]
+    size = math.sqrt(dx * dx + dy * dy)
+    return size > SHORT and abs((x - way[0]) * dy - (y - way[1]) * dx) > near * size
+
+
+_SORTING = f"{_PLACES}, {_PLACES}, {_TABLES}, float64[:, ::1], UniTuple(float64, 3), UniTuple(int64, 2), int64, int64, float64"
+
+
+@kernel(f"void({_SORTING}, int64[::1], int64[::1])")
+def count(start, end, does, cutter, arc, shapes, arcs, spans, grid, extent, first, last, top, counts, votes):
+    """Count how many of the pieces first … last - 1 meet each tile, and how many cells their boxes are taller than wide.
+
+    Args:
+        start, end, does, cutter, arc, shapes, arcs, spans: as for `survey`.
+        grid: x and y of the lower left corner, pitch, mm.
+        extent: rows and columns of cells.
+        first, last: of the pieces.
+        top: no metal is higher.
+        counts, votes: by tile. Votes are whole numbers, so that their sum does not depend on the order.
+    """
+    pitch = grid[2]
+    half = 0.5 * TILE * pitch
+    across = (extent[1] + TILE - 1) // TILE
+    for i in range(first, last):
+        c, a = cutter[i], arc[i]
+        if does[i] == NOTHING or min(start[i, 2], end[i, 2]) + shapes[c, 5] >= top:
+            continue
+        box = (spans[i, 2], spans[i, 3], spans[i, 4], spans[i, 5])
+        r0, r1, c0, c1 = tiles_met(box, grid, extent)
+        way = (arcs[a, 0], arcs[a, 1], arcs[a, 2], arcs[a, 2]) if a >= 0 else (start[i, 0], start[i, 1], end[i, 0], end[i, 1])
+        vote = int((box[3] - box[1] - box[2] + box[0]) / pitch)
+        for row in range(r0, r1 + 1):
+            for col in range(c0, c1 + 1):
+                centre = (grid[0] + col * TILE * pitch + half, grid[1] + row * TILE * pitch + half)
+                if (r0 == r1 and c0 == c1) or not misses(way, centre, shapes[c, 0], half, a >= 0):
+                    counts[row * across + col] += 1
+                    votes[row * across + col] += vote
+
+
+@kernel(f"void({_SORTING}, int64[::1], int32[::1])")
+def fill(start, end, does, cutter, arc, shapes, arcs, spans, grid, extent, first, last, top, places, refs):
+    """Write the pieces into the lists of the tiles that they meet; `places` are the next free ones, by tile. See `count`."""
+    pitch = grid[2]
+    half = 0.5 * TILE * pitch
+    across = (extent[1] + TILE - 1) // TILE
+    for i in range(first, last):
+        c, a = cutter[i], arc[i]
+        if does[i] == NOTHING or min(start[i, 2], end[i, 2]) + shapes[c, 5] >= top:
+            continue
+        r0, r1, c0, c1 = tiles_met((spans[i, 2], spans[i, 3], spans[i, 4], spans[i, 5]), grid, extent)
+        way = (arcs[a, 0], arcs[a, 1], arcs[a, 2], arcs[a, 2]) if a >= 0 else (start[i, 0], start[i, 1], end[i, 0], end[i, 1])
+        for row in range(r0, r1 + 1):
+            for col in range(c0, c1 + 1):
+                centre = (grid[0] + col * TILE * pitch + half, grid[1] + row * TILE * pitch + half)
+                if (r0 == r1 and c0 == c1) or not misses(way, centre, shapes[c, 0], half, a >= 0):
+                    refs[places[row * across + col]] = i
+                    places[row * across + col] += 1
+
+
+@kernel(f"void({_BEFORE}, float32[::1], UniTuple(int64, 4), boolean)")
+def load(heights, lines, box, turned):
+    """Copy a tile of a grid into lines; what is beside it is far below."""
+    row, col, rows, cols = box
+    lines[:] = -math.inf
+    for r in range(rows):
+        for c in range(cols):
+            lines[c * STRIDE + r if turned else r * STRIDE + c] = heights[row + r, col + c]
+
+
+@kernel("void(float32[:, ::1], float32[::1], UniTuple(int64, 4), boolean, float32)")
+def store(heights, lines, box, turned, floor):
+    """Copy a tile's lines into a grid, nothing lower than the floor."""
+    row, col, rows, cols = box
+    for r in range(rows):
+        for c in range(cols):
+            z = lines[c * STRIDE + r if turned else r * STRIDE + c]
+            heights[row + r, col + c] = z if z > floor else floor
+
+
+@kernel("void(int32[:, ::1], int32[::1], UniTuple(int64, 4), boolean)")
+def store_owners(owners, lines, box, turned):
+    """Copy a tile's owners into a grid; cells without one keep what they have."""
+    row, col, rows, cols = box
+    for r in range(rows):
+        for c in range(cols):
+            owner = lines[c * STRIDE + r if turned else r * STRIDE + c]
+            owners[row + r, col + c] = owner if owner >= 0 else owners[row + r, col + c]
+
+
+@kernel(
+    f"void({_PLACES}, {_PLACES}, {_TABLES}, float64[:, ::1], int32[::1], int32[::1], UniTuple(float64, 5), boolean, "
+    "float32[::1], int32[::1], float64[:, ::1], UniTuple(float64, 2))"
+)
+def cut_lines(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, frame, turned, heights, owners, told, limits):
+    """Cut the lines of a tile by its pieces, in their order; what the arguments are `survey` and `cut_tile` say."""
+    scratch, notes = np.full(STRIDE + LANES, np.float32(math.inf)), np.zeros(6)
+    notes[4], notes[5] = limits
+    traced = len(owners) > 0
+    for k in range(len(refs)):
+        i = refs[k]
+        c, a = cutter[i], arc[i]
+        noted = traced or does[i] == ASKS
+        shape = (shapes[c, 0], shapes[c, 1], shapes[c, 2], shapes[c, 3], shapes[c, 4], shapes[c, 5], shapes[c, 6])
+        ends = (start[i, 0], start[i, 1], start[i, 2], end[i, 0], end[i, 1], end[i, 2])
+        if turned:
+            ends = (ends[1], ends[0], ends[2], ends[4], ends[3], ends[5])
+        owner = -1 if does[i] == ASKS else motions[i]
+        notes[0] = notes[1] = notes[2] = 0.0
+        if a >= 0:
+            circle = (arcs[a, 1], arcs[a, 0], arcs[a, 2], -1.0) if turned else (arcs[a, 0], arcs[a, 1], arcs[a, 2], 1.0)
+            sweep_arc(heights, owners, scratch, notes, frame, shape, ends, circle, owner, noted)
+        elif noted:
+            trace_straight(heights, owners, scratch, notes, frame, shape, ends, (spans[i, 0], spans[i, 1]), owner)
+        else:
+            cut_straight(heights, frame, shape, ends, (spans[i, 0], spans[i, 1]))
+        if noted and len(told) > 0:
+            told[k, 0], told[k, 1], told[k, 2], told[k, 3] = notes[0], notes[1], notes[2], notes[3]
+
+
+@kernel(
+    f"void({_PLACES}, {_PLACES}, {_TABLES}, float64[:, ::1], int32[::1], int32[::1], UniTuple(float64, 3), UniTuple(int64, 4), boolean, "
+    f"{_BEFORE}, float32[:, ::1], int32[:, ::1], float64[:, ::1], UniTuple(float64, 2))"
+)
+def cut_tile(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, grid, box, turned, before, after, owners, told, limits):
+    """Cut one tile by its pieces, in their order.
+
+    Args:
+        start, end, does, cutter, arc, shapes, arcs, spans: as for `survey`.
+        motions: the motion that each piece belongs to. refs: the pieces that meet the tile.
+        grid: as for `count`.
+        box: first row and column of the tile, its rows and columns.
+        turned: whether its lines run along Y.
+        before, after: heights of the whole grid. owners: motion that cut each cell last; no rows: not wanted.
+        told: a row for each ref, or nothing: volume in mm of height, engaged cells, greatest depth, and its cell
+            as row * columns + column.
+        limits: floor, and the depth from which a piece that only asks is told of, mm.
+    """
+    x0, y0, pitch = grid
+    row, col, rows, cols = box
+    x, y = x0 + (col + 0.5) * pitch, y0 + (row + 0.5) * pitch
+    frame = (y, x, pitch, float(rows), float(cols)) if turned else (x, y, pitch, float(cols), float(rows))
+    heights = np.empty(TILE * STRIDE, np.float32)
+    mine = np.full(TILE * STRIDE if len(owners) > 0 else 0, np.int32(-1))
+    load(before, heights, box, turned)
+    cut_lines(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, frame, turned, heights, mine, told, limits)
+    store(after, heights, box, turned, np.float32(limits[0]))
+    if len(owners) > 0:
+        store_owners(owners, mine, box, turned)
+    for k in range(len(told)):
+        slow, fast = int(told[k, 3]) // STRIDE, int(told[k, 3]) % STRIDE
+        told[k, 3] = (row + fast) * before.shape[1] + col + slow if turned else (row + slow) * before.shape[1] + col + fast
