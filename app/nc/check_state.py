@@ -16,7 +16,7 @@ from app.nc.post import Coolant, Post
 from app.nc.read.program import FeedMode, ModalState, NcProgram, Problem
 from app.nc.write import blend_mm
 
-WORK_OFFSET = re.compile(r"G5[4-9](?:\.\d)?")
+WORK_OFFSET = re.compile(r"G54\.1 P\d+|G5[4-9](?:\.\d)?")
 STOP = re.compile(r"\bM0?[01]\b")
 BLEND = re.compile("G64.*{blend}")
 HOME_HEIGHT = re.compile(r"G53\b.*Z(-?[0-9.]+)")

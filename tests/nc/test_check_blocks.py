@@ -101,6 +101,13 @@ def test_blocks_of_ones_own_are_taken_as_they_are_spelled() -> None:
     assert problems(file.nc.text.replace("P2000", "P2000."), written)
 
 
+def test_a_work_offset_beyond_the_ninth_is_taken() -> None:
+    written = of("haas", start=("G17 {units} G90 G94 G40 G49 G80", "G54.1 P3", "{blending}"))
+    (file,) = written.files
+    assert written.check(file).problems == ()
+    assert "the work offset is G54.1 P4" in texts(file.nc.text.replace("G54.1 P3", "G54.1 P4"), written)
+
+
 def test_line_numbers_are_no_blocks() -> None:
     post = load_post("haas")
     written = Written(replace(post, numbers=replace(post.numbers, use=True)))
