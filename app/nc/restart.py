@@ -12,6 +12,7 @@ from itertools import islice
 import numpy as np
 
 from app.errors import InputError
+from app.nc.extent import extent
 from app.nc.lead_in import HOMEWARD, Approach, lead_in
 from app.nc.read.control import Control
 from app.nc.read.options import ReadOptions
@@ -152,8 +153,8 @@ def _subroutines(text: Text, line: int) -> list[str]:
 def _approach(whole: NcProgram, standing: Standing, options: RestartOptions) -> Approach:
     """Return how high to travel and how to go down, program coordinates, mm."""
     control, motions = standing.control, whole.motions
-    highest = motions.end[motions.known_from[2] :, 2].max(initial=-np.inf)
-    clearance = options.clearance if options.clearance is not None else float(highest) - control.modal.shift[2]
+    highest = extent(whole).high[2]  # not the machine's home: where that is, the program does not know
+    clearance = options.clearance if options.clearance is not None else highest - control.modal.shift[2]
     ways = motions.end - motions.start
     fed = np.isfinite(motions.feed) & (motions.feed > 0)
     down = fed & (ways[:, 2] < 0) & np.all(np.abs(ways[:, :2]) < SAME, axis=1)
@@ -164,7 +165,7 @@ def _approach(whole: NcProgram, standing: Standing, options: RestartOptions) -> 
         name = "XYZ"[standing.axes.index(Axis.FREE)]
         raise InputError(f"Where {name} is at this line the program does not say, and the tool would have to go down there; "
                          f"start behind the first block that says {name}.")
-    clearance = max(clearance, height) if standing.axes[2] is Axis.WORK else clearance
+    clearance = float(np.fmax(clearance, height)) if standing.axes[2] is Axis.WORK else clearance
     if control.options.dialect in HOMEWARD and control.modal.length_offset and not np.isfinite(clearance):
         raise InputError("The program says no height to which the tool could go with its length; say a clearance.")
     return Approach(clearance, options.approach, feed, options.spin_up)

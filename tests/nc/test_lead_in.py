@@ -101,6 +101,14 @@ def test_home_is_gone_to_also_where_the_program_has_not_moved_yet(dialect):
     assert lines.index(HOMES[dialect].decode().split("\n")[0]) < lines.index("T1 M6") < lines.index("S900 M3")
 
 
+@pytest.mark.parametrize("dialect", list(HOMES))
+def test_clearance_is_no_machine_home_however_the_work_offset_lies(dialect):
+    data, options = part_for(dialect)
+    data = data.replace(b"G54\n", b"G54\nG10 L2 P1 X-100. Y-50. Z-300.\n")
+    line = data.split(b"\n").index(b"Y22.") + 1
+    assert "G0 G43 H1 Z5." in lead_in_lines(data, line, options)
+
+
 def test_the_first_motion_of_a_lead_in_is_along_z_alone():
     for dialect in (Dialect.FANUC, Dialect.HAAS, Dialect.LINUXCNC, Dialect.MACH3):
         data = part_for(Dialect.HAAS)[0] if dialect is Dialect.HAAS else part_for(Dialect.FANUC)[0]
