@@ -46,7 +46,7 @@ class Hit:
 def pick(picture: CutPicture, ray: Ray, section: Section | None = None) -> Hit | None:
     """Return the first cell that a line of sight meets; None where it passes by.
 
-    Every cell is a column with a flat top, as the engine means it. The ray's pieces between the lines of the grid are
+    Every cell is a column with a flat top, as the engine means it; one that was cut through to the floor is none. The ray's pieces between the lines of the grid are
     looked at all at once: a piece belongs to one cell, and meets it where its lower end is not above the cell's height.
 
     Args:
@@ -63,6 +63,7 @@ def pick(picture: CutPicture, ray: Ray, section: Section | None = None) -> Hit |
         np.clip(np.floor((middles[:, axis] - corner) / picture.pitch).astype(np.int64), 0, count - 1)
         for axis, corner, count in ((0, picture.x0, picture.columns), (1, picture.y0, picture.rows)))
     heights = picture.heights[rows, columns].astype(float)
+    heights[heights <= picture.floor] = -np.inf
     z = ray.origin[2] + cuts * ray.direction[2]
     met = np.flatnonzero(np.minimum(z[:-1], z[1:]) <= heights)
     if not len(met):

@@ -10,6 +10,9 @@ Bytes = NDArray[np.uint8]
 GAIN, LIMIT = 2.5, 0.15
 """Slopes well under LIMIT are lit as if they were GAIN times as steep."""
 
+WALL = 2.0
+"""From this slope on cells count as a wall: there the steps of the grid, not the metal, would tell the slope's direction."""
+
 _WIDE = 7
 """Cells that are taken together to tell which way a wall faces."""
 
@@ -33,7 +36,9 @@ def relief(heights: NDArray[np.float32], pitch: float) -> Bytes:
 
     out, heights = np.empty(heights.shape, "<u4"), np.ascontiguousarray(heights)
     smooth = np.asarray(cv2.GaussianBlur(heights, (_WIDE, _WIDE), 0.0, borderType=cv2.BORDER_REPLICATE))
-    relief_map(heights, smooth, corner_light(heights, pitch), np.float32(pitch), np.float32(GAIN), np.float32(LIMIT), out)
+    spread = np.asarray(cv2.morphologyEx(heights, cv2.MORPH_GRADIENT, np.ones((3, 3), np.uint8)))
+    steep = (spread > np.float32(2 * WALL * pitch)).view(np.uint8)
+    relief_map(heights, smooth, steep, corner_light(heights, pitch), np.float32(pitch), np.float32(GAIN), np.float32(LIMIT), out)
     return out.view(np.uint8).reshape(*heights.shape, 4)
 
 
@@ -47,9 +52,11 @@ def corner_light(heights: NDArray[np.float32], pitch: float) -> Bytes:
     rows, columns = heights.shape
     size = (-(-columns // _COARSE), -(-rows // _COARSE))
     small = np.asarray(cv2.resize(heights, size, interpolation=cv2.INTER_AREA))
+    margin = min(max(_SPANS) // 2, min(small.shape) - 1)
+    wide = np.pad(small, margin, mode="reflect", reflect_type="odd")  # a slope goes on beyond the stock
     shade = np.zeros_like(small)
     for span in _SPANS:
-        around = np.asarray(cv2.blur(small, (span, span), borderType=cv2.BORDER_REFLECT_101))
+        around = np.asarray(cv2.blur(wide, (span, span)))[margin:margin + small.shape[0], margin:margin + small.shape[1]]
         shade += np.clip((around - small) / np.float32(span * _COARSE * pitch), 0.0, 0.5)
     light = np.round(255.0 * (1.0 - _DARKEST * np.minimum(shade * 1.5, 1.0))).astype(np.uint8)
     return np.ascontiguousarray(cv2.resize(light, (columns, rows), interpolation=cv2.INTER_LINEAR))

@@ -8,25 +8,21 @@ import numpy as np
 
 from app.jit import kernel
 
-WALL = np.float32(4.0)
-"""Square of the slope from which on cells count as a wall: there the steps of the grid, not the metal, make the slope's direction."""
-
 ONE, HALF, MIDDLE, SPREAD = np.float32(1.0), np.float32(0.5), np.float32(128.5), np.float32(127.0)
 
 
-@kernel("void(float32[:, ::1], float32[:, ::1], uint8[::1], float32, float32, uint32[::1])")
-def _relief_row(slopes, smooth, light, gain, limit, out):
-    """Write one row; slopes are (right - left) and (up - down), and of walls those of the smoothed heights."""
+@kernel("void(float32[:, ::1], float32[:, ::1], uint8[::1], uint8[::1], float32, float32, uint32[::1])")
+def _relief_row(slopes, smooth, steep, light, gain, limit, out):
+    """Write one row; slopes are (right - left) and (up - down), at walls those of the smoothed heights."""
     left, right, down, up = slopes[0], slopes[1], slopes[2], slopes[3]
     left_s, right_s, down_s, up_s = smooth[0], smooth[1], smooth[2], smooth[3]
     for j in range(len(out)):
         gx, gy = right[j] - left[j], up[j] - down[j]
-        wall = gx * gx + gy * gy > WALL
-        gx = right_s[j] - left_s[j] if wall else gx
-        gy = up_s[j] - down_s[j] if wall else gy
-        steep = gx * gx + gy * gy
-        k = ONE + (gain - ONE) / (ONE + steep / (limit * limit))
-        k = k / sqrt(ONE + k * k * steep)
+        gx = right_s[j] - left_s[j] if steep[j] else gx
+        gy = up_s[j] - down_s[j] if steep[j] else gy
+        square = gx * gx + gy * gy
+        k = ONE + (gain - ONE) / (ONE + square / (limit * limit))
+        k = k / sqrt(ONE + k * k * square)
         x, y = k * gx, k * gy
         rx, ry = SPREAD * sqrt(abs(x)), SPREAD * sqrt(abs(y))
         a = np.uint32(np.int32(MIDDLE - rx if x > 0 else MIDDLE + rx))
@@ -49,15 +45,15 @@ def _slopes(heights, i, pitch, out):
     out[2], out[3] = heights[below] * rise, heights[above] * rise
 
 
-@kernel("void(float32[:, ::1], float32[:, ::1], uint8[:, ::1], float32, float32, float32, uint32[:, ::1])")
-def relief_map(heights, smooth, light, pitch, gain, limit, out):
+@kernel("void(float32[:, ::1], float32[:, ::1], uint8[:, ::1], uint8[:, ::1], float32, float32, float32, uint32[:, ::1])")
+def relief_map(heights, smooth, steep, light, pitch, gain, limit, out):
     """Write the relief of heights.
 
     A slope g is made 1 + (gain - 1) / (1 + g^2 / limit^2) times as steep, so that cusps show and walls stay as they are.
     The normal's x and y are written as 128 + 127 sign sqrt: fine where the metal is nearly flat.
 
     Args:
-        heights, smooth: (n, m) mm, as they are and smoothed. light: (n, m) share of the light that reaches a cell, 255 = all.
+        heights, smooth: (n, m) mm, as they are and smoothed. steep: (n, m) 1 = at a wall, where smooth tells the slope. light: (n, m) share of the light that reaches a cell, 255 = all.
         pitch: mm. gain, limit: see above. out: (n, m) x, y, light, 255, from the lowest byte up.
     """
     n, m = heights.shape
@@ -65,4 +61,4 @@ def relief_map(heights, smooth, light, pitch, gain, limit, out):
     for i in range(n):
         _slopes(heights, i, pitch, raw)
         _slopes(smooth, i, pitch, soft)
-        _relief_row(raw, soft, light[i], gain, limit, out[i])
+        _relief_row(raw, soft, steep[i], light[i], gain, limit, out[i])

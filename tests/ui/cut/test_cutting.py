@@ -1,0 +1,38 @@
+"""The window cuts what it has computed, without being asked, and shows what is left."""
+
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from app.ui.computation import State
+from app.ui.start import build
+from app.ui.views import View
+from app.ui.wiring import Wiring
+
+
+def window(qtbot: QtBot) -> Wiring:
+    shown, wiring = build()
+    qtbot.addWidget(shown)
+    shown.show()
+    wiring.files.open_sample()
+    qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=60_000)
+    return wiring
+
+
+def test_the_sample_is_cut_and_forgotten_with_its_drawing(qtbot: QtBot) -> None:
+    wiring = window(qtbot)
+    view = wiring.window_.views.cut
+    qtbot.waitUntil(lambda: view.picture is not None, timeout=60_000)
+    picture = view.picture
+    assert picture is not None and picture.moves is not None and picture.move is not None and picture.paths is not None
+    assert picture.heights.shape == (1024, 1024)
+    assert (float(picture.heights.min()), picture.top, picture.floor) == (-2.0, 0.0, -10.0)
+    made = wiring.computation.made
+    assert made is not None
+    lines = set(picture.moves.line[picture.move[picture.move >= 0]].tolist())
+    assert lines <= set(made.nc.lines.tolist())
+    wiring.showing.show_view(View.CUT)
+    QApplication.processEvents()
+    assert not wiring.window_.views.empty.isVisible()
+    wiring.files.new()
+    qtbot.waitUntil(lambda: view.picture is None, timeout=10_000)
+    assert wiring.window_.views.empty.isVisible() or wiring.showing.view is not View.CUT

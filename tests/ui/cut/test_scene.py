@@ -1,0 +1,222 @@
+"""What the renderer paints, against what a few lines of numpy say that it should."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.ui.cut.camera import Camera, StandardView
+from app.ui.cut.colouring import CutColour
+from app.ui.cut.picking import Section
+from app.ui.cut.picture import CutMoves, CutPaths
+from app.ui.cut.scene import CutScene, Frame, section_ends
+from app.ui.nc.motion_shapes import Look
+from tests.ui.cut import pictures
+from tests.ui.cut.pictures import AMBIENT, CANVAS, DIRECT, LIGHT, LOOK, METAL, SIZE, STOCK, brightness, flat_picture, painted, places_of_pixels, seen
+
+N = 64
+GROUND = np.round(np.array(CANVAS) * 255).astype(np.uint8)
+
+
+@pytest.fixture(scope="module")
+def context():
+    made = pictures.without_a_screen()
+    yield made
+    made.release()
+
+
+def cells(n=N):
+    """X and Y of the cells' centres on a square of 10 mm."""
+    at = (np.arange(n) + 0.5) * 10.0 / n
+    return np.meshgrid(at, at)
+
+
+def from_above(context, heights, tmp_path, name, slopes, colour=METAL):
+    """Compare a picture from above with the brightness that the formula gives for slopes (x, y functions)."""
+    picture = flat_picture(heights)
+    camera = seen(picture, StandardView.TOP)
+    x, y = places_of_pixels(camera, 0.0)
+    lit = brightness(camera, *slopes(x, y))[..., None] * np.array(colour)
+    inside = ((x >= 0) & (x <= 10) & (y >= 0) & (y <= 10))[..., None]
+    expected = np.where(inside, np.clip(lit, 0, 255), GROUND).round().astype(np.uint8)
+    got = painted(context, picture, camera)
+    pictures.assert_alike(got, expected, name, tmp_path, share=0.03, most=5)
+
+
+def test_a_plane_is_as_bright_as_its_normal_says_and_fills_its_square(context, tmp_path):
+    from_above(context, np.full((N, N), -1.0), tmp_path, "plane", lambda x, y: (0 * x, 0 * y))
+
+
+def test_stock_that_nobody_cut_has_its_own_colour(context, tmp_path):
+    from_above(context, np.zeros((N, N)), tmp_path, "stock", lambda x, y: (0 * x, 0 * y), STOCK)
+
+
+@pytest.mark.parametrize("slope", [(0.3, 0.0), (0.0, -0.5), (0.05, 0.02)])
+def test_a_slope_is_lit_by_the_side_that_it_faces(context, tmp_path, slope):
+    x, y = cells()
+    heights = -5.0 + slope[0] * (x - 5) + slope[1] * (y - 5)
+    from_above(context, heights, tmp_path, "slope", lambda x, y: (slope[0] + 0 * x, slope[1] + 0 * y))
+
+
+def test_a_sphere_is_shaded_pixel_by_pixel(context, tmp_path):
+    x, y = cells(256)
+    radius = 9.0
+    heights = -1.0 - radius + np.sqrt(radius**2 - (x - 5) ** 2 - (y - 5) ** 2)
+
+    def slopes(x, y):
+        z = np.sqrt(np.maximum(radius**2 - (x - 5) ** 2 - (y - 5) ** 2, 1.0))
+        return -(x - 5) / z, -(y - 5) / z
+
+    from_above(context, heights, tmp_path, "sphere", slopes)
+
+
+def test_coarse_triangles_take_their_normals_from_every_cell(context):
+    x, _ = cells(256)
+    picture = flat_picture(-2.0 + 0.02 * np.sin(x * 12))
+    camera = seen(picture, StandardView.TOP)
+    fine, coarse = (painted(context, picture, camera, budget=budget).astype(int) for budget in (0, 16 * 16))
+    assert np.abs(fine - coarse).max(axis=2).mean() < 1.0
+    assert fine[SIZE[1] // 2, 60:260, 0].std() > 10
+
+
+def test_a_step_shows_a_wall_as_high_as_it_is(context):
+    heights = np.zeros((N, N))
+    heights[:, N // 2:] = -6.0
+    picture = flat_picture(heights)
+    camera = seen(picture, StandardView.RIGHT)
+    image = painted(context, picture, camera)
+    ground = np.all(image == GROUND, axis=2)
+    column = SIZE[0] // 2
+    filled = np.flatnonzero(~ground[:, column])
+    assert len(filled) == pytest.approx(10.0 * camera.scale, abs=1.5)
+    wall = image[filled[0]:filled[0] + int(6.0 * camera.scale) - 3, column]
+    front = image[filled[-1] - 10, column]
+    lit = AMBIENT + DIRECT * max(float((LIGHT @ camera.axes)[0]), 0.0)
+    assert np.all(wall[6:, 0] > 0.5 * lit * METAL[0])
+    assert np.all(wall[6:20, 0] <= lit * METAL[0] + 6)
+    assert front[0] == pytest.approx(lit * STOCK[0], abs=3)
+
+
+def test_the_silhouette_from_the_front_is_the_highest_of_each_column(context):
+    x, y = cells()
+    heights = -8.0 + 6.0 * np.exp(-((x - 3) ** 2 + (y - 6) ** 2) / 4)
+    picture = flat_picture(heights)
+    camera = seen(picture, StandardView.FRONT)
+    metal = ~np.all(painted(context, picture, camera) == GROUND, axis=2)
+    for column in range(N // 8, N, N // 8):
+        place = np.array([[(column + 0.5) * 10 / N, 0.0, heights[:, column].max()]])
+        px, py, _ = camera.project(place, SIZE)[0]
+        rows = np.flatnonzero(metal[:, round(px - 0.5)])
+        assert rows[0] == pytest.approx(py, abs=1.6)
+
+
+def test_a_hole_is_seen_through_from_both_sides(context):
+    heights = np.zeros((N, N))
+    heights[20:44, 20:44] = -10.0
+    picture = flat_picture(heights)
+    middle = (SIZE[1] // 2, SIZE[0] // 2)
+    for pitch in (math.pi / 2, -math.pi / 2):
+        camera = replace(seen(picture, StandardView.TOP), pitch=pitch)
+        image = painted(context, picture, camera)
+        assert np.array_equal(image[middle], GROUND)
+        assert not np.array_equal(image[middle[0] - 80, middle[1]], GROUND)
+
+
+def test_colours_of_a_palette_reach_the_screen_cell_by_cell(context):
+    move = np.repeat(np.arange(4) - 1, N // 4)[None] * np.ones((N, 1), int)
+    moves = CutMoves(np.arange(3, dtype=np.int32), np.array([7, 3, 9], np.int32), np.zeros(3, np.int32))
+    picture = flat_picture(np.full((N, N), -1.0), move=move.astype(np.int32), moves=moves)
+    camera = seen(picture, StandardView.TOP)
+    image = painted(context, picture, camera, CutColour.TOOL)
+    light = float(brightness(camera, np.zeros(1), np.zeros(1))[0])
+    for quarter, colour in enumerate((STOCK, (0, 255, 0), (255, 0, 0), (0, 0, 255))):
+        px, py, _ = camera.project(np.array([[1.25 + 2.5 * quarter, 5.0, -1.0]]), SIZE)[0]
+        assert np.allclose(image[round(py), round(px)], np.array(colour) * light, atol=3)
+
+
+def test_a_section_takes_away_what_lies_beyond_it_and_shows_a_hatched_face(context):
+    picture = flat_picture(np.full((N, N), -2.0))
+    camera = seen(picture, StandardView.FRONT)
+    whole, open_ = (painted(context, picture, camera, section=section) for section in (None, Section((0.0, -1.0), -5.0)))
+    silhouette = [~np.all(image == GROUND, axis=2) for image in (whole, open_)]
+    assert np.array_equal(*silhouette)
+    assert len(np.unique(whole[silhouette[0]], axis=0)) < 6
+    face = open_[silhouette[1]].astype(int)
+    share = np.mean((face[:, 0] - face[:, 1]) > 20)
+    assert 0.08 < share < 0.25
+    side = painted(context, picture, seen(picture, StandardView.RIGHT), section=Section((0.0, -1.0), -5.0))
+    widths = [np.any(~np.all(image == GROUND, axis=2), axis=0).sum() for image in (painted(context, picture, seen(picture, StandardView.RIGHT)), side)]
+    assert widths[1] == pytest.approx(widths[0] / 2, abs=1.5)
+
+
+@pytest.mark.parametrize(("look", "period", "drawn"), [(Look.CONTOUR, 9.0, 5.5), (Look.RAPID, 5.0, 2.0), (Look.CUT, 0.0, 0.0)])
+def test_contours_are_dashed_rapids_dotted_and_pockets_solid(context, look, period, drawn):
+    paths = CutPaths(np.array([[0.5, 5.0, 1.0]]), np.array([[9.5, 5.0, 1.0]]), np.array([look], np.uint8))
+    picture = flat_picture(np.full((N, N), -1.0), paths=paths)
+    camera = seen(picture, StandardView.TOP)
+    image = painted(context, picture, camera).astype(int)
+    bare = painted(context, picture, camera, shown=frozenset()).astype(int)
+    line = np.abs(image - bare).sum(axis=2).max(axis=0) > 60
+    first, last = np.flatnonzero(line)[[0, -1]]
+    assert last - first == pytest.approx(9.0 * camera.scale, abs=period + 2)
+    starts = np.flatnonzero(np.diff(line[first:last].astype(int)) == 1)
+    if period:
+        assert np.diff(starts).mean() == pytest.approx(period, abs=0.3)
+        assert line[first:last].mean() == pytest.approx(drawn / period, abs=0.16)
+    else:
+        assert not len(starts)
+
+
+def test_paths_under_metal_are_hidden_and_those_on_it_are_not(context):
+    def visible(z):
+        paths = CutPaths(np.array([[1.0, 5.0, z]]), np.array([[9.0, 5.0, z]]), np.array([Look.CUT], np.uint8))
+        picture = flat_picture(np.full((N, N), -1.0), paths=paths)
+        camera = seen(picture, StandardView.TOP)
+        return bool(np.any(painted(context, picture, camera) != painted(context, picture, camera, shown=frozenset())))
+
+    assert visible(-1.0)
+    assert not visible(-4.0)
+
+
+def test_painting_piece_by_piece_gives_the_same_and_shows_nothing_half_done(context):
+    x, _ = cells(512)
+    picture = flat_picture(-1.0 + 0.5 * np.sin(x))
+    camera = Camera().fitted(picture.low, picture.high, (800, 600))
+    whole = Frame(camera, (800, 600), LOOK)
+    with context:
+        scene = CutScene(context)
+        scene.show_picture(picture)
+        scene.draw(Frame(camera, (800, 600), LOOK, budget=256))
+        coarse = scene.pixels().copy()
+        steps = scene.draw_in_steps(whole)
+        next(steps)
+        assert np.array_equal(scene.pixels(), coarse)
+        assert sum(1 for _ in steps) > 2
+        in_pieces = scene.pixels().copy()
+        scene.draw(whole)
+        assert np.array_equal(scene.pixels(), in_pieces)
+        scene.release()
+    assert np.any(in_pieces != coarse)
+
+
+def test_only_cells_in_sight_are_painted_and_none_of_them_is_missing(context):
+    x, y = cells(256)
+    picture = flat_picture(-3.0 + np.sin(x * 3) * np.cos(y * 2))
+    camera = Camera(pitch=0.9).fitted(picture.low, picture.high, SIZE).zoomed(6.0, (100.0, 120.0), SIZE)
+    with context:
+        scene = CutScene(context)
+        scene.show_picture(picture)
+        first, last = scene._seen_cells(Frame(camera, SIZE, LOOK), picture)
+        scene.release()
+    assert (last[0] - first[0]) * (last[1] - first[1]) < 0.6 * 256**2
+    image = painted(context, picture, camera)
+    assert not np.any(np.all(image == GROUND, axis=2))
+
+
+def test_where_a_section_enters_and_leaves_the_stock():
+    low, high = np.array([0.0, 0.0, -1.0]), np.array([10.0, 4.0, 0.0])
+    assert section_ends(Section((0.0, -1.0), -1.0), low, high) == ((0.0, 1.0), (10.0, 1.0))
+    assert section_ends(Section((1.0, 0.0), 12.0), low, high) is None
+    ends = section_ends(Section((math.sqrt(0.5), math.sqrt(0.5)), math.sqrt(0.5) * 4), low, high)
+    assert np.allclose(sorted(ends), [(0.0, 4.0), (4.0, 0.0)])
