@@ -24,7 +24,7 @@ KNOWS = {
     "dexel": {"model"},
     "files": {"model", "geometry", "fit"},
     "edit": {"model", "geometry", "fit", "files"},
-    "workflow": {"model", "geometry", "fit", "bitmap", "toolpath", "nc", "files"},
+    "workflow": {"model", "geometry", "fit", "bitmap", "toolpath", "dexel", "nc", "files"},
     "ui": {"model", "geometry", "fit", "bitmap", "toolpath", "nc", "files", "edit", "workflow", "kernels", "cli"},
     "kernels": set(),
     "cli": {"model", "geometry", "fit", "bitmap", "toolpath", "nc", "files", "edit", "workflow"},

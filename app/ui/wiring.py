@@ -13,6 +13,7 @@ from app.errors import HitofudeError
 from app.model.operation import ContourOperation, PocketOperation
 from app.settings import ThemeChoice
 from app.ui.canvas.modes import CanvasTool
+from app.ui.cut.cutting import Cutting
 from app.ui.figures import counted
 from app.ui.files import Files
 from app.ui.help import show_about, show_keys
@@ -48,6 +49,10 @@ class Wiring(QObject):
         self.log = Log(window.document, window.command_line.log)
         self.showing = Showing(window)
         self.nc = NcControl(window, self.log)
+        self.cutting = Cutting(window)
+        self.cutting.shown.connect(self.showing.show_missing)
+        self.cutting.failed.connect(self._say_error)
+        window.views.cut.cell_picked.connect(lambda x, y, z, motion: self._go_to_motion(motion))
         self.files = Files(window, self.showing, self.log, self.nc.open)
         self.tools = ToolExchange(window, self.log)
         self._connect_files()
@@ -159,6 +164,13 @@ class Wiring(QObject):
         self.computation.start()
         if self.showing.view is View.DRAW:
             self.showing.show_view(View.PATHS)
+
+    def _go_to_motion(self, motion: int) -> None:
+        """Show the line of the motion that cut the metal; of a program in one file, the others are not shown at once."""
+        made = self.computation.made
+        if motion >= 0 and made is not None and len(made.files) == 1 and not self.nc.foreign:
+            self.showing.show_view(View.NC)
+            self.window_.views.nc.pick_motion(motion)
 
     def cancel(self) -> None:
         """Leave the running job."""

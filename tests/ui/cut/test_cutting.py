@@ -1,5 +1,6 @@
 """The window cuts what it has computed, without being asked, and shows what is left."""
 
+import numpy as np
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -33,6 +34,11 @@ def test_the_sample_is_cut_and_forgotten_with_its_drawing(qtbot: QtBot) -> None:
     wiring.showing.show_view(View.CUT)
     QApplication.processEvents()
     assert not wiring.window_.views.empty.isVisible()
+    row, column = (int(k) for k in np.argwhere(picture.move >= 0)[5000])
+    motion = picture.move_at(row, column)
+    view.cell_picked.emit(0.0, 0.0, 0.0, motion)
+    assert wiring.showing.view is View.NC
+    assert wiring.window_.views.nc.pane.text.current + 1 == picture.moves.line[motion]
     wiring.files.new()
     qtbot.waitUntil(lambda: view.picture is None, timeout=10_000)
     assert wiring.window_.views.empty.isVisible() or wiring.showing.view is not View.CUT
