@@ -68,7 +68,7 @@ class CutView(QWidget):
         self.surface: GlSurface | ImageSurface | None = None
         self.painting = Painting(self)
         self._theme, self._shown = LIGHT, frozenset(int(look) for look in Look)
-        self._fitted, self._drag = True, Drag.NONE
+        self._fitted, self._drag, self._making = True, Drag.NONE, False
         self._pressed, self._last, self._pivot = QPointF(), QPointF(), np.zeros(3)
         self.sentence = QLabel()
         self.sentence.setProperty("role", "muted")
@@ -250,16 +250,23 @@ class CutView(QWidget):
             super().keyPressEvent(event)
 
     def _need_surface(self) -> None:
-        """Make what the cut is painted on, once; where that cannot be, say why."""
-        if self.surface is not None or self.failure:
+        """Make what the cut is painted on, once; where that cannot be, say why.
+
+        A widget with OpenGL in it makes Qt show the whole window anew, which asks for the surface again meanwhile.
+        """
+        if self.surface is not None or self.failure or self._making:
             return
+        self._making = True
         try:
             self.surface = made_surface(self, self.painting.paint)
         except HitofudeError as error:
             self.failure = str(error)
             self.sentence.setText(self.failure)
             self.overlay.hide()
+            self.legend.hide()
             return
+        finally:
+            self._making = False
         self.surface.renewed.connect(self.painting.renew)
         self.surface.setGeometry(self.rect())
         self.surface.lower()

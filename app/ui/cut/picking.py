@@ -46,8 +46,9 @@ class Hit:
 def pick(picture: CutPicture, ray: Ray, section: Section | None = None) -> Hit | None:
     """Return the first cell that a line of sight meets; None where it passes by.
 
-    Every cell is a column with a flat top, as the engine means it; one that was cut through to the floor is none. The ray's pieces between the lines of the grid are
-    looked at all at once: a piece belongs to one cell, and meets it where its lower end is not above the cell's height.
+    Every cell is a column with a flat top, as the engine means it; one that was cut through to the floor is none. The ray's
+    pieces between the lines of the grid are looked at all at once: a piece belongs to one cell, and meets it where its lower
+    end is not above the cell's height.
 
     Args:
         picture: the heights.

@@ -53,7 +53,8 @@ def relief_map(heights, smooth, steep, light, pitch, gain, limit, out):
     The normal's x and y are written as 128 + 127 sign sqrt: fine where the metal is nearly flat.
 
     Args:
-        heights, smooth: (n, m) mm, as they are and smoothed. steep: (n, m) 1 = at a wall, where smooth tells the slope. light: (n, m) share of the light that reaches a cell, 255 = all.
+        heights, smooth: (n, m) mm, as they are and smoothed. steep: (n, m) 1 = at a wall, where smooth tells the slope.
+        light: (n, m) share of the light that reaches a cell, 255 = all.
         pitch: mm. gain, limit: see above. out: (n, m) x, y, light, 255, from the lowest byte up.
     """
     n, m = heights.shape

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.errors import HitofudeError
-from app.ui.cut.camera import Camera, StandardView
+from app.ui.cut.camera import Camera
 from app.ui.cut.colouring import CutColour, Inks, colouring
 from app.ui.cut.picture import CutPicture
 from app.ui.cut.relief import GAIN, LIMIT

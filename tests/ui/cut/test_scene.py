@@ -13,7 +13,21 @@ from app.ui.cut.picture import CutMoves, CutPaths
 from app.ui.cut.scene import CutScene, Frame, section_ends
 from app.ui.nc.motion_shapes import Look
 from tests.ui.cut import pictures
-from tests.ui.cut.pictures import AMBIENT, CANVAS, DIRECT, LIGHT, LOOK, METAL, SIZE, STOCK, brightness, flat_picture, painted, places_of_pixels, seen
+from tests.ui.cut.pictures import (
+    AMBIENT,
+    CANVAS,
+    DIRECT,
+    LIGHT,
+    LOOK,
+    METAL,
+    SIZE,
+    STOCK,
+    brightness,
+    flat_picture,
+    painted,
+    places_of_pixels,
+    seen,
+)
 
 N = 64
 GROUND = np.round(np.array(CANVAS) * 255).astype(np.uint8)
@@ -145,8 +159,9 @@ def test_a_section_takes_away_what_lies_beyond_it_and_shows_a_hatched_face(conte
     face = open_[silhouette[1]].astype(int)
     share = np.mean((face[:, 0] - face[:, 1]) > 20)
     assert 0.08 < share < 0.25
-    side = painted(context, picture, seen(picture, StandardView.RIGHT), section=Section((0.0, -1.0), -5.0))
-    widths = [np.any(~np.all(image == GROUND, axis=2), axis=0).sum() for image in (painted(context, picture, seen(picture, StandardView.RIGHT)), side)]
+    from_right = seen(picture, StandardView.RIGHT)
+    both = (painted(context, picture, from_right), painted(context, picture, from_right, section=Section((0.0, -1.0), -5.0)))
+    widths = [np.any(~np.all(image == GROUND, axis=2), axis=0).sum() for image in both]
     assert widths[1] == pytest.approx(widths[0] / 2, abs=1.5)
 
 
