@@ -30,6 +30,7 @@ LOWEST_RISE = 1e-9
 """A move that rises less on a cutter's radius, mm, touches where a level one does."""
 
 _F = np.float32
+_TRIFLE = _F(1e-5)  # mm; a motion that lowers a cell by no more only rounds otherwise, so the cell stays its former owner's
 _ZERO, _NEVER, _FAR = _F(0.0), _F(math.inf), 1e18
 _SHAPE, _FRAME, _PLACE = "UniTuple(float64, 7)", "UniTuple(float64, 5)", "UniTuple(float64, 6)"
 _PLAN = "UniTuple(float64, 17)"
@@ -167,14 +168,18 @@ def settle(heights, owners, scratch, notes, at, blocks, owner):
         z = z if z > floor else floor
         depth = heights[at + k] - z
         if depth > (slack if owner < 0 else _ZERO):
-            cells += 1
             taken += depth
             if depth > deepest:
                 deepest = depth
                 if depth > notes[2]:
                     notes[2], notes[3] = depth, at + k
-            if owner >= 0:
-                heights[at + k], owners[at + k] = z, owner
+            if owner < 0:
+                cells += 1
+            else:
+                heights[at + k] = z
+                if owners[at + k] != owner and (depth > _TRIFLE or owners[at + k] < 0):
+                    cells += 1
+                    owners[at + k] = owner
     notes[0] += taken
     notes[1] += cells
 
