@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 REST_MS = 140
 """After so long without a movement the fine picture is begun."""
 
-_FAST_MS, _SLOW_MS = 16.0, 45.0
+_FAST_MS, _SLOW_MS = 25.0, 60.0
 _LEAST_BUDGET, _MOST_BUDGET = 1 << 14, 1 << 22
 
 
@@ -29,16 +29,16 @@ class Painting(QObject):
     Attributes:
         budget: squares that a picture of the moving cut is painted with; it follows the time that painting takes.
         frame_ms: how long the last coarse picture took, ms.
-        fine: whether the fine picture is shown.
+        fine: whether the fine picture is shown. due: whether the coarse one is still to be painted.
     """
 
     def __init__(self, view: CutView) -> None:
         super().__init__(view)
         self._view = view
-        self.budget, self.frame_ms, self.fine = _LEAST_BUDGET, 0.0, False
+        self.budget, self.frame_ms, self.fine = 2 * _LEAST_BUDGET, 0.0, False
         self._colours: Colouring | None = None
         self._look = CutLook((0.0,) * 3, (0.5,) * 3, (0.5,) * 3, ((0.5, 0.5, 0.5, 1.0),) * 4)
-        self._picture_due = self._colours_due = self._paint_due = False
+        self._picture_due = self._colours_due = self.due = False
         self._steps: Iterator[None] | None = None
         self._rest = QTimer(self, singleShot=True, interval=REST_MS)
         self._rest.timeout.connect(self._begin_fine)
@@ -62,7 +62,7 @@ class Painting(QObject):
 
     def moved(self) -> None:
         """What is shown is no longer right: paint it coarse at once, and fine when nothing moves any more."""
-        self._steps, self._paint_due, self.fine = None, True, False
+        self._steps, self.due, self.fine = None, True, False
         self._next.stop()
         self._rest.start()
         if self._view.surface is not None:
@@ -72,7 +72,7 @@ class Painting(QObject):
         """Paint what is due, with the scene's context current."""
         if scene.picture is None and self._view.picture is not None:
             self._picture_due = self._colours_due = True
-        if not self._paint_due:
+        if not self.due:
             return
         begun = time.perf_counter()
         if self._picture_due and self._view.picture is not None:
@@ -81,7 +81,7 @@ class Painting(QObject):
         if self._colours_due and self._colours is not None:
             scene.show_colours(self._colours)
         uploaded = self._picture_due or self._colours_due
-        self._picture_due = self._colours_due = self._paint_due = False
+        self._picture_due = self._colours_due = self.due = False
         scene.draw(self._frame(self.budget))
         scene.ctx.finish()
         self.frame_ms = 1000 * (time.perf_counter() - begun)
@@ -101,7 +101,7 @@ class Painting(QObject):
 
     def _begin_fine(self) -> None:
         surface = self._view.surface
-        if surface is None or self._paint_due or not self._view.isVisible():
+        if surface is None or self.due or not self._view.isVisible():
             return
         self._steps = surface.work(lambda scene: scene.draw_in_steps(self._frame(0)))
         self._go_on()

@@ -1,0 +1,74 @@
+"""Shows the Cut view in a real window with OpenGL and says whether what stands on the screen is right: run under X."""
+
+import sys
+import time
+
+import numpy as np
+from PySide6.QtCore import QEventLoop, QTimer
+from PySide6.QtOpenGLWidgets import QOpenGLWidget
+from PySide6.QtWidgets import QApplication, QMainWindow, QStackedWidget, QWidget
+
+from app.ui.cut.cut_view import CutView
+from app.ui.cut.surface import GlSurface
+from app.ui.theme import DARK, LIGHT
+from tests.ui.cut.made_up import made_up
+
+
+def wait(done):
+    """Let the window live until something is so, at most 30 s."""
+    end = time.monotonic() + 30
+    while not done():
+        if time.monotonic() > end:
+            raise SystemExit("what should be shown did not come")
+        loop = QEventLoop()
+        QTimer.singleShot(10, loop.quit)
+        loop.exec()
+
+
+def pixels(window):
+    """What the screen shows of a window, (height, width, 3)."""
+    image = window.screen().grabWindow(window.winId()).toImage()
+    image = image.convertToFormat(image.Format.Format_RGB888)
+    flat = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
+    return flat[:, :3 * image.width()].reshape(image.height(), image.width(), 3).astype(int)
+
+
+def metal_share(window, view):
+    """Share of the view that is not its ground."""
+    shown = pixels(window)[:view.height(), :view.width()]
+    ground = np.array(view._theme.canvas.getRgb()[:3])
+    return float((np.abs(shown - ground).max(axis=2) > 12).mean())
+
+
+def main():
+    """Show, resize, change the theme, leave the view and come back; print OK."""
+    application = QApplication(sys.argv[:1])
+    window, stack, view, other = QMainWindow(), QStackedWidget(), CutView(), QWidget()
+    stack.addWidget(other)
+    stack.addWidget(view)
+    window.setCentralWidget(stack)
+    window.resize(900, 600)
+    view.set_theme(LIGHT)
+    window.show()
+    view.show_cut(made_up(200))
+    assert view.surface is None, "a surface before the view is shown"
+    stack.setCurrentWidget(view)
+    wait(lambda: view.painting.fine)
+    assert isinstance(view.surface, GlSurface), type(view.surface)
+    assert len(window.findChildren(QOpenGLWidget)) == 1, "more than one surface"
+    wait(lambda: 0.3 < metal_share(window, view) < 0.7)
+    window.resize(1100, 700)
+    view.set_theme(DARK)
+    wait(lambda: view.painting.fine and 0.3 < metal_share(window, view) < 0.7)
+    stack.setCurrentWidget(other)
+    wait(lambda: not view.isVisible())
+    stack.setCurrentWidget(view)
+    view.show_cut(made_up(160))
+    wait(lambda: view.painting.fine and 0.3 < metal_share(window, view) < 0.7)
+    print("OK")
+    window.close()
+    application.quit()
+
+
+if __name__ == "__main__":
+    main()

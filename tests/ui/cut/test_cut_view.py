@@ -1,0 +1,210 @@
+"""The Cut view without a screen: it shows what OpenGL painted elsewhere, and does what mouse and keys ask."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QMouseEvent, QWheelEvent
+from PySide6.QtWidgets import QApplication
+
+from app.ui.cut.camera import StandardView
+from app.ui.cut.colouring import CutColour
+from app.ui.cut.cut_legend import Side
+from app.ui.cut.cut_view import CutView
+from app.ui.cut.surface import ImageSurface, widgets_have_opengl
+from app.ui.samples import Sample
+from app.ui.theme import DARK, LIGHT
+from app.ui.views import View
+from tests.ui.cut.made_up import made_up
+from tests.ui.cut.pictures import without_a_screen
+
+LEFT, MIDDLE = Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton
+
+
+@pytest.fixture(scope="module")
+def picture():
+    return made_up(200)
+
+
+@pytest.fixture
+def view(qtbot, picture):
+    without_a_screen().release()
+    made = CutView()
+    qtbot.addWidget(made)
+    made.resize(900, 600)
+    made.set_theme(LIGHT)
+    made.show()
+    made.show_cut(picture)
+    qtbot.waitUntil(lambda: made.painting.fine, timeout=20_000)
+    return made
+
+
+def pixels(view):
+    image = view.grab().toImage().convertToFormat(view.grab().toImage().Format.Format_RGB888)
+    flat = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
+    return flat[:, :3 * image.width()].reshape(image.height(), image.width(), 3).astype(int)
+
+
+def on_screen(view, place):
+    x, y, _ = view.camera.project(np.array([place]), (view.width(), view.height()))[0]
+    return QPoint(round(x), round(y))
+
+
+def hover(view, at):
+    nothing = Qt.MouseButton.NoButton
+    QApplication.sendEvent(view, QMouseEvent(QEvent.Type.MouseMove, QPointF(at), view.mapToGlobal(QPointF(at)), nothing, nothing,
+                                             Qt.KeyboardModifier.NoModifier))
+
+
+def drag(qtbot, view, button, by):
+    begin = QPoint(300, 300)
+    qtbot.mousePress(view, button, pos=begin)
+    qtbot.mouseMove(view, begin + by / 2)
+    qtbot.mouseMove(view, begin + by)
+    qtbot.mouseRelease(view, button, pos=begin + by)
+
+
+def test_without_opengl_in_widgets_a_picture_is_painted_elsewhere(view):
+    assert not widgets_have_opengl()
+    assert isinstance(view.surface, ImageSurface)
+    shown = pixels(view)
+    middle = on_screen(view, (50.0, 90.0, 0.0))
+    assert np.ptp(shown[middle.y(), middle.x()]) < 30
+    assert shown[middle.y(), middle.x()].mean() < 220
+    assert shown[20, 20].tolist() == [255, 255, 255]
+
+
+def test_by_night_the_ground_is_dark(qtbot, view):
+    view.set_theme(DARK)
+    assert pixels(view)[20, 20].max() < 40
+
+
+def test_nothing_is_made_before_there_is_a_cut_to_show(qtbot):
+    empty = CutView()
+    qtbot.addWidget(empty)
+    empty.show()
+    assert empty.surface is None
+    assert not empty.legend.isVisible()
+
+
+def test_left_drag_turns_round_the_place_that_is_held(qtbot, view):
+    before, held = view.camera, view.probe(QPointF(300, 300))
+    drag(qtbot, view, LEFT, QPoint(60, 20))
+    assert view.camera.yaw != before.yaw and view.camera.pitch > before.pitch
+    now = on_screen(view, held.place)
+    assert abs(now.x() - 300) <= 1 and abs(now.y() - 300) <= 1
+
+
+def test_middle_drag_shifts_and_does_not_turn(qtbot, view, picture):
+    before, place = view.camera, (50.0, 50.0, 0.0)
+    at = on_screen(view, place)
+    drag(qtbot, view, MIDDLE, QPoint(40, -30))
+    assert (view.camera.yaw, view.camera.pitch) == (before.yaw, before.pitch)
+    assert on_screen(view, place) - at == QPoint(40, -30)
+
+
+def test_wheel_zooms_at_the_mouse(qtbot, view):
+    at = QPointF(250, 320)
+    held, scale = view.probe(at), view.camera.scale
+    view.wheelEvent(QWheelEvent(at, view.mapToGlobal(at), QPoint(), QPoint(0, 240), Qt.MouseButton.NoButton,
+                                Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase, False))
+    assert view.camera.scale == pytest.approx(scale * 1.44)
+    now = on_screen(view, held.place)
+    assert abs(now.x() - 250) <= 1 and abs(now.y() - 320) <= 1
+
+
+@pytest.mark.parametrize(("key", "standard"), [(Qt.Key.Key_1, StandardView.TOP), (Qt.Key.Key_2, StandardView.FRONT),
+                                               (Qt.Key.Key_3, StandardView.RIGHT), (Qt.Key.Key_4, StandardView.ISOMETRIC)])
+def test_digits_are_standard_views(qtbot, view, key, standard):
+    view.camera = view.camera.orbited(0.4, 0.2, np.zeros(3))
+    qtbot.keyClick(view, key)
+    wanted = view.camera.seen_from(standard).axes
+    qtbot.waitUntil(lambda: np.allclose(view.camera.axes, wanted, atol=1e-6), timeout=5000)
+
+
+def test_f_fits_and_a_fitted_view_stays_fitted_when_the_size_changes(qtbot, view):
+    fitted = view.camera
+    view.zoom_by(4.0)
+    qtbot.keyClick(view, Qt.Key.Key_F)
+    qtbot.waitUntil(lambda: view.camera.scale == pytest.approx(fitted.scale), timeout=5000)
+    view.resize(1300, 900)
+    assert view.camera.scale > 1.2 * fitted.scale
+    view.zoom_by(2.0)
+    scale = view.camera.scale
+    view.resize(900, 600)
+    assert view.camera.scale == scale
+
+
+def test_probe_tells_place_depth_tool_and_line(qtbot, view, picture):
+    told = []
+    view.hovered.connect(told.append)
+    view.stand(StandardView.TOP)
+    qtbot.waitUntil(lambda: view.camera.pitch == pytest.approx(np.pi / 2), timeout=5000)
+    place = (34.25, 50.25)
+    hover(view, on_screen(view, (*place, 0.0)))
+    assert view.hit is not None
+    row, column = view.hit.row, view.hit.column
+    assert (column, row) == (pytest.approx(place[0] / picture.pitch, abs=2), pytest.approx(place[1] / picture.pitch, abs=2))
+    move = picture.move[row, column]
+    assert f"T{picture.moves.tool[move]}" in told[-1]
+    assert f"line {picture.moves.line[move]}" in told[-1]
+    assert f"{-picture.heights[row, column]:.3f} deep" in told[-1]
+    assert view.overlay.probe is not None and view.overlay.probe.place.startswith("X 34.")
+    hover(view, QPoint(5, 5))
+    assert told[-1] == "" and view.overlay.probe is None
+
+
+def test_click_picks_the_cell_and_a_drag_does_not(qtbot, view, picture):
+    picked = []
+    view.cell_picked.connect(lambda *values: picked.append(values))
+    drag(qtbot, view, LEFT, QPoint(50, 0))
+    assert not picked
+    at = on_screen(view, (34.0, 50.0, -9.0))
+    qtbot.mouseClick(view, LEFT, pos=at)
+    hit = view.probe(QPointF(at))
+    assert picked == [(*hit.place, int(picture.move[hit.row, hit.column]))]
+
+
+def test_legend_explains_the_colours_and_chooses_them(qtbot, view, picture):
+    box = view.legend.colour.box
+    assert [box.itemText(k) for k in range(box.count())] == [colour.value for colour in CutColour]
+    plain = pixels(view)
+    box.activated.emit(box.findText("Tool"))
+    assert view.colour is CutColour.TOOL
+    assert view.legend.title.text() == "Tool"
+    assert view.legend.key.accessibleDescription() == "T1, T2, T3"
+    assert np.any(pixels(view) != plain)
+    qtbot.waitUntil(lambda: view.painting.fine, timeout=20_000)
+
+
+def test_paths_can_be_hidden(qtbot, view):
+    shown = pixels(view)
+    view.legend.rows[Sample.POCKET].setChecked(False)
+    qtbot.waitUntil(lambda: view.painting.fine, timeout=20_000)
+    hidden = pixels(view)
+    green = (np.array(shown)[..., 1] - np.array(shown)[..., 0] > 60).sum(), (hidden[..., 1] - hidden[..., 0] > 60).sum()
+    assert green[0] > 500 > green[1]
+
+
+def test_a_section_opens_the_stock_and_the_probe_meets_its_face(qtbot, view):
+    qtbot.mouseClick(view.legend.side.buttons[Side.Y], LEFT)
+    assert view.legend.slider.isVisible()
+    assert view.section.offset == -50.0
+    hit = view.probe(QPointF(on_screen(view, (80.0, 50.0, -15.0))))
+    assert hit.place == pytest.approx((80.0, 50.0, -15.0), abs=0.3)
+    view.legend.slider.setValue(250)
+    assert view.section.offset == -25.0
+    qtbot.mouseClick(view.legend.side.buttons[Side.WHOLE], LEFT)
+    assert view.section is None
+
+
+def test_the_view_stays_when_the_same_stock_is_cut_anew(view, picture):
+    view.zoom_by(2.0)
+    camera = view.camera
+    view.show_cut(made_up(100))
+    assert view.camera == camera
+    view.show_cut(None)
+    assert not view.legend.isVisible()
+
+
+def test_cut_stands_between_paths_and_nc():
+    assert [view.name for view in View] == ["DRAW", "PATHS", "CUT", "NC"]
