@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.ui.cut.camera import Camera, Floats
 from app.ui.cut.picture import CutPaths
@@ -15,6 +16,12 @@ if TYPE_CHECKING:
     import moderngl
 
 _ROW = np.dtype([("from", "3f4"), ("to", "3f4"), ("gone", "f4"), ("look", "u4")])
+Rows = NDArray[Any]
+"""Of `_ROW`."""
+
+MOVING_PIECES = 20_000
+"""While things move, no more pieces than about these are painted."""
+
 _LIFT_PX = 2.0
 """Paths are painted this much nearer to the eye than they are, so that the metal under them does not hide them."""
 
@@ -25,13 +32,24 @@ class Sight:
 
     Attributes:
         camera: from where. size: of the picture, px. section: normal and offset of the plane that takes away what lies beyond.
-        reach: nothing is farther than this from the camera's target, mm.
+        reach: nothing is farther than this from the camera's target, mm. moving: a coarse picture will do.
     """
 
     camera: Camera
     size: tuple[int, int]
     section: tuple[float, float, float]
     reach: float
+    moving: bool
+
+
+@dataclass(frozen=True, slots=True)
+class _Ribbons:
+    """The pieces of one look."""
+
+    look: int
+    buffer: moderngl.Buffer
+    array: moderngl.VertexArray
+    count: int
 
 
 class PathRibbons:
@@ -43,7 +61,8 @@ class PathRibbons:
 
     def __init__(self, ctx: moderngl.Context, program: moderngl.Program) -> None:
         self._ctx, self._program = ctx, program
-        self._buffers: list[tuple[int, moderngl.Buffer, moderngl.VertexArray, int]] = []
+        self._whole: list[_Ribbons] = []
+        self._coarse: list[_Ribbons] = []
         self.box: tuple[Floats, Floats] | None = None
 
     def fill(self, paths: CutPaths | None) -> None:
@@ -53,20 +72,15 @@ class PathRibbons:
             self.box = None
             return
         self.box = (np.minimum(paths.start.min(axis=0), paths.end.min(axis=0)), np.maximum(paths.start.max(axis=0), paths.end.max(axis=0)))
-        rows = np.zeros(len(paths), _ROW)
-        lengths = np.linalg.norm(paths.end - paths.start, axis=1)
-        rows["from"], rows["to"], rows["look"] = paths.start, paths.end, paths.look
-        rows["gone"] = _gone(paths, lengths)
-        for look in np.unique(paths.look).tolist():
-            some = rows[paths.look == look]
-            buffer = self._ctx.buffer(some.tobytes())
-            array = self._ctx.vertex_array(self._program, [(buffer, "3f4 3f4 1f4 1u4/i", "from", "to", "gone", "look")])
-            self._buffers.append((look, buffer, array, len(some)))
+        rows = rows_of(paths)
+        self._whole = self._held(rows)
+        if len(rows) > MOVING_PIECES:
+            self._coarse = self._held(thinned(rows, -(-len(rows) // MOVING_PIECES)))
 
     def draw(self, look: CutLook, shown: frozenset[int], sight: Sight) -> None:
         """Paint the paths of some looks over what is there."""
         camera, size = sight.camera, sight.size
-        if not self._buffers:
+        if not self._whole:
             return
         program = self._program
         program["to_clip"] = tuple(camera.matrix(size, sight.reach).T.ravel())
@@ -78,9 +92,9 @@ class PathRibbons:
         self._ctx.enable(self._ctx.BLEND)
         over = (self._ctx.SRC_ALPHA, self._ctx.ONE_MINUS_SRC_ALPHA, self._ctx.ONE, self._ctx.ONE)
         self._ctx.blend_func = over  # type: ignore[assignment]  # four are taken too: the last two are for alpha
-        for kind, _, array, count in self._buffers:
-            if kind in shown:
-                array.render(self._ctx.TRIANGLE_STRIP, vertices=4, instances=count)
+        for ribbons in self._coarse if sight.moving and self._coarse else self._whole:
+            if ribbons.look in shown:
+                ribbons.array.render(self._ctx.TRIANGLE_STRIP, vertices=4, instances=ribbons.count)
         self._ctx.disable(self._ctx.BLEND)
 
     def release(self) -> None:
@@ -88,17 +102,49 @@ class PathRibbons:
         self._empty()
         self._program.release()
 
+    def _held(self, rows: Rows) -> list[_Ribbons]:
+        """Return buffers with rows, one for each look."""
+        made = []
+        for look in np.unique(rows["look"]).tolist():
+            some = rows[rows["look"] == look]
+            buffer = self._ctx.buffer(some.tobytes())
+            array = self._ctx.vertex_array(self._program, [(buffer, "3f4 3f4 1f4 1u4/i", "from", "to", "gone", "look")])
+            made.append(_Ribbons(look, buffer, array, len(some)))
+        return made
+
     def _empty(self) -> None:
-        for _, buffer, array, _ in self._buffers:
-            array.release()
-            buffer.release()
-        self._buffers = []
+        for ribbons in (*self._whole, *self._coarse):
+            ribbons.array.release()
+            ribbons.buffer.release()
+        self._whole, self._coarse = [], []
 
 
-def _gone(paths: CutPaths, lengths: Floats) -> Floats:
-    """Return (n,) how far each piece begins behind the beginning of its unbroken path of one look, mm: there dashes begin anew."""
+def rows_of(paths: CutPaths) -> Rows:
+    """Return paths as the graphics side takes them.
+
+    `gone` is how far a piece begins behind the beginning of its unbroken path of one look, mm: there dashes begin anew.
+    """
+    rows = np.zeros(len(paths), _ROW)
+    rows["from"], rows["to"], rows["look"] = paths.start, paths.end, paths.look
+    lengths = np.linalg.norm(paths.end - paths.start, axis=1)
     total = np.cumsum(lengths) - lengths
-    new = np.ones(len(paths), bool)
-    new[1:] = (paths.look[1:] != paths.look[:-1]) | np.any(paths.start[1:] != paths.end[:-1], axis=1)
-    heads = np.flatnonzero(new)
-    return np.asarray(total - total[heads][np.cumsum(new) - 1])
+    heads = np.flatnonzero(_begins(rows))
+    rows["gone"] = total - np.repeat(total[heads], np.diff(np.append(heads, len(rows))))
+    return rows
+
+
+def thinned(rows: Rows, step: int) -> Rows:
+    """Return rows with up to `step` pieces that follow one another taken as one."""
+    heads = np.flatnonzero(_begins(rows))
+    behind = np.arange(len(rows)) - np.repeat(heads, np.diff(np.append(heads, len(rows))))
+    first = np.flatnonzero(behind % step == 0)
+    made = rows[first].copy()
+    made["to"] = rows["to"][np.append(first[1:], len(rows)) - 1]
+    return made
+
+
+def _begins(rows: Rows) -> NDArray[np.bool_]:
+    """Return (n,) where an unbroken path of one look begins."""
+    new = np.ones(len(rows), bool)
+    new[1:] = (rows["look"][1:] != rows["look"][:-1]) | np.any(rows["from"][1:] != rows["to"][:-1], axis=1)
+    return new

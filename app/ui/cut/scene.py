@@ -24,7 +24,7 @@ CLIP_PLANES = (0x3000, 0x3001)
 """GL_CLIP_DISTANCE0 and 1, which moderngl has no names for: the section, and what was cut through."""
 
 SAMPLES = 4
-BAND_QUADS = 60_000
+BAND_QUADS = 30_000
 """Squares that are painted before somebody else may do something."""
 
 _HEIGHTS, _VALUES, _PALETTE, _RELIEF = 0, 1, 2, 3
@@ -40,7 +40,7 @@ class Frame:
     Attributes:
         camera: from where. size: width and height, px, >= 1.
         look: colours and light.
-        budget: about how many squares the metal may be painted with; 0 = as many as can be seen.
+        budget: about how many squares the metal may be painted with; 0 = as many as can be seen, with smooth edges.
         section: takes metal away.
         shown: looks of paths that are painted.
     """
@@ -111,16 +111,17 @@ class CutScene:
         Between the pieces, which take some 20 ms without graphics hardware, nobody may paint with this scene.
         """
         stage = self._stage_of(frame.size)
-        stage.back.use()
-        stage.back.clear(*frame.look.canvas, 1.0, depth=1.0)
+        back = stage.quick if frame.budget else stage.smooth
+        back.use()
+        back.clear(*frame.look.canvas, 1.0, depth=1.0)
         picture = self.picture
         if picture is not None and self._heights is not None:
             for step in self._draw_metal(frame, picture):
                 yield step
-                stage.back.use()
-            self._paths.draw(frame.look, frame.shown, Sight(frame.camera, frame.size, self._clip(frame), self._reach(frame)))
+                back.use()
+            self._paths.draw(frame.look, frame.shown, self._sight(frame))
             self._clip_planes(on=False)
-        self.ctx.copy_framebuffer(stage.front, stage.back)
+        self.ctx.copy_framebuffer(stage.front, back)
         yield None
 
     def copy_to(self, target: moderngl.Framebuffer) -> None:
@@ -205,6 +206,9 @@ class CutScene:
             if name in program:
                 program[name] = value
         program["to_clip"] = tuple(frame.camera.matrix(frame.size, self._reach(frame)).T.ravel())
+
+    def _sight(self, frame: Frame) -> Sight:
+        return Sight(frame.camera, frame.size, self._clip(frame), self._reach(frame), bool(frame.budget))
 
     def _begin_metal(self) -> None:
         """Set the state of the graphics system, which others may have changed since the last piece."""

@@ -35,9 +35,10 @@ class CutLook:
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """Two framebuffers of one size: painted into, several samples a pixel, and shown."""
+    """Framebuffers of one size: painted into with one sample a pixel while things move and with several at rest, and shown."""
 
-    back: moderngl.Framebuffer
+    quick: moderngl.Framebuffer
+    smooth: moderngl.Framebuffer
     front: moderngl.Framebuffer
     held: tuple[moderngl.Renderbuffer, ...]
 
@@ -47,15 +48,16 @@ class Stage:
 
         Args:
             ctx: the graphics context. size: width and height, px.
-            samples: a pixel, >= 0.
+            samples: a pixel at rest, >= 0.
         """
-        colour, depth = ctx.renderbuffer(size, 4, samples=samples), ctx.depth_renderbuffer(size, samples=samples)
-        shown = ctx.renderbuffer(size, 4)
-        return Stage(ctx.framebuffer([colour], depth), ctx.framebuffer([shown]), (colour, depth, shown))
+        colours = [ctx.renderbuffer(size, 4, samples=count) for count in (0, samples, 0)]
+        depths = [ctx.depth_renderbuffer(size, samples=count) for count in (0, samples)]
+        quick, smooth = (ctx.framebuffer([colour], depth) for colour, depth in zip(colours[:2], depths, strict=True))
+        return Stage(quick, smooth, ctx.framebuffer([colours[2]]), (*colours, *depths))
 
     def release(self) -> None:
         """Give the memory back."""
-        for framebuffer in (self.back, self.front):
+        for framebuffer in (self.quick, self.smooth, self.front):
             framebuffer.release()
         for buffer in self.held:
             buffer.release()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from PySide6.QtCore import QSize, Qt, Signal
@@ -127,6 +127,7 @@ class ImageSurface(QWidget):
         self._paint, self._context = paint, standalone_context()
         with self._context:
             self._scene = CutScene(self._context)
+        self.destroyed.connect(partial(_leave, self._context, self._scene))
 
     def work(self, act: Callable[[CutScene], T]) -> T | None:
         """Do something with the scene; its context is current meanwhile and not a moment longer, for others want theirs."""
@@ -140,6 +141,13 @@ class ImageSurface(QWidget):
         if picture is not None:
             picture.setDevicePixelRatio(self.devicePixelRatioF())
             QPainter(self).drawImage(0, 0, picture)
+
+
+def _leave(context: moderngl.Context, scene: CutScene) -> None:
+    """Give everything back that a picture was painted with."""
+    with context:
+        scene.release()
+    context.release()
 
 
 def image_of(scene: CutScene) -> QImage:

@@ -8,6 +8,7 @@ import pytest
 
 from app.ui.cut.camera import Camera, StandardView
 from app.ui.cut.colouring import CutColour
+from app.ui.cut.path_ribbons import rows_of, thinned
 from app.ui.cut.picking import Section
 from app.ui.cut.picture import CutMoves, CutPaths
 from app.ui.cut.scene import CutScene, Frame, section_ends
@@ -235,3 +236,16 @@ def test_where_a_section_enters_and_leaves_the_stock():
     assert section_ends(Section((1.0, 0.0), 12.0), low, high) is None
     ends = section_ends(Section((math.sqrt(0.5), math.sqrt(0.5)), math.sqrt(0.5) * 4), low, high)
     assert np.allclose(sorted(ends), [(0.0, 4.0), (4.0, 0.0)])
+
+
+def test_a_long_path_is_thinned_within_its_unbroken_parts_alone():
+    looks = np.array([Look.CUT] * 5 + [Look.CONTOUR] * 3 + [Look.CUT] * 2, np.uint8)
+    places = np.arange(11.0)[:, None] * np.array([1.0, 0.0, 0.0])
+    start, end = places[:-1].copy(), places[1:].copy()
+    start[9] += 0.5
+    rows = rows_of(CutPaths(start, end, looks))
+    assert rows["gone"].tolist() == [0, 1, 2, 3, 4, 0, 1, 2, 0, 0]
+    thin = thinned(rows, 2)
+    pieces = [(a[0], b[0]) for a, b in zip(thin["from"], thin["to"], strict=True)]
+    assert pieces == [(0, 2), (2, 4), (4, 5), (5, 7), (7, 8), (8, 9), (9.5, 10)]
+    assert thin["gone"].tolist() == [0, 2, 4, 0, 2, 0, 0]
