@@ -58,7 +58,9 @@ def test_a_macro_gets_its_arguments_by_their_letters() -> None:
     assert "there is no subroutine O8" in told("G65 P8\n", Dialect.FANUC)
 
 
-@pytest.mark.parametrize(("code", "words"), [("G12 I5. F10.", "a circular pocket"), ("G70 I5. L4", "a circle of holes"), ("G150 X1.", "a pocket")])
+@pytest.mark.parametrize(
+    ("code", "words"), [("G12 I5. F10.", "a circular pocket"), ("G70 I5. L4", "a circle of holes"), ("G150 X1.", "a pocket")]
+)
 def test_cycles_of_the_controls_own_are_refused_by_name(code: str, words: str) -> None:
     assert f"{words}" in told(f"G21\n{code}\n", Dialect.HAAS)
 
