@@ -168,15 +168,15 @@ def taper_run(line, first, blocks, where, move):
 
 @kernel("float32(float32, float32, float32, float32)")
 def _nearer(y, c, wide, deep):
-    """Return the next guess of Newton's method for `bull_contact`."""
+    """Return the next guess of Newton's method for `bull_contacts`."""
     w = _ONE / np.sqrt(_ONE + y * y)
     bend = wide * w
     return y + (c - (bend + deep) * y) / (bend * w * w + deep)
 
 
-@kernel("float32(float32, float32, float32, float32)")
-def bull_contact(c, s, wide, deep):
-    """Return v where a fillet round a flat touches at a distance c from the move's line.
+@kernel("void(float32[::1], float32, float32, float32, float32)")
+def bull_contacts(bends, c0, dc, wide, deep):
+    """Write y of the places where a fillet round a flat touches, for sixteen cells.
 
     With the tilt of the surface, tan(tilt) cos(phi) = s and (flat + fillet sin(tilt)) sin(phi) = |c|, phi being the bearing of
     the place from the move's direction. For y = sqrt((sin(tilt) sqrt(1 + s²) / s)² - 1) this is
@@ -185,20 +185,20 @@ def bull_contact(c, s, wide, deep):
     1e-10 (1 + s) of the radius too high, for fillets from a thousandth of the flat on (the error of z is the square of v's).
 
     Args:
-        c: mm.
-        s: rise of the move, > 0.
+        bends: y of the cells.
+        c0, dc: distance of the first cell from the move's line, and its change from cell to cell, mm.
         wide: flat * sqrt(1 + s²).
-        deep: fillet * s.
+        deep: fillet * s, s > 0 being the rise of the move.
     """
-    c = abs(c)
-    y = max(c / (wide + deep), (c - wide) / deep)
-    y = max(y, max(_nearer(_F(1.5), c, wide, deep), _nearer(_F(4.0), c, wide, deep)))
-    y = max(y, max(_nearer(_F(12.0), c, wide, deep), _nearer(_F(50.0), c, wide, deep)))
-    y = _nearer(_nearer(_nearer(_nearer(y, c, wide, deep), c, wide, deep), c, wide, deep), c, wide, deep)
-    w2 = _ONE / (_ONE + y * y)
-    left = _ONE - s * s * y * y
-    rho = wide / np.sqrt(_ONE + s * s) + deep * np.sqrt((_ONE + y * y) / (_ONE + s * s))
-    return rho * np.sqrt((left if left > _ZERO else _ZERO) * w2)
+    for k in range(LANES):
+        c = abs(c0 + dc * _F(k))
+        bends[k] = max(max(c / (wide + deep), (c - wide) / deep), max(_nearer(_F(1.5), c, wide, deep), _nearer(_F(4.0), c, wide, deep)))
+    for k in range(LANES):
+        c = abs(c0 + dc * _F(k))
+        bends[k] = max(bends[k], max(_nearer(_F(12.0), c, wide, deep), _nearer(_F(50.0), c, wide, deep)))
+    for _ in range(4):
+        for k in range(LANES):
+            bends[k] = _nearer(bends[k], abs(c0 + dc * _F(k)), wide, deep)
 
 
 @kernel(_LINE.format(12))
@@ -207,19 +207,25 @@ def bull_run(line, first, blocks, where, move):
     a0, b0, c0, da, dc = where
     shape, s, low, high = move[:6], move[6], move[7], move[8]
     r2, wide, deep = move[9], move[10], move[11]
+    stretch = _ONE + s * s
+    bends = np.empty(LANES, _F)
     for _ in range(blocks):
-        part = line[first : first + LANES]
+        bull_contacts(bends, c0, dc, wide, deep)
         for k in range(LANES):
             x = _F(k)
             a, b, c = a0 + da * x, b0 + da * x, c0 + dc * x
             under = r2 - c * c
             q = np.sqrt(under if under > _ZERO else _ZERO)
-            v = bull_contact(c, s, wide, deep)
+            y2 = bends[k] * bends[k]
+            left = _ONE - s * s * y2
+            v = (shape[1] + deep * np.sqrt((_ONE + y2) / stretch)) * np.sqrt((left if left > _ZERO else _ZERO) / (_ONE + y2))
             v = v if v < q else q
             before, after = a < v, b > v
             reach = a if before else (b if after else v)
-            z = (low if before else (high if after else low + s * (a - v))) + profile(c * c + reach * reach, shape)
-            part[k] = z if z < part[k] else part[k]
+            bends[k] = (low if before else (high if after else low + s * (a - v))) + profile(c * c + reach * reach, shape)
+        part = line[first : first + LANES]
+        for k in range(LANES):
+            part[k] = bends[k] if bends[k] < part[k] else part[k]
         first += LANES
         a0, b0, c0 = a0 + _STEP * da, b0 + _STEP * da, c0 + _STEP * dc
 

@@ -62,7 +62,7 @@ def read_solid(name: str, data: bytes) -> SolidStock:
 
     try:
         mesh = trimesh.load_mesh(io.BytesIO(data), file_type="stl")
-        triangles = np.ascontiguousarray(mesh.triangles, np.float64)
+        triangles = np.array(mesh.triangles, np.float64, order="C")
     except Exception as error:  # the library lets through whatever its parsers trip over
         raise InputError(f"{name}: this is no STL file that can be read ({error}); export the solid again, as binary STL.") from error
     if not len(triangles) or not np.isfinite(triangles).all():

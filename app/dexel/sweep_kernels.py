@@ -30,6 +30,7 @@ LOWEST_RISE = 1e-9
 """A move that rises less on a cutter's radius, mm, touches where a level one does."""
 
 _F = np.float32
+_ONE, _NONE = np.int32(1), np.int32(0)
 _TRIFLE = _F(1e-5)  # mm; a motion that lowers a cell by no more only rounds otherwise, so the cell stays its former owner's
 _ZERO, _NEVER, _FAR = _F(0.0), _F(math.inf), 1e18
 _SHAPE, _FRAME, _PLACE = "UniTuple(float64, 7)", "UniTuple(float64, 5)", "UniTuple(float64, 6)"
@@ -160,26 +161,28 @@ def settle(heights, owners, scratch, notes, at, blocks, owner):
         at: the run's first cell in the tile. blocks: its sixteens of cells.
         owner: number of the motion; -1: it only asks, and heights stay.
     """
-    floor, slack, deepest = _F(notes[4]), _F(notes[5]), _F(0.0)
+    floor, slack = _F(notes[4]), _F(notes[5]) if owner < 0 else _ZERO
     taken, cells = 0.0, 0
-    for k in range(blocks * LANES):
-        z = scratch[k]
-        scratch[k] = _NEVER
-        z = z if z > floor else floor
-        depth = heights[at + k] - z
-        if depth > (slack if owner < 0 else _ZERO):
-            taken += depth
-            if depth > deepest:
-                deepest = depth
+    for block in range(blocks):
+        old, new, here = heights[at : at + LANES], scratch[LANES * block : LANES * (block + 1)], _NONE
+        for k in range(LANES):
+            here += _ONE if old[k] > new[k] else _NONE
+        for k in range(LANES if here > 0 else 0):
+            z = new[k] if new[k] > floor else floor
+            depth = heights[at + k] - z
+            if depth > slack:
+                taken += depth
                 if depth > notes[2]:
                     notes[2], notes[3] = depth, at + k
-            if owner < 0:
-                cells += 1
-            else:
-                heights[at + k] = z
-                if owners[at + k] != owner and (depth > _TRIFLE or owners[at + k] < 0):
+                if owner < 0:
                     cells += 1
-                    owners[at + k] = owner
+                else:
+                    heights[at + k] = z
+                    if owners[at + k] != owner and (depth > _TRIFLE or owners[at + k] < 0):
+                        cells += 1
+                        owners[at + k] = owner
+        new[:] = _NEVER
+        at += LANES
     notes[0] += taken
     notes[1] += cells
 

@@ -17,6 +17,7 @@ NOTHING, CUTS, ASKS = range(3)
 _PLACES, _BEFORE, _SHAPE = "Array(float64, 2, 'C', True)", "Array(float32, 2, 'C', True)", "UniTuple(float64, 7)"
 _TABLES = "uint8[::1], int32[::1], int32[::1], float64[:, ::1], float64[:, ::1]"
 _COURSE = "UniTuple(float64, 4)"
+_BOX = "UniTuple(float64, 4)"
 
 
 @kernel(f"{_COURSE}(UniTuple(float64, 3))")
@@ -29,9 +30,32 @@ def course_of(way):
     return size, x / size, y / size, z / size
 
 
-@kernel(f"void({_PLACES}, {_PLACES}, {_TABLES}, int64, int64, boolean, float64[:, ::1])")
-def survey(start, end, does, cutter, arc, shapes, arcs, first, last, reduced, spans):
-    """Write between which places along them straight pieces must be evaluated, and their boxes with the cutter.
+@kernel("boolean(UniTuple(int64, 3), UniTuple(int64, 3), UniTuple(float64, 3), UniTuple(float64, 3))")
+def goes_on(one, two, end, start):
+    """Return whether a piece begins where another ends, both straight and cut with one cutter.
+
+    Args:
+        one, two: what they do, their cutters and arcs. end: of the first. start: of the second.
+    """
+    alike = one[0] == CUTS and two[0] == CUTS and one[1] == two[1] and one[2] < 0 and two[2] < 0
+    return alike and end[0] == start[0] and end[1] == start[1] and end[2] == start[2]
+
+
+@kernel(f"{_BOX}(UniTuple(float64, 2), UniTuple(float64, 2), {_COURSE}, float64)")
+def box_of(span, place, course, radius):
+    """Return the box of the cells at which a straight piece is evaluated: low x, low y, high x, high y."""
+    size, ux, uy, _ = course
+    if size == 0.0:
+        return place[0] - radius, place[1] - radius, place[0] + radius, place[1] + radius
+    half, middle = 0.5 * (span[1] - span[0]), 0.5 * (span[0] + span[1])
+    x, y = place[0] + ux * middle, place[1] + uy * middle
+    wide, tall = abs(ux) * half + abs(uy) * radius, abs(uy) * half + abs(ux) * radius
+    return x - wide, y - tall, x + wide, y + tall
+
+
+@kernel(f"void({_PLACES}, {_PLACES}, {_TABLES}, int64, int64, boolean, {_BOX}, float64[:, ::1])")
+def survey(start, end, does, cutter, arc, shapes, arcs, first, last, reduced, window, spans):
+    """Write between which places along them straight pieces must be evaluated, and the boxes of those cells.
 
     Args:
         start, end: of all n pieces.
@@ -40,35 +64,41 @@ def survey(start, end, does, cutter, arc, shapes, arcs, first, last, reduced, sp
         arcs: rows of arcs: centre, radius, box.
         first, last: the pieces to do are first … last - 1.
         reduced: pieces that go on are evaluated without the discs at their ends.
+        window: low x, low y, high x, high y; pieces outside it get a box outside it.
         spans: (n, 6) from and to along straight pieces, mm (to < from: upright), low x, low y, high x, high y.
     """
+    known, onward = False, (0.0, 1.0, 0.0, 0.0)
     for i in range(first, last):
         c, a = cutter[i], arc[i]
         radius = shapes[c, 0]
-        course = course_of((end[i, 0] - start[i, 0], end[i, 1] - start[i, 1], end[i, 2] - start[i, 2]))
-        size, ux, uy, _ = course
-        low, high = (0.0, -1.0) if size == 0.0 else (-radius, size + radius)
+        x0, y0, x1, y1 = start[i, 0], start[i, 1], end[i, 0], end[i, 1]
+        box = (min(x0, x1) - radius, min(y0, y1) - radius, max(x0, x1) + radius, max(y0, y1) + radius)
         if a >= 0:
-            spans[i, 2], spans[i, 3], spans[i, 4], spans[i, 5] = (
-                arcs[a, 3] - radius, arcs[a, 4] - radius, arcs[a, 5] + radius, arcs[a, 6] + radius)  # fmt: skip
+            box = (arcs[a, 3] - radius, arcs[a, 4] - radius, arcs[a, 5] + radius, arcs[a, 6] + radius)
+        spans[i, 2], spans[i, 3], spans[i, 4], spans[i, 5] = box
+        if a >= 0 or box[0] > window[2] or box[1] > window[3] or box[2] < window[0] or box[3] < window[1]:
+            known = False
             continue
-        if reduced and size > 0.0 and does[i] == CUTS:
-            joins, goes_on, onward = False, False, course
-            if (i > 0 and does[i - 1] == CUTS and cutter[i - 1] == c and arc[i - 1] < 0
-                    and end[i - 1, 0] == start[i, 0] and end[i - 1, 1] == start[i, 1] and end[i - 1, 2] == start[i, 2]):  # fmt: skip
-                joins = math.hypot(end[i - 1, 0] - start[i - 1, 0], end[i - 1, 1] - start[i - 1, 1]) > SHORT
-            if (i + 1 < len(cutter) and does[i + 1] == CUTS and cutter[i + 1] == c and arc[i + 1] < 0
-                    and end[i, 0] == start[i + 1, 0] and end[i, 1] == start[i + 1, 1] and end[i, 2] == start[i + 1, 2]):  # fmt: skip
-                onward = course_of((end[i + 1, 0] - start[i + 1, 0], end[i + 1, 1] - start[i + 1, 1], end[i + 1, 2] - start[i + 1, 2]))
-                goes_on = onward[0] > 0.0
-            shape = (shapes[c, 0], shapes[c, 1], shapes[c, 2], shapes[c, 3], shapes[c, 4], shapes[c, 5], shapes[c, 6])
-            low, high = reach(shape, course, onward, joins, goes_on)
-        spans[i, 0], spans[i, 1] = low, high
-        half = max(0.5 * (high - low), 0.0)
-        middle = 0.5 * (low + high) if size > 0.0 else 0.0
-        x, y = start[i, 0] + ux * middle, start[i, 1] + uy * middle
-        wide, tall = (abs(ux) * half + abs(uy) * radius, abs(uy) * half + abs(ux) * radius) if size > 0.0 else (radius, radius)
-        spans[i, 2], spans[i, 3], spans[i, 4], spans[i, 5] = x - wide, y - tall, x + wide, y + tall
+        course = onward if known else course_of((x1 - x0, y1 - y0, end[i, 2] - start[i, 2]))
+        span, size = (0.0, -1.0), course[0]
+        me, before, joins = (int(does[i]), int(c), int(a)), known, False
+        if not known and i > 0:
+            he, k = (int(does[i - 1]), int(cutter[i - 1]), int(arc[i - 1])), i - 1
+            before = goes_on(he, me, (end[k, 0], end[k, 1], end[k, 2]), (x0, y0, start[i, 2])) and not (
+                abs(end[k, 0] - start[k, 0]) <= SHORT and abs(end[k, 1] - start[k, 1]) <= SHORT)  # fmt: skip
+        if i + 1 < len(cutter):
+            she, k = (int(does[i + 1]), int(cutter[i + 1]), int(arc[i + 1])), i + 1
+            if goes_on(me, she, (x1, y1, end[i, 2]), (start[k, 0], start[k, 1], start[k, 2])):
+                onward = course_of((end[k, 0] - x1, end[k, 1] - y1, end[k, 2] - end[i, 2]))
+                joins = size > 0.0 and onward[0] > 0.0
+        known = joins
+        if size > 0.0:
+            span = (-radius, size + radius)
+            if reduced and does[i] == CUTS:
+                shape = (radius, shapes[c, 1], shapes[c, 2], shapes[c, 3], shapes[c, 4], shapes[c, 5], shapes[c, 6])
+                span = reach(shape, course, onward, before, joins)
+        spans[i, 0], spans[i, 1] = span
+        spans[i, 2], spans[i, 3], spans[i, 4], spans[i, 5] = box_of(span, (x0, y0), course, radius)
 
 
 @kernel("UniTuple(int64, 4)(UniTuple(float64, 4), UniTuple(float64, 3), UniTuple(int64, 2))")

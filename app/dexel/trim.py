@@ -229,7 +229,7 @@ class _Batch:
         top = float(self._before.max())
 
         def look(k: int) -> None:
-            survey(*self._tables, steps[k], steps[k + 1], not full, self._spans)
+            survey(*self._tables, steps[k], steps[k + 1], not full, grid.box, self._spans)
             count(*common, steps[k], steps[k + 1], top, counts[k], votes[k])
 
         _in_parallel(look, list(range(CHUNKS)))
@@ -303,7 +303,8 @@ def _shape_rows(course: Course, cutters: Mapping[int, Cutter], does: NDArray[np.
 
     A motion without a cutter does nothing if it is a rapid.
     """
-    numbers, index = np.unique(course.tool, return_inverse=True)
+    numbers = np.flatnonzero(np.bincount(course.tool))
+    index = np.searchsorted(numbers, np.arange(numbers[-1] + 1 if len(numbers) else 0))[course.tool]
     rows = np.zeros((2 * max(len(numbers), 1), 7))
     for k, number in enumerate(numbers.tolist()):
         cutter = cutters.get(number)

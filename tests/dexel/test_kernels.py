@@ -1,0 +1,30 @@
+"""The innermost loops are vector code: one that is not would be right, and ten times as slow."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from tests.conftest import ROOT
+
+LOOK = """
+import re, sys
+import numba
+from app.dexel import run_kernels as runs
+if not {"avx2", "+avx2"} & set(re.split(r"[, ]", numba.core.codegen.get_host_cpu_features())):
+    print("no vectors here")
+for name in ("ball_run", "flat_run", "level_run", "cone_run", "taper_run", "bull_contacts", "bull_run", "arc_run"):
+    code = next(iter(getattr(runs, name).inspect_asm().values()))
+    own = code.split("cpython")[0]
+    print(name, len(re.findall(r"v?sqrtps", own)) + len(re.findall(r"vrsqrt14ps", own)), len(re.findall(r"v?sqrtss", own)))
+"""
+
+
+def test_runs_take_roots_of_vectors(tmp_path: Path) -> None:
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
+    done = subprocess.run([sys.executable, "-c", LOOK], cwd=ROOT, env=environment, capture_output=True, text=True, check=True, timeout=200)
+    assert "no vectors" not in done.stdout
+    for line in done.stdout.splitlines():
+        name, of_vectors, of_numbers = line.split()
+        assert int(of_vectors) >= 1, name
+        assert int(of_numbers) == 0, name
