@@ -14,6 +14,7 @@ from app.model.operation import ContourOperation, PocketOperation
 from app.settings import ThemeChoice
 from app.ui.canvas.modes import CanvasTool
 from app.ui.cut.cutting import Cutting
+from app.ui.cut.saving import CutSaving
 from app.ui.figures import counted
 from app.ui.files import Files
 from app.ui.help import show_about, show_keys
@@ -55,6 +56,7 @@ class Wiring(QObject):
         window.views.cut.cell_picked.connect(lambda x, y, z, motion: self._go_to_motion(motion))
         self.files = Files(window, self.showing, self.log, self.nc.open)
         self.tools = ToolExchange(window, self.log)
+        self.cut_saving = CutSaving(window, self.log)
         self._connect_files()
         self._connect_edit()
         self._connect_view()
@@ -92,6 +94,8 @@ class Wiring(QObject):
 
     def _connect_view(self) -> None:
         canvas, actions = self.window_.canvas, self.window_.actions_
+        self._on("cut_picture", self.cut_saving.choose)
+        self.cut_saving.failed.connect(self._say_error)
         for view in View:
             self._on(view.value, partial(self.showing.show_view, view))
         self._on("fit", lambda: self.window_.views.viewport.fit())

@@ -134,6 +134,8 @@ def main() -> None:
                 wiring.showing.show_view(view)
                 wait(50)
                 wiring.window_.canvas.fit()
+                if view is View.CUT:
+                    wait_until(lambda: wiring.window_.views.cut.painting.fine)
                 take(wiring, folder / f"{view.name.lower()}-{theme.value}-{width}.png")
             for name, arrange in nc_states(wiring, Path(os.environ["HITOFUDE_CONFIG"])).items():
                 arrange()
