@@ -193,6 +193,7 @@ def keys_text() -> str:
         ("Zoom at the mouse", "wheel"), ("Pan", "middle button, Space + drag"), ("Leave a tool, clear the selection", "Esc"),
         ("Repeat the last tool, end a chain", "Enter"), ("Straight up or across while drawing", "Shift"),
         ("Turn the cut; from above, front, right, isometric", "drag; 1, 2, 3, 4"),
+        ("Profile along a line over the cut", "Ctrl + drag"),
         ("Cut an operation earlier, later", "Alt+Up, Alt+Down"), ("Place by number", "x,y   @dx,dy   @length<angle"),
     ]
     half = (len(rows) + 1) // 2

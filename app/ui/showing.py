@@ -40,7 +40,7 @@ NO_CUT = Missing("There is no cut yet.", "Compute  F5", "compute")
 NO_NC = Missing("There is no NC program yet.", "Compute  F5", "compute")
 NO_PROGRAM = Missing("There is no NC program yet. Draw a part and compute it, or open a program.", "Open an NC program", "nc_open")
 NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
-CUT_PROMPT = "Drag turns the cut, the middle button shifts it; 1 to 4 are standard views; click the metal to go to its line"
+CUT_PROMPT = "Drag turns the cut, the middle button shifts it, Ctrl+drag measures a profile; click the metal to go to its line"
 COMPUTING = Missing("The paths are being computed.", "Cancel  Shift+F5", "cancel")
 
 

@@ -15,10 +15,12 @@ from app.ui.cut.camera import Camera, StandardView
 from app.ui.cut.colouring import CutColour, colouring, possible
 from app.ui.cut.cut_legend import CutLegend, Side
 from app.ui.cut.inks import inks_of, look_of
-from app.ui.cut.overlay import CutOverlay, Probe, facts_of, place_of
+from app.ui.cut.overlay import CutOverlay, Line, Probe, facts_of, place_of
 from app.ui.cut.painting import Painting
 from app.ui.cut.picking import Hit, Section, pick
 from app.ui.cut.picture import CutPicture
+from app.ui.cut.profile import profile
+from app.ui.cut.profile_panel import HEIGHT, ProfilePanel
 from app.ui.cut.surface import GlSurface, ImageSurface, made_surface, pixel_size
 from app.ui.nc.motion_shapes import Look
 from app.ui.samples import Sample
@@ -38,6 +40,7 @@ class Drag(Enum):
     NONE = 0
     ORBIT = 1
     PAN = 2
+    PROFILE = 3
 
 
 class CutView(QWidget):
@@ -77,7 +80,7 @@ class CutView(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(self.sentence)
-        self.overlay, self.legend = CutOverlay(self), CutLegend(self)
+        self.overlay, self.legend, self.profile = CutOverlay(self), CutLegend(self), ProfilePanel(self)
         self._way = (self.camera, self.camera)
         self._glide = QVariantAnimation(self)
         self._glide.setDuration(GLIDE_MS)
@@ -95,6 +98,7 @@ class CutView(QWidget):
         self.legend.colour_chosen.connect(self.set_colour)
         self.legend.layer_switched.connect(self._on_layer)
         self.legend.section_chosen.connect(self._on_section)
+        self.profile.closed.connect(lambda: self.show_line(None))
         self.overlay.hide()
         self.legend.hide()
 
@@ -102,6 +106,7 @@ class CutView(QWidget):
         """Show another cut; the view stays unless the stock is another one."""
         before, self.picture = self.picture, picture
         self.overlay.show_probe(None)
+        self.show_line(None)
         self.hit = None
         self.overlay.setVisible(picture is not None)
         self.legend.setVisible(picture is not None)
@@ -174,6 +179,7 @@ class CutView(QWidget):
         for widget in (self.surface, self.overlay):
             if widget is not None:
                 widget.setGeometry(self.rect())
+        self.profile.setGeometry(0, self.height() - HEIGHT, self.width(), HEIGHT)
         self._place_legend()
         if self.picture is not None and self._fitted:
             self._look(self._fitted_camera())
@@ -181,11 +187,16 @@ class CutView(QWidget):
             self.painting.moved()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Hold the stock: the left button turns it round the place under the mouse, the middle one shifts it."""
+        """Hold the stock: the left button turns it round the place under the mouse, the middle one shifts it.
+
+        With Ctrl the left button draws a line over the metal instead.
+        """
         self._pressed = self._last = event.position()
         pans = event.button() is not Qt.MouseButton.LeftButton or event.modifiers() & Qt.KeyboardModifier.ShiftModifier
         self._drag = Drag.PAN if pans else Drag.ORBIT
         hit = self.probe(event.position())
+        if hit is not None and not pans and event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+            self._drag = Drag.PROFILE
         if hit is not None:
             self._pivot = np.array(hit.place)
         elif self.picture is not None:
@@ -198,7 +209,9 @@ class CutView(QWidget):
             self._hover(event.position())
         elif (event.position() - self._pressed).manhattanLength() >= _CLICK_PX or not self.overlay.probe:
             self._show_hit(None, event.position())
-            if self._drag is Drag.ORBIT:
+            if self._drag is Drag.PROFILE:
+                self._draw_line(self.probe(event.position()))
+            elif self._drag is Drag.ORBIT:
                 self.look_now(self.camera.orbited(-step.x() * _TURN, step.y() * _TURN, self._pivot))
             else:
                 ratio = self.devicePixelRatioF()
@@ -235,10 +248,12 @@ class CutView(QWidget):
         return super().event(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """F fits, 1 to 4 are the standard views, arrows turn."""
+        """F fits, 1 to 4 are the standard views, arrows turn, Escape ends the profile."""
         key = Qt.Key(event.key())
         if event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier:
             super().keyPressEvent(event)
+        elif key == Qt.Key.Key_Escape and self.overlay.line is not None:
+            self.show_line(None)
         elif key == Qt.Key.Key_F:
             self.fit()
         elif key in _KEYS:
@@ -248,6 +263,23 @@ class CutView(QWidget):
             self._glide_to(self.camera.orbited(yaw * _STEP, pitch * _STEP, (self.picture.low + self.picture.high) / 2))
         else:
             super().keyPressEvent(event)
+
+    def show_line(self, line: Line | None) -> None:
+        """Show the heights along a line over the metal, or no line any more.
+
+        Args:
+            line: its two ends, mm.
+        """
+        self.overlay.show_line(line)
+        self.profile.setVisible(line is not None)
+        if line is not None and self.picture is not None:
+            self.profile.show_profile(profile(self.picture, line[0][:2], line[1][:2]))
+
+    def _draw_line(self, hit: Hit | None) -> None:
+        """Draw a line from where the metal was pressed."""
+        x, y, z = (float(value) for value in self._pivot)
+        if hit is not None and (x, y) != hit.place[:2]:
+            self.show_line(((x, y, z), hit.place))
 
     def _need_surface(self) -> None:
         """Make what the cut is painted on, once; where that cannot be, say why.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
@@ -15,6 +16,10 @@ from app.ui.theme import LIGHT, Theme, text_font
 
 _AXIS_PX, _AXES_EDGE_PX, _NAME_PX = 30.0, 52.0, 11.0
 _CARD_GAP_PX, _PAD_PX, _ROW_PX, _CROSS_PX = 18.0, 10.0, 18.0, 9.0
+
+
+Line = tuple[tuple[float, float, float], tuple[float, float, float]]
+"""Two places, mm."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +63,7 @@ class CutOverlay(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self._theme, self._camera = LIGHT, Camera()
         self.probe: Probe | None = None
+        self.line: Line | None = None
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""
@@ -65,10 +71,16 @@ class CutOverlay(QWidget):
         self.update()
 
     def show_camera(self, camera: Camera) -> None:
-        """Turn the axes."""
-        if camera.axes.tolist() != self._camera.axes.tolist():
-            self._camera = camera
+        """Turn the axes, and keep the line where it is."""
+        turned = camera.axes.tolist() != self._camera.axes.tolist()
+        self._camera = camera
+        if turned or self.line is not None:
             self.update()
+
+    def show_line(self, line: Line | None) -> None:
+        """Show a line over the metal, or none."""
+        self.line = line
+        self.update()
 
     def show_probe(self, probe: Probe | None) -> None:
         """Show what is known of a place, or nothing."""
@@ -81,6 +93,8 @@ class CutOverlay(QWidget):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self._paint_axes(painter)
+        if self.line is not None:
+            self._paint_line(painter, self.line)
         if self.probe is not None:
             self._paint_cross(painter, self.probe.at)
             self._paint_card(painter, self.probe)
@@ -98,6 +112,17 @@ class CutOverlay(QWidget):
             if right[axis] ** 2 + up[axis] ** 2 > 0.02:
                 name = origin + way * (_AXIS_PX + _NAME_PX)
                 painter.drawText(QRectF(name.x() - 8, name.y() - 8, 16, 16), Qt.AlignmentFlag.AlignCenter, "XYZ"[axis])
+
+    def _paint_line(self, painter: QPainter, line: Line) -> None:
+        ratio = self.devicePixelRatioF()
+        places = self._camera.project(np.array(line), (self.width() * ratio, self.height() * ratio))[:, :2] / ratio
+        ends = [QPointF(x, y) for x, y in places.tolist()]
+        for colour, width in ((self._theme.canvas, 4.0), (self._theme.accent, 1.8)):
+            painter.setPen(QPen(colour, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+            painter.drawLine(ends[0], ends[1])
+        painter.setBrush(self._theme.accent)
+        for end in ends:
+            painter.drawEllipse(end, 3.0, 3.0)
 
     def _paint_cross(self, painter: QPainter, at: QPointF) -> None:
         for colour, width in ((self._theme.canvas, 4.0), (self._theme.accent, 1.6)):

@@ -58,7 +58,7 @@ def pick(picture: CutPicture, ray: Ray, section: Section | None = None) -> Hit |
     span = _span(picture, ray, section)
     if span is None:
         return None
-    cuts = _crossings(picture, ray, *span)
+    cuts = crossings(picture, ray, *span)
     middles = ray.origin + (cuts[:-1] + cuts[1:])[:, None] / 2 * ray.direction
     columns, rows = (
         np.clip(np.floor((middles[:, axis] - corner) / picture.pitch).astype(np.int64), 0, count - 1)
@@ -97,11 +97,11 @@ def _span(picture: CutPicture, ray: Ray, section: Section | None) -> tuple[float
     return (begin, end) if begin <= end else None
 
 
-def _crossings(picture: CutPicture, ray: Ray, begin: float, end: float) -> Floats:
+def crossings(picture: CutPicture, ray: Ray, begin: float, end: float) -> Floats:
     """Return where a ray crosses lines of the grid between two of its points, these included, in order."""
     found = [np.array([begin, end])]
     for axis, corner, count in ((0, picture.x0, picture.columns), (1, picture.y0, picture.rows)):
         if abs(ray.direction[axis]) > 1e-12:
-            lines = (corner + np.arange(1, count) * picture.pitch - ray.origin[axis]) / ray.direction[axis]
+            lines = (corner + np.arange(count + 1) * picture.pitch - ray.origin[axis]) / ray.direction[axis]
             found.append(lines[(lines > begin) & (lines < end)])
     return np.sort(np.concatenate(found))

@@ -6,6 +6,7 @@ import pytest
 from app.ui.cut.camera import Camera, Ray, StandardView
 from app.ui.cut.picking import Section, pick
 from app.ui.cut.picture import CutPicture
+from app.ui.cut.profile import profile
 
 SIZE = (640, 480)
 
@@ -111,3 +112,19 @@ def test_standard_views_look_along_the_axes():
     assert np.allclose(towards[StandardView.FRONT], (0, -1, 0))
     assert np.allclose(towards[StandardView.RIGHT], (1, 0, 0))
     assert np.allclose(np.abs(towards[StandardView.ISOMETRIC]), 3**-0.5)
+
+
+def test_a_profile_has_one_height_for_every_cell_that_its_line_crosses():
+    picture = rough()
+    row, length = 7, picture.columns * picture.pitch
+    y = picture.y0 + (row + 0.5) * picture.pitch
+    along = profile(picture, (picture.x0, y), (picture.x0 + length, y))
+    assert np.array_equal(along.heights[np.diff(along.borders) > 1e-9], picture.heights[row])
+    slanted = profile(picture, (-5.0, 1.0), (14.0, 16.0))
+    assert slanted.borders[-1] == pytest.approx(np.hypot(19.0, 15.0))
+    for at in np.linspace(0.01, 0.99, 40):
+        x, y = -5.0 + 19.0 * at, 1.0 + 15.0 * at
+        column, row = int(np.floor((x - picture.x0) / picture.pitch)), int(np.floor((y - picture.y0) / picture.pitch))
+        inside = 0 <= column < picture.columns and 0 <= row < picture.rows
+        piece = int(np.searchsorted(slanted.borders, at * slanted.borders[-1])) - 1
+        assert slanted.heights[piece] == (picture.heights[row, column] if inside else picture.floor)
