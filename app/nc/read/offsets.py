@@ -71,7 +71,8 @@ class Offsets:
     def set_local(self, axis: int, value: float) -> None:
         """Obey G52 for one axis."""
         if self.local_is_set_here:
-            self.set_here, self.set_here_on = replaced(self.set_here, axis, value), True
+            before = self.set_here if self.set_here_on else ZERO
+            self.set_here, self.set_here_on = replaced(before, axis, value), True
         else:
             self.local = replaced(self.local, axis, value)
 

@@ -58,6 +58,7 @@ def test_offsets_add_up() -> None:
 
 def test_local_offsets_of_linuxcnc_and_fanuc() -> None:
     assert ends(read("G92 X5\nG52 X10\nG0 X1\nM2\n")) == [(11, 0, 0)]
+    assert ends(read("G0 Y2\nG92 Y0\nG92.2\nG52 X1\nG0 X0 Y3\nM2\n"))[-1] == (1, 3, 0)
     assert ends(read("G92 X5.\nG52 X10.\nG0 X1.\nG52 X0.\nX1.\nM30\n", Dialect.FANUC)) == [(6, 0, 0), (-4, 0, 0)]
 
 
