@@ -72,6 +72,7 @@ class CutView(QWidget):
         self.painting = Painting(self)
         self._theme, self._shown = LIGHT, frozenset(int(look) for look in Look)
         self._fitted, self._drag, self._making = True, Drag.NONE, False
+        self._side, self._signs = Side.WHOLE, (1.0, 1.0)
         self._pressed, self._last, self._pivot = QPointF(), QPointF(), np.zeros(3)
         self.sentence = QLabel()
         self.sentence.setProperty("role", "muted")
@@ -348,12 +349,16 @@ class CutView(QWidget):
         self.painting.moved()
 
     def _on_section(self, side: Side, share: float) -> None:
-        """Cut the stock open across an axis; the part that the standard view looks from is taken away."""
+        """Cut the stock open across an axis; the part towards the eye is taken away, and stays so while the cut is turned."""
         self._place_legend()
+        if side is not self._side:
+            self._side, towards = side, self.camera.axes[2]
+            self._signs = (1.0 if towards[0] > 0 else -1.0, 1.0 if towards[1] > 0 else -1.0)
         if self.picture is None or side is Side.WHOLE:
             self.section = None
         else:
-            axis, sign = (0, 1.0) if side is Side.X else (1, -1.0)
+            axis = 0 if side is Side.X else 1
+            sign = self._signs[axis]
             low, high = self.picture.low[axis], self.picture.high[axis]
             normal = (sign, 0.0) if axis == 0 else (0.0, sign)
             self.section = Section(normal, sign * float(low + share * (high - low)))

@@ -8,7 +8,7 @@ from app.ui.cut.colouring import Inks, Rgb8
 from app.ui.cut.stage import CutLook, Rgb, Rgba
 from app.ui.theme import Theme
 
-_DEPTH = ((241, 233, 200), (142, 201, 180), (63, 143, 168), (52, 87, 143), (43, 42, 92))
+_DEPTH = ((241, 233, 200), (150, 205, 180), (84, 162, 182), (76, 116, 180), (92, 84, 158))
 _ORDER = ((59, 62, 145), (138, 79, 158), (204, 108, 139), (238, 159, 104), (246, 221, 128))
 
 

@@ -191,6 +191,9 @@ def test_a_section_opens_the_stock_and_the_probe_meets_its_face(qtbot, view):
     assert view.section.offset == -50.0
     hit = view.probe(QPointF(on_screen(view, (80.0, 50.0, -15.0))))
     assert hit.place == pytest.approx((80.0, 50.0, -15.0), abs=0.3)
+    qtbot.mouseClick(view.legend.side.buttons[Side.X], LEFT)
+    assert view.camera.axes[2, 0] < 0 and view.section.normal == (-1.0, 0.0)
+    qtbot.mouseClick(view.legend.side.buttons[Side.Y], LEFT)
     view.legend.slider.setValue(250)
     assert view.section.offset == -25.0
     qtbot.mouseClick(view.legend.side.buttons[Side.WHOLE], LEFT)
