@@ -17,7 +17,7 @@ from app.dexel.reach_kernels import SLACK
 from app.dexel.run_kernels import LANES, arc_run, ball_run, bull_run, cone_run, flat_run, level_run, taper_run
 from app.jit import kernel
 
-TILE = 128
+TILE = 256
 """Cells along a tile's side."""
 
 STRIDE = TILE + 2 * LANES
@@ -30,7 +30,6 @@ LOWEST_RISE = 1e-9
 """A move that rises less on a cutter's radius, mm, touches where a level one does."""
 
 _F = np.float32
-_ONE, _NONE = np.int32(1), np.int32(0)
 _TRIFLE = _F(1e-5)  # mm; a motion that lowers a cell by no more only rounds otherwise, so the cell stays its former owner's
 _ZERO, _NEVER, _FAR = _F(0.0), _F(math.inf), 1e18
 _SHAPE, _FRAME, _PLACE = "UniTuple(float64, 7)", "UniTuple(float64, 5)", "UniTuple(float64, 6)"
@@ -145,8 +144,11 @@ def cut_straight(heights, frame, shape, ends, span):
     for line in range(int(plan[0]), int(plan[1]) + 1):
         first, last = cells_in_line(frame, plan, float(line))
         if last >= first:
-            where = place_in_run(frame, plan, float(line), first)
-            straight_run(runs, heights, line * STRIDE + int(first), (int(last - first) + LANES) // LANES, where, numbers)
+            where, at, blocks = place_in_run(frame, plan, float(line), first), line * STRIDE + int(first), (int(last - first) + LANES) // LANES
+            if runs == BALL:  # nothing else runs as often
+                ball_run(heights, at, blocks, where, numbers[:6])
+            else:
+                straight_run(runs, heights, at, blocks, where, numbers)
 
 
 @kernel("void(float32[::1], int32[::1], float32[::1], float64[::1], int64, int64, int64)")
@@ -164,10 +166,8 @@ def settle(heights, owners, scratch, notes, at, blocks, owner):
     floor, slack = _F(notes[4]), _F(notes[5]) if owner < 0 else _ZERO
     taken, cells = 0.0, 0
     for block in range(blocks):
-        old, new, here = heights[at : at + LANES], scratch[LANES * block : LANES * (block + 1)], _NONE
+        new = scratch[LANES * block : LANES * (block + 1)]
         for k in range(LANES):
-            here += _ONE if old[k] > new[k] else _NONE
-        for k in range(LANES if here > 0 else 0):
             z = new[k] if new[k] > floor else floor
             depth = heights[at + k] - z
             if depth > slack:

@@ -130,8 +130,9 @@ def trim(workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter], op
          progress: Progress = NO_PROGRESS) -> Cut:  # fmt: skip
     """Cut a work piece.
 
-    Heights do not depend on the order of the motions, bit for bit, and are within 5e-6 mm (1 + slope of the surface) of exact for
-    heights up to 32 mm; beside a vertical wall a cell whose centre is on the wall may fall to either side.
+    Heights are within 5e-6 mm (1 + slope of the surface) of exact for heights up to 32 mm; beside a vertical wall a cell whose centre
+    is on the wall may fall to either side. They do not depend on the order of chains of motions, bit for bit, as long as there are
+    no more than BATCH pieces (breaking up a chain changes which cells are evaluated, and so the rounding).
 
     Args:
         workpiece: it is left as it is.

@@ -130,7 +130,7 @@ REDUCED = {"rough walk": walk(5, 400, 0.8, 1.0), "smooth walk": np.repeat(walk(6
 @pytest.mark.parametrize("cutter", CUTTERS)
 @pytest.mark.parametrize("name", REDUCED)
 def test_what_is_not_evaluated_is_not_missed(cutter: str, name: str) -> None:
-    piece, motions = box_piece(cells=150), polyline(REDUCED[name])
+    piece, motions = box_piece(cells=290), polyline(REDUCED[name])
     reduced = cut(piece, motions, CUTTERS[cutter]).heights
     assert differ(cut(piece, motions, CUTTERS[cutter], TrimOptions(trace=True)).heights, reduced) == 0
 
@@ -139,7 +139,7 @@ def test_what_is_not_evaluated_is_not_missed(cutter: str, name: str) -> None:
 def test_order_changes_no_bit_and_direction_next_to_nothing(cutter: str) -> None:
     places = walk(7, 60, 1.5, 0.6)
     start, end = places[:-1], places[1:]
-    piece, shuffle = box_piece(cells=200), np.random.default_rng(0).permutation(len(start))
+    piece, shuffle = box_piece(cells=300), np.random.default_rng(0).permutation(len(start))
     cutter_ = CUTTERS[cutter]
     inorder = cut(piece, motions_of(start, end), cutter_, TrimOptions(trace=True))
     shuffled = cut(piece, motions_of(start[shuffle], end[shuffle]), cutter_, TrimOptions(trace=True))
@@ -150,7 +150,7 @@ def test_order_changes_no_bit_and_direction_next_to_nothing(cutter: str) -> None
 
 def test_shuffled_chains_keep_every_bit() -> None:
     chains = [polyline(walk(seed, 30, 0.5, 0.5)) for seed in range(8)]
-    piece = box_piece(cells=200)
+    piece = box_piece(cells=300)
     for cutter in ("ball", "bull"):
         first = cut(piece, joined(chains), CUTTERS[cutter]).heights
         assert np.array_equal(first, cut(piece, joined(chains[::-1]), CUTTERS[cutter]).heights)
@@ -161,6 +161,6 @@ def test_splitting_changes_nothing(cutter: str) -> None:
     places = walk(11, 20, 3.0, 0.5)
     fractions = np.sort(np.random.default_rng(1).uniform(0, 1, 6))
     halves = [places[:1]] + [np.vstack([a + (b - a) * f for f in (*fractions, 1.0)]) for a, b in pairwise(places)]
-    piece = box_piece(cells=200)
+    piece = box_piece(cells=300)
     whole, split = (cut(piece, polyline(p), CUTTERS[cutter]).heights for p in (places, np.vstack(halves)))
     assert differ(whole, split) == 0

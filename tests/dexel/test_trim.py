@@ -114,7 +114,7 @@ def test_a_rapid_through_metal_is_found_placed_and_sized() -> None:
 def test_rapids_back_along_what_was_cut_meet_nothing(name: str) -> None:
     places = walk(31, 40, 1.0, 0.6)
     back = motions_of(places[::-1][:-1], places[::-1][1:], MotionKind.RAPID)
-    assert not cut(box_piece(cells=200), joined([polyline(places), back]), CUTTERS[name]).rapids
+    assert not cut(box_piece(cells=300), joined([polyline(places), back]), CUTTERS[name]).rapids
 
 
 @pytest.mark.parametrize("name", ["ball", "bull", "taper"])
@@ -144,9 +144,9 @@ def test_cells_of_a_micrometre() -> None:
 
 def test_many_pieces_are_cut_in_parts(monkeypatch: pytest.MonkeyPatch) -> None:
     motions = joined([polyline(walk(51, 80, 0.8, 0.5)), arc((5, 0, -3), (5, 0, -4), (0, 0, -3))])
-    whole = cut(box_piece(cells=200), motions, CUTTERS["ball"], TRACED)
+    whole = cut(box_piece(cells=300), motions, CUTTERS["ball"], TRACED)
     monkeypatch.setattr("app.dexel.trim.BATCH", 25)
-    parts = cut(box_piece(cells=200), motions, CUTTERS["ball"], TRACED)
+    parts = cut(box_piece(cells=300), motions, CUTTERS["ball"], TRACED)
     assert differ(whole.heights, parts.heights) == 0
     assert whole.owner is not None and parts.owner is not None
     assert np.mean(whole.owner != parts.owner) < 0.005
