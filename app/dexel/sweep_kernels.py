@@ -144,7 +144,8 @@ def cut_straight(heights, frame, shape, ends, span):
     for line in range(int(plan[0]), int(plan[1]) + 1):
         first, last = cells_in_line(frame, plan, float(line))
         if last >= first:
-            where, at, blocks = place_in_run(frame, plan, float(line), first), line * STRIDE + int(first), (int(last - first) + LANES) // LANES
+            where = place_in_run(frame, plan, float(line), first)
+            at, blocks = line * STRIDE + int(first), (int(last - first) + LANES) // LANES
             if runs == BALL:  # nothing else runs as often
                 ball_run(heights, at, blocks, where, numbers[:6])
             else:

@@ -9,6 +9,7 @@ import trimesh
 
 from app.dexel import workpiece
 from app.dexel.cutter import Cutter, cutter_of
+from app.dexel.heights_file import heights_files, read_heights
 from app.dexel.solid import SolidStock, read_solid
 from app.dexel.workpiece import BoxStock, Grid, HeightStock, ensure_memory
 from app.errors import InputError, ParameterError
@@ -149,3 +150,23 @@ def test_who_cuts_at_the_centre() -> None:
 def test_numbers_that_make_no_cutter(numbers: tuple[float, float, float]) -> None:
     with pytest.raises(ParameterError, match=r"cutter|corner"):
         Cutter(*numbers)
+
+
+def test_heights_come_back_from_their_files() -> None:
+    piece = workpiece.Workpiece(Grid(-1.5, 2.25, 0.1, 3, 5), np.linspace(-2, 0, 15, dtype=np.float32).reshape(3, 5), -7.0)
+    again = read_heights("left.npy", *heights_files(piece)).workpiece
+    assert (again.grid, again.floor) == (piece.grid, piece.floor)
+    assert np.array_equal(again.heights, piece.heights)
+
+
+GOOD = heights_files(workpiece.Workpiece(Grid(0, 0, 1, 2, 2), np.zeros((2, 2), np.float32), -1.0))
+
+
+BAD = [(b"", GOOD[1]), (GOOD[0], b"{}"), (GOOD[0], b"[1]"), (GOOD[0], b"no"), (GOOD[0][:-3], GOOD[1]),
+       (GOOD[0], b'{"x0": 0, "y0": 0, "pitch": -1}')]  # fmt: skip
+
+
+@pytest.mark.parametrize(("heights", "where"), BAD)
+def test_files_that_hold_no_heights(heights: bytes, where: bytes) -> None:
+    with pytest.raises(InputError, match=r"left\.npy.*--heights"):
+        read_heights("left.npy", heights, where)

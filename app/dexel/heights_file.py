@@ -1,0 +1,45 @@
+"""Fields of heights as files: NPY with the heights, JSON with where they lie."""
+
+from __future__ import annotations
+
+import io
+import json
+
+import numpy as np
+
+from app.dexel.workpiece import Grid, HeightStock, Workpiece
+from app.errors import InputError, ParameterError
+
+ENGINE = "cpu"
+
+
+def heights_files(workpiece: Workpiece) -> tuple[bytes, bytes]:
+    """Return the NPY file, float32 (rows, cols) with row 0 at the lowest Y, and its JSON file, lengths in mm."""
+    out, grid = io.BytesIO(), workpiece.grid
+    np.save(out, workpiece.heights)
+    where = {"x0": grid.x0, "y0": grid.y0, "pitch": grid.pitch, "floor": workpiece.floor, "engine": ENGINE}
+    return out.getvalue(), (json.dumps(where, indent=1) + "\n").encode()
+
+
+def read_heights(name: str, heights: bytes, where: bytes) -> HeightStock:
+    """Return what an earlier set-up has left.
+
+    Args:
+        name: of the NPY file, for errors.
+        heights: the NPY file. where: the JSON file beside it; without a floor the lowest height is the floor.
+
+    Raises:
+        InputError: one of them is not what it should be.
+    """
+    try:
+        field = np.load(io.BytesIO(heights), allow_pickle=False)
+        told = json.loads(where)
+        place = [float(told[key]) for key in ("x0", "y0", "pitch")]
+        if field.ndim != 2 or not np.issubdtype(field.dtype, np.floating) or not field.size or not np.isfinite(field).all():
+            raise ValueError("the heights are no table of finite numbers")
+        floor = float(told.get("floor", field.min()))
+        grid = Grid(place[0], place[1], place[2], *field.shape)
+    except (ValueError, KeyError, TypeError, AttributeError, EOFError, OSError, ParameterError) as error:
+        raise InputError(f"{name}: this is no field of heights with x0, y0 and pitch in its JSON file ({error}); "
+                         "write it again with --heights.") from error
+    return HeightStock(Workpiece(grid, np.ascontiguousarray(field, np.float32), floor))
