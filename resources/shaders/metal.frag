@@ -35,8 +35,8 @@ uniform sampler2D heights;
 ivec2 foot_of_wall(ivec2 here) {
     ivec2 found = here;
     float lowest = texelFetch(heights, here, 0).r;
-    for (int k = 0; k < 4; ++k) {
-        ivec2 near = clamp(here + ivec2((k & 1) * (k - 2), (1 - (k & 1)) * (k - 1)), ivec2(0), last_cell);
+    for (int k = 0; k < 9; ++k) {
+        ivec2 near = clamp(here + ivec2(k % 3, k / 3) - 1, ivec2(0), last_cell);
         float z = texelFetch(heights, near, 0).r;
         if (z < lowest) { lowest = z; found = near; }
     }
@@ -49,7 +49,7 @@ void main() {
     vec2 aside = root * abs(root);
     vec3 normal = vec3(aside, sqrt(max(1.0 - dot(aside, aside), 0.0)));
     ivec2 here = clamp(ivec2(cell), ivec2(0), last_cell);
-    if (normal.z < 0.5) here = foot_of_wall(here);
+    if (normal.z < 0.85) here = foot_of_wall(here);
     int number = int(texelFetch(values, here, 0).r * 255.0 + 0.5);
     vec3 base = texelFetch(palette, ivec2(number, 0), 0).rgb;
     if (number == 254 && striped(8.0, 2.5)) base = hatch;

@@ -306,14 +306,15 @@ class CutView(QWidget):
         self.surface.show()
 
     def _fitted_camera(self, camera: Camera | None = None) -> Camera:
-        """Return the camera that shows the whole stock beside the legend."""
+        """Return the camera that shows the whole stock beside the legend and above the profile."""
         if self.picture is None:
             return self.camera
         width, height = pixel_size(self)
         covered = (self.legend.width() + _EDGE_PX) * self.devicePixelRatioF()
         free = width - covered if covered < 0.45 * width else width
-        fitted = (camera or self.camera).fitted(self.picture.low, self.picture.high, (free, height))
-        return fitted.panned((free - width) / 2, 0.0)
+        below = HEIGHT * self.devicePixelRatioF() if self.profile.isVisible() and height > 2 * HEIGHT else 0.0
+        fitted = (camera or self.camera).fitted(self.picture.low, self.picture.high, (free, height - below))
+        return fitted.panned((free - width) / 2, -below / 2)
 
     def _look(self, camera: Camera) -> None:
         self.camera = camera
