@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,6 +76,11 @@ class Moves:
     def columns(self) -> dict[str, NDArray[np.generic]]:
         """Return every column by name."""
         return {name: getattr(self, name) for name in self.__dataclass_fields__}
+
+    def part(self, first: int, stop: int) -> Moves:
+        """Return the moves from `first` up to `stop`, which is left out."""
+        columns: dict[str, Any] = {name: column[first:stop] for name, column in self.columns().items()}
+        return Moves(**columns)
 
     @property
     def start(self) -> Floats:

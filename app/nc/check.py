@@ -120,7 +120,7 @@ def check(data: bytes, file: NcFile, meant: Meant, progress: Progress = NO_PROGR
     options = ReadOptions(dialect=post.dialect, tool_table=_tool_table(job))
     read = read_program(data, options, progress.part(0.0, 0.5))
     stop = file.first + len(file.nc.lines)
-    moves = Moves(**{name: column[file.first:stop] for name, column in program.moves.columns().items()})  # type: ignore[arg-type]
+    moves = program.moves.part(file.first, stop)
     origin = work_origin(job, stock_box(job, program.regions))
     step = writing_tolerance(job, post)
     compared = _Compared(read, moves, MeantPath.of(moves, origin), file, Expected.of(job, post), job.safe_z - origin[2], step)

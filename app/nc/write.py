@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from app.errors import ParameterError
 from app.model.job import Job
-from app.model.moves import MoveKind, Moves, Program
+from app.model.moves import MoveKind, Program
 from app.model.part import Units
 from app.model.stock_box import stock_box, work_origin
 from app.nc.arcs import ArcRules, written_pieces
@@ -78,7 +78,7 @@ def write_files(program: Program, job: Job, post: Post, progress: Progress = NO_
     starts = [0, *(np.flatnonzero(np.diff(tools)) + 1).tolist()] if post.file_per_tool else [0]
     files: list[NcFile] = []
     for number, (first, stop) in enumerate(zip(starts, [*starts[1:], len(tools)], strict=True), start=1):
-        moves = Moves(**{name: column[first:stop] for name, column in program.moves.columns().items()})  # type: ignore[arg-type]
+        moves = program.moves.part(first, stop)
         share = progress.part(first / len(tools), stop / len(tools))
         nc = _written(replace(program, moves=moves), job, post, (number, len(starts)), share)
         files.append(NcFile(f"_{number}_T{tools[first]}" if len(starts) > 1 else "", nc, first))

@@ -40,7 +40,7 @@ def test_refused(case: str) -> None:
     path, sentence = REFUSED[case]
     moves = path.moves() if path else Path().rapid(0, 0, 5.0).moves()
     if path is None:
-        moves = type(moves)(**{name: column[:0] for name, column in moves.columns().items()})
+        moves = moves.part(0, 0)
     with pytest.raises(ParameterError, match=sentence):
         check_sequence(moves, job())
 

@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 from app.ui.computation import State
-from tests.ui.test_window import WAIT_MS, computed, wiring  # noqa: F401 - fixtures
+from tests.ui.conftest import WAIT_MS
 
 
-def test_a_control_without_tool_changes_gets_a_file_for_each_tool_or_none(qtbot, computed, tmp_path):  # noqa: F811
+def test_a_control_without_tool_changes_gets_a_file_for_each_tool_or_none(qtbot, computed, tmp_path):
     document, exporting = computed.document, computed.files.exporting
     document.change_job("post", replace(document.job, post="grbl"))
     (tmp_path / "part_2_T2.nc").mkdir()
@@ -23,7 +23,7 @@ def test_a_control_without_tool_changes_gets_a_file_for_each_tool_or_none(qtbot,
     assert "part_1_T1.nc, part_2_T2.nc are written." in computed.window_.status.message.toolTip()
 
 
-def test_the_frame_is_computed_and_written(qtbot, computed, tmp_path):  # noqa: F811
+def test_the_frame_is_computed_and_written(qtbot, computed, tmp_path):
     document = computed.document
     document.change_job("safe Z", replace(document.job, safe_z=7.5))
     asked = []

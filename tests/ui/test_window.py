@@ -15,37 +15,14 @@ from app.ui.files import FIRST_START
 from app.ui.memory import fit_onto
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.samples import Sample
-from app.ui.start import build
 from app.ui.theme import DARK, LIGHT
 from app.ui.views import View
+from tests.ui.conftest import WAIT_MS
 
-WAIT_MS = 20_000
 NO_UNITS = (
     "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n0\n0\nENDSEC\n"
     "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n0.0\n20\n0.0\n40\n20.0\n0\nENDSEC\n0\nEOF\n"
 )
-
-
-@pytest.fixture
-def wiring(qtbot):
-    window, made = build()
-    window.resize(1280, 800)
-    with qtbot.waitActive(window):
-        window.show()
-        window.activateWindow()
-    yield made
-    window.worker.finish(20.0)
-    made.document.load(made.document.job)
-    window.close()
-    window.deleteLater()
-
-
-@pytest.fixture
-def computed(qtbot, wiring):
-    """The sample part, opened and computed."""
-    wiring.files.open_sample()
-    qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=WAIT_MS)
-    return wiring
 
 
 def press(qtbot, wiring, key, modifier=Qt.KeyboardModifier.NoModifier):

@@ -107,7 +107,7 @@ class Control:
     def change(self, **values: object) -> None:
         """Change what is in force; what stays as it is costs little."""
         if any(getattr(self.modal, name) != value for name, value in values.items()):
-            self.modal = replace(self.modal, **values)  # type: ignore[arg-type]
+            self.modal = replace(self.modal, **values)  # type: ignore[arg-type]  # which type belongs to which name mypy cannot tell
 
     def offsets_changed(self) -> None:
         """Take the offsets into what is in force."""

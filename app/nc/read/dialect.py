@@ -22,7 +22,6 @@ class Habits:
 
     Attributes:
         title: the control's name for people.
-        semicolon_comments: a semicolon begins a comment that runs to the end of the line.
         ngc_flow: O words with sub, if, while, repeat; named parameters.
         fanuc_flow: O words are program numbers; IF [...] GOTO n, WHILE [...] DO m, M98 P calls.
         least_mm, least_inch: what a length without a decimal point counts in; 1 = the unit itself.
@@ -33,7 +32,6 @@ class Habits:
     """
 
     title: str
-    semicolon_comments: bool = True
     ngc_flow: bool = True
     fanuc_flow: bool = False
     least_mm: float = 1.0
@@ -59,11 +57,11 @@ HABITS: dict[Dialect, Habits] = {
     Dialect.LINUXCNC: Habits("LinuxCNC", missing=_LINUXCNC_LACKS),
     Dialect.GRBL: Habits("grbl", ngc_flow=False, tool_changes=False, splines="", missing=_GRBL_LACKS),
     Dialect.FANUC: Habits(
-        "Fanuc", semicolon_comments=False, ngc_flow=False, fanuc_flow=True, least_mm=0.001, least_inch=0.0001, dwell_unit_s=0.001,
+        "Fanuc", ngc_flow=False, fanuc_flow=True, least_mm=0.001, least_inch=0.0001, dwell_unit_s=0.001,
         length_from_tool=False, splines="G6.2",
     ),
     Dialect.HAAS: Habits(
-        "Haas", semicolon_comments=False, ngc_flow=False, fanuc_flow=True, least_mm=0.001, least_inch=0.0001, dwell_unit_s=0.001,
+        "Haas", ngc_flow=False, fanuc_flow=True, least_mm=0.001, least_inch=0.0001, dwell_unit_s=0.001,
         length_from_tool=False, splines="",
     ),
     Dialect.MACH3: Habits("Mach3", length_from_tool=False, splines="", ngc_flow=False, fanuc_flow=True),

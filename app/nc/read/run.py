@@ -58,7 +58,7 @@ class Run:
         self._habits = self._control.habits
         self._flow = Flow(Places(self._text), self._control)
         self._bytes = np.frombuffer(self._text.data, np.uint8)
-        self._plain = Plain(semicolon_comments=True)
+        self._plain = Plain()
         self._kept: dict[int, Parsed | str] = {}
         self._problems: list[Problem] = []
         self._furthest, self._told = -1, 0

@@ -5,22 +5,13 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.ui.computation import State
-from app.ui.start import build
 from app.ui.views import View
 from app.ui.wiring import Wiring
 
 
-def window(qtbot: QtBot) -> Wiring:
-    shown, wiring = build()
-    qtbot.addWidget(shown)
-    shown.show()
+def test_the_sample_is_cut_and_forgotten_with_its_drawing(qtbot: QtBot, wiring: Wiring) -> None:
     wiring.files.open_sample()
     qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=60_000)
-    return wiring
-
-
-def test_the_sample_is_cut_and_forgotten_with_its_drawing(qtbot: QtBot) -> None:
-    wiring = window(qtbot)
     view = wiring.window_.views.cut
     qtbot.waitUntil(lambda: view.picture is not None, timeout=60_000)
     picture = view.picture

@@ -1,24 +1,9 @@
-"""A window, a small program in it, and the sample computed, for the tests of the NC view."""
+"""A small program in the window, and the sample computed, for the tests of the NC view."""
 
 import pytest
 
 from app.ui.computation import State
-from app.ui.start import build
 from tests.ui.nc.opened import SMALL, WAIT_MS, nc_of, open_file
-
-
-@pytest.fixture
-def wiring(qtbot):
-    window, made = build()
-    window.resize(1280, 800)
-    with qtbot.waitActive(window):
-        window.show()
-        window.activateWindow()
-    yield made
-    window.worker.finish(20.0)
-    made.document.load(made.document.job)
-    window.close()
-    window.deleteLater()
 
 
 @pytest.fixture
