@@ -11,7 +11,8 @@ Comments that begin with `hitofude:` hold one `key=value` each, in this order an
     units=mm|in                                     of the program's words
     origin_mm=X,Y,Z                                 the work origin; part = program + origin
     stock_mm=X0,Y0,Z0,X1,Y1,Z1                      the stock's box
-    tool=NUMBER,KIND,DIAMETER                       one a tool, in the order of use
+    tool=NUMBER,KIND,DIAMETER                       one a tool, in the order of use; ,CORNER,TIP,ANGLE behind it (radius of the
+                                                    corner, diameter of the tip, full angle in degrees) where it has one of them
     operation=KIND,TOOL,DEPTH,STOCK_TO_LEAVE        one an operation that cuts
     path_tolerance_mm=T                             proven: the written path against the exact offset of the drawing
     blend_mm=P                                      how far the control may leave the written path
@@ -23,6 +24,7 @@ tell of that file.
 
 from __future__ import annotations
 
+import math
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -138,13 +140,19 @@ def _notes(heading: Heading) -> Iterator[str]:
     yield f"origin_mm={_numbers(*work_origin(job, box))}"
     yield f"stock_mm={_numbers(box.x0, box.y0, box.z0, box.x1, box.y1, box.z1)}"
     for tool in _tools(heading):
-        yield f"tool={tool.number},{tool.kind.value},{_numbers(tool.diameter)}"
+        yield f"tool={tool.number},{tool.kind.value},{_numbers(tool.diameter, *_shape(tool))}"
     for operation, cuts in _operations(heading):
         if cuts:
             kind = "pocket" if isinstance(operation, PocketOperation) else "contour"
             yield f"operation={kind},{operation.cut.tool},{_numbers(operation.cut.depth, operation.cut.stock_to_leave)}"
     yield f"path_tolerance_mm={_numbers(_path_tolerance(heading))}"
     yield f"blend_mm={_numbers(heading.blend_mm)}"
+
+
+def _shape(tool: Tool) -> tuple[float, ...]:
+    """Return corner radius and tip diameter, mm, and full tip angle, degrees, of a tool that has one of them."""
+    shape = (tool.corner_radius, tool.tip_diameter, math.degrees(tool.tip_angle))
+    return shape if any(shape) else ()
 
 
 def _path_tolerance(heading: Heading) -> float:

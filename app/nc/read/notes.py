@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 
+from app.nc.read.notes_own import MARK, Notes, own_notes
 from app.nc.read.notes_stock import Box, bounds_of, box_of
 from app.nc.read.notes_tool import tool_of
 from app.nc.read.notes_words import MOST_BYTES, Comments, ProgramUnits
@@ -26,10 +27,10 @@ _TOGETHER = 10
 _BOUNDS_AROUND = 200
 
 
-def notes(data: bytes) -> tuple[tuple[ToolNote, ...], StockNote | None]:
+def notes(data: bytes) -> Notes:
     """Return the tools and the stock that comments tell of, in the order of the text.
 
-    Our own header is believed alone; else what CAM systems and people write: "(T1 D=6. CR=0. - ZMIN=-5. - flat end mill)",
+    Our own header is believed alone (`notes_own`); else what CAM systems and people write: "(T1 D=6. CR=0. - ZMIN=-5. - flat end mill)",
     "(TOOL 2 - 6MM BALL ENDMILL)", ";tool_radius = 3.0", '(Assumes 4"x4"x2" finished stock)'. A comment that names no number
     belongs to the T word beside or below it. Lengths without a unit are in the units of the program near them.
 
@@ -38,43 +39,12 @@ def notes(data: bytes) -> tuple[tuple[ToolNote, ...], StockNote | None]:
     """
     text = Text(data[:MOST_BYTES])
     comments = Comments(text.data, text.data.lower(), text.encoding)
-    if comments.lower.find(b"hitofude:") >= 0:
-        return _own_tools(comments), _own_stock(comments)
+    if comments.lower.find(MARK) >= 0:
+        return own_notes(comments)
     if not any(mark in comments.data for mark in (b"(", b";")):
-        return (), None
+        return Notes()
     units = ProgramUnits(comments)
-    return _tools(comments, units), _stock(comments, units)
-
-
-def _own_values(comments: Comments, key: str) -> Iterator[tuple[int, list[str]]]:
-    """Yield the line and the values of a key of our own header."""
-    for at, text in comments.texts((b"hitofude:",)):
-        name, _, values = text.lower().strip().removeprefix("hitofude:").strip().partition("=")
-        if name == key:
-            yield comments.line(at), values.split(",")
-
-
-def _own_tools(comments: Comments) -> tuple[ToolNote, ...]:
-    found = ((line, _floats(values[::2]), values) for line, values in _own_values(comments, "tool") if len(values) == 3)
-    return tuple(ToolNote(int(numbers[0]), values[1], numbers[1], line=line) for line, numbers, values in found if len(numbers) == 2)
-
-
-def _own_stock(comments: Comments) -> StockNote | None:
-    """Return the stock less the work origin, which is in the coordinates of the part too."""
-    origin = next((_floats(values) for _, values in _own_values(comments, "origin_mm")), [])
-    origin = origin if len(origin) == 3 else [0.0] * 3
-    for line, values in _own_values(comments, "stock_mm"):
-        corners = _floats(values)
-        if len(corners) == 6:
-            program = [corner - origin[k % 3] for k, corner in enumerate(corners)]
-            return Box(low=program[:3], high=program[3:]).note(line)
-    return None
-
-
-def _floats(values: list[str]) -> list[float]:
-    """Return plain numbers; none at all where one of the values is not."""
-    plain = [value.strip() for value in values]
-    return [float(value) for value in plain] if all(re.fullmatch(r"-?\d{1,9}(\.\d{1,9})?", value) for value in plain) else []
+    return Notes(_tools(comments, units), _stock(comments, units))
 
 
 def _tools(comments: Comments, units: ProgramUnits) -> tuple[ToolNote, ...]:

@@ -122,9 +122,10 @@ class ToolNote:
 
     Attributes:
         number: T number, 0 where the comment names none and no T word was near.
-        kind: "flat", "ball", "bull", "v", "drill", or "" where it is not told.
+        kind: "flat", "ball", "bull", "v", "drill", "taper", or "" where it is not told.
         diameter, corner_radius: mm, 0 = not told. angle: full angle of the tip, radians, 0 = not told.
         line: 1-based line of the comment.
+        tip_diameter: mm, 0 = not told.
     """
 
     number: int
@@ -133,6 +134,7 @@ class ToolNote:
     corner_radius: float = 0.0
     angle: float = 0.0
     line: int = 0
+    tip_diameter: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +153,43 @@ class StockNote:
     line: int = 0
 
 
+@dataclass(frozen=True, slots=True)
+class OperationNote:
+    """An operation as the header of our own tells of it.
+
+    Attributes:
+        kind: "pocket" or "contour".
+        tool: T number.
+        depth, leave: from the stock's top down to the floor, and what is left on walls, mm.
+    """
+
+    kind: str
+    tool: int
+    depth: float
+    leave: float
+
+
+@dataclass(frozen=True, slots=True)
+class HeaderNote:
+    """What the header of our own tells beside tools and stock (`app.nc.header`); None or nothing where it does not.
+
+    Attributes:
+        origin: the program's zero in the coordinates of the drawing, mm.
+        operations: in their order.
+        drawing_units: of the drawing.
+        layers: that were machined; empty = all visible ones. Controls that write capitals alone write these so too.
+        join_tolerance: within which loose ends were joined, mm.
+        path_tolerance: how far the written path may be from the exact one, mm.
+    """
+
+    origin: tuple[float, float, float] | None = None
+    operations: tuple[OperationNote, ...] = ()
+    drawing_units: Units | None = None
+    layers: tuple[str, ...] = ()
+    join_tolerance: float | None = None
+    path_tolerance: float | None = None
+
+
 @dataclass(frozen=True, eq=False)
 class NcProgram:
     """A program as the control would run it, up to its end or to the first error.
@@ -164,6 +203,7 @@ class NcProgram:
         problems: in the order of the text's running; at most one error, the last one.
         tools, stock: what comments say.
         line_count: lines of the text.
+        header: what the header of our own says beside that; None in any other program.
     """
 
     motions: Motions
@@ -174,6 +214,7 @@ class NcProgram:
     tools: tuple[ToolNote, ...] = ()
     stock: StockNote | None = None
     line_count: int = 0
+    header: HeaderNote | None = None
 
     @property
     def error(self) -> Problem | None:

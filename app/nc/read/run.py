@@ -102,12 +102,12 @@ class Run:
         if control.compensation is not None:
             control.compensation.flush(control.columns)
         warnings = [Problem(line, 0, letter.upper(), text, Severity.WARNING) for text, (letter, line) in control.warnings.items()]
-        tools, stock = notes(self._text.data)
+        told = notes(self._text.data)
         known = [row if row >= 0 else control.columns.count for row in control.known]
         motions = control.columns.motions(control.splines, (known[0], known[1], known[2]))
         return NcProgram(
-            motions, control.states, tuple(control.events), tuple(control.homeward), (*warnings, *self._problems), tools, stock,
-            self._text.line_count,
+            motions, control.states, tuple(control.events), tuple(control.homeward), (*warnings, *self._problems), told.tools, told.stock,
+            self._text.line_count, told.header,
         )  # fmt: skip
 
     def _miss_end(self) -> None:

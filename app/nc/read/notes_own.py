@@ -1,0 +1,109 @@
+"""What the header of our own programs tells (`app.nc.header`): a key and its values in each comment."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from app.model.part import Units
+from app.nc.read.notes_stock import Box
+from app.nc.read.notes_words import Comments
+from app.nc.read.program import HeaderNote, OperationNote, StockNote, ToolNote
+
+MARK, MARK_ON = b"hitofude:", b"hitofude+"
+"""What the comments of the header begin with, and those that go on with the one before."""
+
+_SPELLED = re.compile(r"\+([0-9A-F]{1,6})\+", re.IGNORECASE)
+_KINDS = ("pocket", "contour")
+
+Values = tuple[int, list[str]]
+"""1-based line of a comment, and its values."""
+
+
+class Notes(NamedTuple):
+    """What comments tell: tools in the order of the text, the stock, and the header where it is our own."""
+
+    tools: tuple[ToolNote, ...] = ()
+    stock: StockNote | None = None
+    header: HeaderNote | None = None
+
+
+def own_notes(comments: Comments) -> Notes:
+    """Return what a program with our own header tells; values that are not as they are written are passed over."""
+    told: dict[str, list[Values]] = {}
+    for key, values in _told(comments):
+        told.setdefault(key, []).append(values)
+    origin = next((triple for _, values in told.get("origin_mm", []) if (triple := _triple(values)) is not None), None)
+    header = HeaderNote(
+        origin, tuple(_operations(told.get("operation", []))), _units(told.get("drawing_units", [])),
+        tuple(_name(values) for _, values in told.get("layer", [])),
+        _first(told.get("join_tolerance_mm", [])), _first(told.get("path_tolerance_mm", [])),
+    )  # fmt: skip
+    return Notes(tuple(_tools(told.get("tool", []))), _stock(told.get("stock_mm", []), origin or (0.0, 0.0, 0.0)), header)
+
+
+def _told(comments: Comments) -> Iterator[tuple[str, Values]]:
+    """Yield every key in lower case, with its line and its values, comments that go on with another put behind it."""
+    whole: list[tuple[int, str]] = []
+    for at, comment in sorted(comments.texts((MARK, MARK_ON))):
+        mark, text = comment.strip()[: len(MARK)].lower().encode("ascii", "replace"), comment.strip()[len(MARK) :]
+        if mark == MARK_ON and whole:
+            whole[-1] = (whole[-1][0], whole[-1][1] + text)
+        elif mark == MARK:
+            whole.append((comments.line(at), text))
+    for line, text in whole:
+        name, _, values = text.partition("=")
+        yield name.strip().lower(), (line, values.split(","))
+
+
+def _tools(told: list[Values]) -> Iterator[ToolNote]:
+    """Yield tools: number, kind, diameter, and of some corner radius, tip diameter and tip angle in degrees."""
+    for line, values in told:
+        numbers = _floats([*values[:1], *values[2:]])
+        if len(numbers) in (2, 5):
+            corner, tip, angle = numbers[2:] or [0.0] * 3
+            yield ToolNote(int(numbers[0]), values[1].strip().lower(), numbers[1], corner, math.radians(angle), line, tip)
+
+
+def _stock(told: list[Values], origin: tuple[float, float, float]) -> StockNote | None:
+    """Return the stock less the work origin, which is in the coordinates of the part too."""
+    for line, values in told:
+        corners = _floats(values)
+        if len(corners) == 6:
+            program = [corner - origin[k % 3] for k, corner in enumerate(corners)]
+            return Box(low=program[:3], high=program[3:]).note(line)
+    return None
+
+
+def _operations(told: list[Values]) -> Iterator[OperationNote]:
+    for _, values in told:
+        kind, numbers = values[0].strip().lower(), _floats(values[1:])
+        if kind in _KINDS and len(numbers) == 3:
+            yield OperationNote(kind, int(numbers[0]), numbers[1], numbers[2])
+
+
+def _units(told: list[Values]) -> Units | None:
+    names = [values[0].strip().upper() for _, values in told]
+    return next((Units[name] for name in names if name in Units.__members__), None)
+
+
+def _triple(values: list[str]) -> tuple[float, float, float] | None:
+    numbers = _floats(values)
+    return (numbers[0], numbers[1], numbers[2]) if len(numbers) == 3 else None
+
+
+def _first(told: list[Values]) -> float | None:
+    return next((numbers[0] for _, values in told if len(numbers := _floats(values)) == 1), None)
+
+
+def _name(values: list[str]) -> str:
+    """Return a name as it was before it was spelled in safe characters."""
+    return _SPELLED.sub(lambda match: chr(min(int(match[1], 16), 0x10FFFF)), ",".join(values).strip())
+
+
+def _floats(values: list[str]) -> list[float]:
+    """Return plain numbers; none at all where one of the values is not."""
+    plain = [value.strip() for value in values]
+    return [float(value) for value in plain] if all(re.fullmatch(r"-?\d{1,9}(\.\d{1,9})?", value) for value in plain) else []

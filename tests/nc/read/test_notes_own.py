@@ -1,0 +1,66 @@
+"""The header that `make` writes, read again: everything that a cut needs, in every control's kind of comment."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from app.model.job import Job, OriginXY, OriginZ
+from app.model.part import Units
+from app.model.tool import Tool, ToolKind
+from app.nc.posts import load_post, post_names
+from app.nc.read.notes import notes
+from app.nc.read.options import ReadOptions
+from app.nc.read.program import HeaderNote, OperationNote, ToolNote
+from app.nc.read.reader import read_program
+from app.nc.write import write_files
+from tests.nc.programs import job, two_tools
+
+BULL = Tool(1, 6.0, ToolKind.BULL, corner_radius=0.5)
+TAPER = Tool(2, 3.0, ToolKind.TAPER, tip_angle=math.radians(7.5), tip_diameter=0.4)
+LAYERS = ("Außen, 1/2+ x", "long " * 25 + "end")
+
+
+def shaped() -> Job:
+    return replace(job(), tools=(BULL, TAPER), layer_names=LAYERS, join_tolerance=0.02, origin_xy=OriginXY.LOWER_LEFT, origin_z=OriginZ.BOTTOM)
+
+
+@pytest.mark.parametrize("name", post_names())
+def test_what_every_post_writes_is_read_again(name: str) -> None:
+    post = load_post(name)
+    read = [read_program(file.nc.text.encode(), ReadOptions(post.dialect)) for file in write_files(two_tools().program(), shaped(), post)]
+    told = [(note.number, note.kind, note.diameter, note.corner_radius, round(note.angle, 9), note.tip_diameter)
+            for program in read for note in program.tools]  # fmt: skip
+    assert told == [(1, "bull", 6.0, 0.5, 0.0, 0.0), (2, "taper", 3.0, 0.0, round(TAPER.tip_angle, 9), 0.4)]
+    assert [note for program in read if program.header for note in program.header.operations] == [
+        OperationNote("pocket", 1, 2.0, 0.0), OperationNote("contour", 2, 2.0, 0.0)]  # fmt: skip
+    for program in read:
+        assert program.header is not None
+        assert program.stock is not None
+        assert program.stock.low == (0.0, 0.0, 0.0)
+        assert program.header.origin == tuple(-size for size in (2.0, 2.0, 8.0))
+        assert (program.header.drawing_units, program.header.join_tolerance) == (Units.MM, 0.02)
+        assert [layer.casefold() for layer in program.header.layers] == [layer.casefold() for layer in LAYERS]
+        assert 0.001 <= (program.header.path_tolerance or 0.0) < 0.01
+
+
+@pytest.mark.parametrize("text", [
+    "(hitofude: tool=4,bull,8,1.5,0,0)", "( Hitofude: tool = 4, bull, 8, 1.5, 0, 0 )", "; HITOFUDE: TOOL=4,BULL,8,1.5,0,0",
+    "(hitofude: tool=4,bu)\n(hitofude+ll,8,1.5,0,0)", "(hitofude: tool=4,bull,8,1.5,0)\n(hitofude: tool=4,bull,8,1.5,0,0)",
+])  # fmt: skip
+def test_a_tool_with_its_shape(text: str) -> None:
+    (tool,) = notes(f"G21\n{text}\n".encode()).tools
+    assert replace(tool, line=0) == ToolNote(4, "bull", 8.0, 1.5)
+
+
+@pytest.mark.parametrize("text", [
+    "operation=drill,1,2,0", "operation=pocket,1,2", "operation=pocket", "origin_mm=1,2", "origin_mm=1,2,x", "drawing_units=yards",
+    "join_tolerance_mm=", "path_tolerance_mm=1,2", "nonsense=1", "",
+])  # fmt: skip
+def test_what_is_not_as_it_is_written_is_passed_over(text: str) -> None:
+    assert notes(f"(hitofude: {text})\n".encode()) == ((), None, HeaderNote())
+
+
+def test_another_program_has_no_header() -> None:
+    assert notes(b"(made by hand, not by hitofude)\nG0 X1\n").header is None
+    assert notes(b"(hitofude+tool=1,flat,6)\n") == ((), None, None)
