@@ -22,7 +22,8 @@ LAYERS = ("Außen, 1/2+ x", "long " * 25 + "end")
 
 
 def shaped() -> Job:
-    return replace(job(), tools=(BULL, TAPER), layer_names=LAYERS, join_tolerance=0.02, origin_xy=OriginXY.LOWER_LEFT, origin_z=OriginZ.BOTTOM)
+    origin = {"origin_xy": OriginXY.LOWER_LEFT, "origin_z": OriginZ.BOTTOM}
+    return job(tools=(BULL, TAPER), layer_names=LAYERS, join_tolerance=0.02, **origin)
 
 
 @pytest.mark.parametrize("name", post_names())
