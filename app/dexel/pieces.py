@@ -49,10 +49,11 @@ class Pieces:
 class Splitter:
     """The pieces of motions, any part of them at a time."""
 
-    def __init__(self, motions: Motions) -> None:
+    def __init__(self, motions: Motions, arcs_stay: bool = True) -> None:
+        """Prepare to split; with `arcs_stay` False level arcs become chords too."""
         self._motions = motions
         self._arcs = arc_paths(motions)
-        self._level = _is_level(motions, self._arcs)
+        self._level = _is_level(motions, self._arcs) & arcs_stay
         self._turns = _arc_counts(self._arcs, self._level)
         self.counts = np.ones(len(motions), np.int64)
         """How many pieces each motion has."""
@@ -70,24 +71,31 @@ class Splitter:
             return Pieces(start, end, rows, np.full(last - first, -1, np.int32), np.zeros((0, 7)))
         at = np.cumsum(counts) - counts
         start, end, rows = np.repeat(start, counts, axis=0), np.repeat(end, counts, axis=0), np.repeat(rows, counts)
-        arc, tables = np.full(len(rows), -1, np.int32), [np.zeros((0, 7))]
-        index = {int(row): k for k, row in enumerate(self._arcs.rows)}
-        for row in curved:
+        mine = slice(*np.searchsorted(self._arcs.rows, [first, last]))
+        level = np.flatnonzero(self._level[mine]) + mine.start
+        arc, own = np.full(len(rows), -1, np.int32), self._arcs.rows[level] - first
+        places = np.repeat(at[own], counts[own]) + _counted(counts[own])
+        start[places], end[places], table = _level_arcs(self._arcs, np.repeat(level, counts[own]), counts[own])
+        arc[places] = np.arange(len(places))
+        for row in np.setdiff1d(curved, own):
             part = slice(int(at[row]), int(at[row] + counts[row]))
-            if first + int(row) in motions.splines:
-                places = spline_points(motions.splines[first + int(row)], int(counts[row]) + 1)
-                start[part], end[part] = places[:-1], places[1:]
-                continue
-            k = index[first + int(row)]
-            if self._level[k]:
-                arc[part] = sum(len(table) for table in tables) + np.arange(counts[row])
-                start[part], end[part], table = _level_arcs(self._arcs, k, int(counts[row]))
-                tables.append(table)
-            else:
-                places = _places(self._arcs, k, np.linspace(0.0, 1.0, int(counts[row]) + 1))
-                places[0], places[-1] = motions.start[first + row], motions.end[first + row]
-                start[part], end[part] = places[:-1], places[1:]
-        return Pieces(start, end, rows, arc, np.concatenate(tables))
+            points = self._points(first + int(row), int(counts[row]))
+            start[part], end[part] = points[:-1], points[1:]
+        return Pieces(start, end, rows, arc, table)
+
+    def _points(self, row: int, count: int) -> Floats:
+        """Return the ends of the chords of a motion that is no level arc."""
+        motions = self._motions
+        if row in motions.splines:
+            return spline_points(motions.splines[row], count + 1)
+        points = _places(self._arcs, int(np.searchsorted(self._arcs.rows, row)), np.linspace(0.0, 1.0, count + 1))
+        points[0], points[-1] = motions.start[row], motions.end[row]
+        return points
+
+
+def _counted(sizes: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return 0 … size - 1 for each size, one after the other."""
+    return np.arange(sizes.sum()) - np.repeat(np.cumsum(sizes) - sizes, sizes)
 
 
 def _is_level(motions: Motions, arcs: ArcPaths) -> NDArray[np.bool_]:
@@ -125,22 +133,25 @@ def _places(arcs: ArcPaths, k: int, fractions: Floats) -> Floats:
     return places
 
 
-def _level_arcs(arcs: ArcPaths, k: int, count: int) -> tuple[Floats, Floats, Floats]:
-    """Return starts, ends and rows of the `count` level arcs that arc k falls into."""
-    angles = arcs.angle[k] + arcs.sweep[k] * np.linspace(0.0, 1.0, count + 1)
-    middle = (np.arange(count) + 0.5) / count
-    radius = arcs.start_radius[k] + (arcs.end_radius[k] - arcs.start_radius[k]) * middle
-    cx, cy = arcs.centre[k]
-    ends = [np.column_stack([cx + radius * np.cos(a), cy + radius * np.sin(a), np.full(count, arcs.height[k])])
-            for a in (angles[:-1], angles[1:])]
-    low, high = np.minimum(angles[:-1], angles[1:]), np.maximum(angles[:-1], angles[1:])
-    box = [np.minimum(ends[0][:, 0], ends[1][:, 0]), np.minimum(ends[0][:, 1], ends[1][:, 1]),
-           np.maximum(ends[0][:, 0], ends[1][:, 0]), np.maximum(ends[0][:, 1], ends[1][:, 1])]
+def _level_arcs(arcs: ArcPaths, k: NDArray[np.int64], sizes: NDArray[np.int64]) -> tuple[Floats, Floats, Floats]:
+    """Return starts, ends and rows of the n level arcs that some arcs fall into.
+
+    Args:
+        k: (n,) the arc that each belongs to, those of one arc one after the other. sizes: how many each arc falls into.
+    """
+    count, at = np.repeat(sizes, sizes), _counted(sizes)
+    angles = [arcs.angle[k] + arcs.sweep[k] * (each / count) for each in (at, at + 1)]
+    radius = arcs.start_radius[k] + (arcs.end_radius[k] - arcs.start_radius[k]) * ((at + 0.5) / count)
+    cx, cy, height = arcs.centre[k, 0], arcs.centre[k, 1], arcs.height[k]
+    ends = [np.column_stack([cx + radius * np.cos(a), cy + radius * np.sin(a), height]) for a in angles]
+    low, high = np.minimum(*angles), np.maximum(*angles)
+    box = [fold(ends[0][:, axis], ends[1][:, axis]) for fold in (np.minimum, np.maximum) for axis in (0, 1)]
     for quarter, side, edge in ((0, 2, cx + radius), (1, 3, cy + radius), (2, 0, cx - radius), (3, 1, cy - radius)):
         passed = (quarter * QUARTER - low) % (2 * math.pi) <= high - low
         box[side] = np.where(passed, edge, box[side])
-    rows = np.column_stack([np.full(count, cx), np.full(count, cy), radius, *box])
-    return (ends[0], ends[1], rows) if arcs.sweep[k] > 0 else (ends[1], ends[0], rows)
+    rows = np.column_stack([cx, cy, radius, *box])
+    ccw = (arcs.sweep[k] > 0)[:, None]
+    return np.where(ccw, ends[0], ends[1]), np.where(ccw, ends[1], ends[0]), rows
 
 
 def spline_chords(spline: Nurbs) -> int:
