@@ -14,12 +14,13 @@ from app.cli_signals import stoppable
 from app.errors import Cancelled, HitofudeError
 
 DONE, WITH_FINDINGS, BAD_INPUT, CANCELLED = 0, 1, 2, 130
-LATER = ("stages", "cut", "smooth", "surface")
+LATER = ("stages", "smooth", "surface")
 HELP = """\
 Hitofude: from a line drawing to tool paths that can be trusted on a real machine.
 
   hitofude [open] [FILE]              the window, with FILE or the sample part
   hitofude make DRAWING -o OUT.ngc    a drawing into contour and pocket tool paths, as NC (make --help tells all)
+  hitofude cut PROGRAM.ngc            any NC program cut out of its stock: what is left, gouges, rapids in metal (cut --help)
   hitofude check PROGRAM.ngc          any NC program: what is wrong, how far it reaches, how long it takes (check --help)
   hitofude --version                  this version
   hitofude --help                     this text
@@ -64,14 +65,18 @@ def _command(argv: list[str], stopped: threading.Event) -> int:
         from app.cli_make import make_command
 
         return make_command(rest, stopped)
+    if name == "cut":
+        from app.cli_cut import cut_command
+
+        return cut_command(rest, stopped)
     if name == "check":
         from app.cli_check import check_command
 
         return check_command(rest, stopped)
     if name in LATER:
-        _say(f"the command '{name}' is not part of this version yet; 'make' and 'check' are, see hitofude --help")
+        _say(f"the command '{name}' is not part of this version yet; 'make', 'cut' and 'check' are, see hitofude --help")
         return BAD_INPUT
-    _say(f"there is no command '{name}'; use 'make', 'check' or 'open', see hitofude --help")
+    _say(f"there is no command '{name}'; use 'make', 'cut', 'check' or 'open', see hitofude --help")
     return BAD_INPUT
 
 

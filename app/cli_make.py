@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import threading
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -12,18 +11,11 @@ from pathlib import Path
 from app.atomic import write_together
 from app.cli_files import check_outputs, identity, read_input, shown_progress
 from app.cli_options import make_options, read_arguments
-from app.cli_output import tell
+from app.cli_output import finding_lines, tell
 from app.cli_signals import undisturbed
 from app.errors import InputError
-from app.model.finding import FindingKind
 from app.workflow.make import Made, make
 from app.workflow.options import MakeOptions
-
-REMARKS = 3
-"""Remarks of one kind that are printed; the report has all."""
-
-COUNTED = 10
-"""Findings of one kind that are printed; the report has all."""
 
 
 def make_command(argv: Sequence[str], stopped: threading.Event) -> int:
@@ -90,15 +82,4 @@ def _write(made: Made, outputs: dict[str, Path], names: list[Path]) -> None:
 
 def _summary(made: Made, names: list[Path]) -> None:
     """Say in a few lines what was made and what there is to know about it, the first few of each kind."""
-    lines = [made.report.summary(", ".join(map(str, names)))]
-    shown: Counter[FindingKind] = Counter()
-    for finding in made.findings:
-        shown[finding.kind] += 1
-        if shown[finding.kind] <= (COUNTED if finding.counts else REMARKS):
-            lines.append(f"  {'!' if finding.counts else '-'} {finding.text}")
-    for kind, count in shown.items():
-        counting = sum(1 for finding in made.findings if finding.kind is kind and finding.counts)
-        told = max(min(counting, COUNTED), min(count, REMARKS))
-        if count > told:
-            lines.append(f"  - {count - told} more of the kind {kind.value}; --report R.json lists them all")
-    tell("\n".join(lines))
+    tell("\n".join([made.report.summary(", ".join(map(str, names))), *finding_lines(made.findings)]))

@@ -67,7 +67,7 @@ class HelpFormatter(argparse.RawDescriptionHelpFormatter):
         return textwrap.wrap(" ".join(text.split()), width, break_on_hyphens=False)
 
 
-def _number(what: str, *, least: float | None = None, unit: str = "mm") -> Callable[[str], float]:
+def number(what: str, *, least: float | None = None, unit: str = "mm") -> Callable[[str], float]:
     """Return a reader of numbers from `least`, or greater than 0 where there is none, to below 1e5, for argparse."""
 
     def read(text: str) -> float:
@@ -98,8 +98,9 @@ def _stepover(text: str) -> Stepover:
     return stepover
 
 
-def _join_tolerance(text: str) -> float:
-    value = _number("join tolerance", least=0.0)(text)
+def join_tolerance(text: str) -> float:
+    """Return a join tolerance in mm, for argparse."""
+    value = number("join tolerance", least=0.0)(text)
     if value > LARGEST_JOIN:
         raise argparse.ArgumentTypeError(f"is wrong: join tolerance is {value:g} mm; use 0 to {LARGEST_JOIN:g} mm")
     return value
@@ -151,22 +152,22 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
 
 
 def _tool_options(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--contour-tool", metavar="D", type=_number("diameter"), help="diameter of the tool that follows the walls")
-    group.add_argument("--pocket-tool", metavar="D", type=_number("diameter"), help="diameter of the tool that clears the area")
+    group.add_argument("--contour-tool", metavar="D", type=number("diameter"), help="diameter of the tool that follows the walls")
+    group.add_argument("--pocket-tool", metavar="D", type=number("diameter"), help="diameter of the tool that clears the area")
     group.add_argument("--stepover", metavar="MM|%", type=_stepover, help="distance between rings, from 1%% or 0.001 mm (default 50%%)")
-    group.add_argument("--overlap", metavar="MM", type=_number("overlap"), help="the same as diameter - stepover")
-    group.add_argument("--depth", metavar="Z", type=_number("depth", least=LEAST_LENGTH),
+    group.add_argument("--overlap", metavar="MM", type=number("overlap"), help="the same as diameter - stepover")
+    group.add_argument("--depth", metavar="Z", type=number("depth", least=LEAST_LENGTH),
                        help="depth of the floor, 0.001 mm or more (default 2)")
-    group.add_argument("--stepdown", metavar="MM", type=_number("stepdown", least=LEAST_LENGTH),
+    group.add_argument("--stepdown", metavar="MM", type=number("stepdown", least=LEAST_LENGTH),
                        help="largest depth of one pass, 0.001 mm or more (default 2)")
-    group.add_argument("--stock-to-leave", metavar="MM", type=_number("stock to leave", least=0.0), help="metal left on walls (default 0)")
-    group.add_argument("--safe-z", metavar="MM", type=_number("clearance height", least=LEAST_LENGTH),
+    group.add_argument("--stock-to-leave", metavar="MM", type=number("stock to leave", least=0.0), help="metal left on walls (default 0)")
+    group.add_argument("--safe-z", metavar="MM", type=number("clearance height", least=LEAST_LENGTH),
                        help="clearance height above the stock, 0.001 mm or more (default 5)")
-    group.add_argument("--feed", metavar="F", type=_number("feed rate", least=LEAST_RATE, unit="mm/min"),
+    group.add_argument("--feed", metavar="F", type=number("feed rate", least=LEAST_RATE, unit="mm/min"),
                        help="feed rate, mm/min, 1 or more (default 600)")
-    group.add_argument("--plunge", metavar="F", type=_number("plunge rate", least=LEAST_RATE, unit="mm/min"),
+    group.add_argument("--plunge", metavar="F", type=number("plunge rate", least=LEAST_RATE, unit="mm/min"),
                        help="plunge rate, mm/min, 1 or more (default 200)")
-    group.add_argument("--speed", metavar="S", type=_number("spindle speed", unit="rpm"),
+    group.add_argument("--speed", metavar="S", type=number("spindle speed", unit="rpm"),
                        help="spindle speed, rpm (default 12000, contour 18000)")
     side = group.add_mutually_exclusive_group()
     side.add_argument("--climb", action="store_const", dest="direction", const=Direction.CLIMB, help="metal right of travel (default)")
@@ -179,7 +180,7 @@ def _drawing_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--units", metavar="mm|in", type=typed(read_units), help="units of a drawing that names none (default mm)")
     group.add_argument("--origin", metavar="WHERE", type=typed(parse_origin), help=ORIGIN_HELP)
     group.add_argument("--layer", metavar="NAME", action="append", default=[], help="machine only this layer; may be repeated")
-    group.add_argument("--join-tolerance", metavar="MM", type=_join_tolerance,
+    group.add_argument("--join-tolerance", metavar="MM", type=join_tolerance,
                        help="join loose ends nearer than this, 0 to 10 mm (default 0.01)")
     group.add_argument("--bitmap", metavar="N", help=argparse.SUPPRESS)
     group.add_argument("--pitch", metavar="MM", help=argparse.SUPPRESS)

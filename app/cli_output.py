@@ -4,6 +4,16 @@ from __future__ import annotations
 
 import os
 import sys
+from collections import Counter
+from collections.abc import Sequence
+
+from app.model.finding import Finding, FindingKind
+
+REMARKS = 3
+"""Remarks of one kind that are printed; the report has all."""
+
+COUNTED = 10
+"""Findings of one kind that are printed; the report has all."""
 
 
 def tell(text: str) -> None:
@@ -19,6 +29,22 @@ def tell(text: str) -> None:
         _let_go()
         print(f"hitofude: the summary could not be printed ({error.strerror or error}); the files are as the exit status says",
               file=sys.stderr)
+
+
+def finding_lines(findings: Sequence[Finding]) -> list[str]:
+    """Return a line for each of the first few findings of a kind, and one for how many more there are."""
+    lines: list[str] = []
+    shown: Counter[FindingKind] = Counter()
+    for finding in findings:
+        shown[finding.kind] += 1
+        if shown[finding.kind] <= (COUNTED if finding.counts else REMARKS):
+            lines.append(f"  {'!' if finding.counts else '-'} {finding.text}")
+    for kind, count in shown.items():
+        counting = sum(1 for finding in findings if finding.kind is kind and finding.counts)
+        told = max(min(counting, COUNTED), min(count, REMARKS))
+        if count > told:
+            lines.append(f"  - {count - told} more of the kind {kind.value}; --report R.json lists them all")
+    return lines
 
 
 def _let_go() -> None:

@@ -72,10 +72,12 @@ class JobFile:
     Attributes:
         job: with an empty part.
         units: of a drawing that names none, or None.
+        tables: that are in the file; what belongs to others has its default.
     """
 
     job: Job
     units: Units | None
+    tables: frozenset[str] = frozenset()
 
 
 def read_job(name: str, data: bytes) -> JobFile:
@@ -217,7 +219,7 @@ class _Reader:
         job = replace(job, tools=tools, operations=operations)
         for index, operation in enumerate(operations):
             self._built("operation", index, lambda number=operation.cut.tool: job.tool(number))  # type: ignore[misc]
-        return JobFile(job, units)
+        return JobFile(job, units, frozenset(self._tree))
 
     def _built(self, path: str, index: int, build: Callable[[], Value]) -> Value:
         """Return a value built from a table; a value out of its range names the table's line."""

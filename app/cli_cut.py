@@ -1,0 +1,162 @@
+"""`hitofude cut`: cuts any NC program out of its stock, compares what is left with the part, writes what was asked for."""
+
+from __future__ import annotations
+
+import argparse
+import threading
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from app.atomic import write_together
+from app.cli_cut_options import cut_parser, read_arguments
+from app.cli_files import check_outputs, read_input, shown_progress
+from app.cli_output import REMARKS, finding_lines, tell
+from app.cli_signals import undisturbed
+from app.dexel.heights_file import heights_files, read_heights
+from app.dexel.workpiece import Stock
+from app.errors import InputError
+from app.files.height_image import HeightImage, height_image
+from app.files.job_toml import read_job
+from app.files.tool_files import read_rows, read_tools
+from app.model.part import Units
+from app.nc.read.dialect import Dialect
+from app.nc.tool_offsets import tool_offsets
+from app.progress import Progress
+from app.workflow.cut import CutOptions, CutProgram, cut
+from app.workflow.cut_report import CutReport, cut_report
+from app.workflow.examine import Examined, ExamineOptions, examine
+from app.workflow.setup import Ready, Wishes, setup_of
+from app.workflow.setup_tools import ToolsTold
+
+
+def cut_command(argv: Sequence[str], stopped: threading.Event) -> int:
+    """Run `cut` and return its exit status: 0 clean, 1 with findings.
+
+    Args:
+        argv: the arguments behind `cut`.
+        stopped: set when the user wants it to stop.
+
+    Raises:
+        HitofudeError: bad usage or input; nothing was written.
+        Cancelled: by Ctrl+C.
+    """
+    if any(argument in ("-h", "--help") for argument in argv):
+        tell(cut_parser().format_help().rstrip())
+        return 0
+    arguments = read_arguments(argv)
+    outputs = _outputs(arguments)
+    progress = shown_progress(arguments.quiet, stopped)
+    wishes = _wishes(arguments)
+    ready = setup_of(_programs(arguments, progress.part(0.0, 0.2)), wishes, progress.part(0.2, 0.25))
+    _ensure_window(arguments.window, ready)
+    done = cut(ready.setup, CutOptions(arguments.grid, arguments.window), progress.part(0.25, 0.95))
+    report = cut_report(done, ready)
+    texts = dict(_texts(outputs, ready, done, report))
+    progress.step(1.0)
+    with undisturbed():
+        write_together({outputs[name]: text for name, text in texts.items()})
+    if not arguments.quiet:
+        tell("\n".join([report.summary(), *finding_lines(report.findings), *_warning_lines(report.warnings)]))
+    return 1 if any(finding.counts for finding in report.findings) else 0
+
+
+def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
+    """Return the files to write by their option, checked before any work is done."""
+    outputs = {name: path for name in ("heights", "image", "report") if (path := getattr(arguments, name)) is not None}
+    for name, suffix in (("heights", ".npy"), ("image", ".png")):
+        if name in outputs and outputs[name].suffix.lower() != suffix and not outputs[name].is_char_device():
+            raise InputError(f"--{name} {outputs[name]}: it is written as {suffix}; change the name")
+    if "heights" in outputs and not outputs["heights"].is_char_device():
+        outputs["heights, with its"] = outputs["heights"].with_suffix(".json")
+    check_outputs(outputs, list(_inputs(arguments)))
+    return outputs
+
+
+def _inputs(arguments: argparse.Namespace) -> Iterator[Path]:
+    """Yield every file that is read."""
+    yield from arguments.programs
+    yield from (path for name in ("job", "tools", "against") if (path := getattr(arguments, name)) is not None)
+    if isinstance(arguments.stock, Path):
+        yield arguments.stock
+        if arguments.stock.suffix.lower() == ".npy":
+            yield arguments.stock.with_suffix(".json")
+
+
+def _programs(arguments: argparse.Namespace, progress: Progress) -> tuple[Examined, ...]:
+    """Return every program as its control reads it."""
+    dialect = Dialect(arguments.dialect) if arguments.dialect else None
+    table = tool_offsets(read_rows(arguments.tools.name, read_input(arguments.tools), _units(arguments))) if arguments.tools else {}
+    options = ExamineOptions(dialect, table, block_delete=arguments.block_delete == "on")
+    count = len(arguments.programs)
+    return tuple(examine(path.name, read_input(path), options, progress.part(k / count, (k + 1) / count))
+                 for k, path in enumerate(arguments.programs))
+
+
+def _wishes(arguments: argparse.Namespace) -> Wishes:
+    """Return what was asked for, its files read."""
+    job = read_job(arguments.job.name, read_input(arguments.job)) if arguments.job else None
+    told = [ToolsTold("--tool", dict(arguments.tool))]
+    if job is not None and "tool" in job.tables:
+        told.append(ToolsTold("the job file", {tool.number: tool for tool in job.job.tools}))
+    if arguments.tools is not None:
+        library, _ = read_tools(arguments.tools.name, read_input(arguments.tools), _units(arguments))
+        shapeless = arguments.tools.suffix.lower() == ".tbl"
+        told.append(ToolsTold(arguments.tools.name, {tool.number: tool for tool in library.tools}, shapeless))
+    against = (arguments.against.name, read_input(arguments.against)) if arguments.against else None
+    return Wishes(
+        tuple(told), job, _stock(arguments.stock), against, arguments.depth, arguments.stock_to_leave, tuple(arguments.layer),
+        arguments.units, arguments.origin, arguments.join_tolerance, arguments.tolerance,
+    )  # fmt: skip
+
+
+def _units(arguments: argparse.Namespace) -> Units:
+    return Units.INCH if arguments.tool_units == "in" else Units.MM
+
+
+def _stock(given: Stock | Path | None) -> Stock | None:
+    """Return the metal that --stock names."""
+    if not isinstance(given, Path):
+        return given
+    data = read_input(given)
+    if given.suffix.lower() == ".npy":
+        return read_heights(given.name, data, read_input(given.with_suffix(".json")))
+    from app.dexel.solid import read_solid
+
+    return read_solid(given.name, data)
+
+
+def _ensure_window(window: tuple[float, float, float, float] | None, ready: Ready) -> None:
+    x0, y0, x1, y1 = box = ready.setup.stock.box
+    if window is not None and not (window[0] < x1 and window[2] > x0 and window[1] < y1 and window[3] > y0):
+        raise InputError(f"--window {','.join(f'{value:g}' for value in window)} is beside the stock, "
+                         f"{','.join(f'{value:.3f}' for value in box)}; choose a part of it")
+
+
+def _warning_lines(warnings: tuple[str, ...]) -> Iterator[str]:
+    """Yield the first warnings of the control, and how many more there are."""
+    yield from (f"  - {warning}" for warning in warnings[:REMARKS])
+    if len(warnings) > REMARKS:
+        yield f"  - {len(warnings) - REMARKS} more warnings; --report R.json lists them all"
+
+
+def _texts(outputs: dict[str, Path], ready: Ready, done: CutProgram, report: CutReport) -> Iterator[tuple[str, bytes]]:
+    """Yield what to write, by option."""
+    if "report" in outputs:
+        yield "report", report.text().encode()
+    if "heights" in outputs:
+        heights, where = heights_files(done.cut.workpiece)
+        yield "heights", heights
+        if "heights, with its" in outputs:
+            yield "heights, with its", where
+    if "image" in outputs:
+        yield "image", height_image(_image(ready, done))
+
+
+def _image(ready: Ready, done: CutProgram) -> HeightImage:
+    """Return what is drawn."""
+    judged, grid = done.judgement, done.cut.before.grid
+    return HeightImage(
+        done.cut.heights, grid.pitch, done.top, done.floor, ready.programs[0].name,
+        None if judged is None else judged.deviation, None if judged is None else judged.unreachable,
+        0.0 if judged is None else judged.tolerance,
+    )  # fmt: skip

@@ -1,0 +1,237 @@
+"""What is cut out of what, with what, to become what: put together from what was asked and what the program tells of itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import PurePath
+
+import numpy as np
+
+from app.dexel.solid import SolidStock, read_solid
+from app.dexel.workpiece import BoxStock, Stock
+from app.errors import InputError
+from app.files.drawing import read_drawing
+from app.files.job_toml import JobFile
+from app.model.finding import Finding
+from app.model.job import Job, OriginXY, OriginZ
+from app.model.job import Stock as JobStock
+from app.model.motion import MotionKind
+from app.model.operation import ContourOperation, Cut, Operation, PocketOperation
+from app.model.part import Part as DrawnPart
+from app.model.part import Region, Units
+from app.model.stock_box import stock_box, work_origin
+from app.nc.read.program import HeaderNote
+from app.progress import NO_PROGRESS, Progress
+from app.workflow.cut import CutSetup
+from app.workflow.examine import Examined
+from app.workflow.parts import TOLERANCE, FlatPart, Part, SolidPart
+from app.workflow.setup_stock import KnownStock, told_stock
+from app.workflow.setup_tools import KnownTool, ToolsTold, other_tools, with_tools
+
+
+@dataclass(frozen=True, eq=False)
+class Wishes:
+    """What was said beside the programs; what was not is as the programs themselves tell, or is assumed.
+
+    Attributes:
+        tools: who tells of tools, best first.
+        job: tools, operations, stock, origin.
+        stock: the metal, program coordinates.
+        against: name and bytes of the part: a drawing, or a solid as .stl.
+        depth, leave: of all operations, mm: from the stock's top to the floor, > 0, and what is left on walls.
+        layers: of the drawing; empty = as told, or all visible ones.
+        units: of a drawing, or solid, that names none.
+        origin: in the plane and along Z, each None where it is not said; None = as told, or the drawing's own zero.
+        join_tolerance: mm.
+        tolerance: metal within this of the part is neither gouged nor left, mm; None = as the path was proven, else TOLERANCE.
+    """
+
+    tools: tuple[ToolsTold, ...] = ()
+    job: JobFile | None = None
+    stock: Stock | None = None
+    against: tuple[str, bytes] | None = None
+    depth: float | None = None
+    leave: float | None = None
+    layers: tuple[str, ...] = ()
+    units: Units | None = None
+    origin: tuple[OriginXY | None, OriginZ | None] | None = None
+    join_tolerance: float | None = None
+    tolerance: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Ready:
+    """A setup that can be cut, and where it comes from.
+
+    Attributes:
+        programs: as they are cut; tools that they do not name have numbers.
+        tools: by T number, those that cut.
+        findings: what was assumed, and what there is to say about the drawing.
+    """
+
+    setup: CutSetup
+    programs: tuple[Examined, ...]
+    tools: dict[int, KnownTool]
+    stock: KnownStock
+    findings: tuple[Finding, ...]
+
+
+def setup_of(programs: tuple[Examined, ...], wishes: Wishes = Wishes(), progress: Progress = NO_PROGRESS) -> Ready:
+    """Return the setup that programs are cut in.
+
+    Args:
+        programs: at least one, in the order of cutting.
+        wishes: what was said beside them.
+        progress: told of the steps.
+
+    Raises:
+        InputError: a program has an error or cuts nothing; a tool, the depth of a drawing or the stock is told by nobody; or a
+            file cannot be used.
+        Cancelled: the job was asked to stop.
+    """
+    for examined in programs:
+        _ensure_readable(examined)
+    progress.step(0.0, "Looking for tools and stock")
+    programs, tools, assumed = with_tools(programs, wishes.tools)
+    part, said = _part(programs, tools, wishes) if wishes.against is not None else (None, ())
+    progress.step(0.8)
+    stock = _stock(programs, tools, part, wishes)
+    setup = CutSetup(tuple(each.program for each in programs), {number: each.tool for number, each in tools.items()}, stock.stock, part)
+    found = (*assumed, *((stock.assumed,) if stock.assumed is not None else ()), *said)
+    return Ready(setup, programs, tools, stock, found)
+
+
+def _header(programs: tuple[Examined, ...]) -> HeaderNote:
+    """Return the first header of our own; an empty one where there is none."""
+    return next((each.program.header for each in programs if each.program.header is not None), HeaderNote())
+
+
+def _ensure_readable(examined: Examined) -> None:
+    error = examined.program.error
+    if error is not None:
+        raise InputError(f"{error.told(examined.name)} What stands behind it cannot be cut; correct it, or choose the control: --dialect.")
+    motions = examined.program.motions
+    if np.all(motions.kind == MotionKind.RAPID):
+        raise InputError(f"{examined.name}: nothing is cut; the program has no motion at feed rate.")
+
+
+def _stock(programs: tuple[Examined, ...], tools: dict[int, KnownTool], part: Part | None, wishes: Wishes) -> KnownStock:
+    """Return the metal: what was asked for, the job's, or what the programs tell."""
+    if wishes.stock is not None:
+        return KnownStock(wishes.stock, "as given")
+    if wishes.job is not None and "stock" in wishes.job.tables and isinstance(part, FlatPart):
+        box, (x, y, z) = stock_box(part.job, part.regions), part.origin
+        moved = replace(box, x0=box.x0 - x, y0=box.y0 - y, z0=box.z0 - z, x1=box.x1 - x, y1=box.y1 - y, z1=box.z1 - z)
+        return KnownStock(BoxStock(moved), "the job file, round the drawing")
+    return told_stock(programs, max(each.tool.radius for each in tools.values()))
+
+
+def _part(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> tuple[Part, tuple[Finding, ...]]:
+    assert wishes.against is not None
+    name, data = wishes.against
+    suffix = PurePath(name).suffix.lower()
+    if suffix == ".toml":
+        raise InputError(f"{name}: comparing with surfaces comes in a later version; give the drawing, or the solid as .stl.")
+    if suffix == ".stl":
+        return _solid(name, data, wishes), ()
+    return _flat(programs, tools, wishes)
+
+
+def _solid(name: str, data: bytes, wishes: Wishes) -> SolidPart:
+    """Return the solid in program coordinates."""
+    triangles = read_solid(name, data).triangles * (wishes.units or Units.MM).value
+    low, high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
+    xy, z = wishes.origin or (None, None)
+    zero = np.zeros(3)
+    if xy is OriginXY.LOWER_LEFT:
+        zero[:2] = low[:2]
+    elif xy is OriginXY.CENTRE:
+        zero[:2] = (low[:2] + high[:2]) / 2
+    if z is not None:
+        zero[2] = high[2] if z is OriginZ.TOP else low[2]
+    tolerance = TOLERANCE if wishes.tolerance is None else wishes.tolerance
+    return SolidPart(SolidStock(triangles - zero), wishes.leave or 0.0, tolerance)
+
+
+def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> tuple[FlatPart, tuple[Finding, ...]]:
+    """Return the drawing and what of it is milled, and what there is to say about it."""
+    from app.toolpath.compute import regions_of
+
+    assert wishes.against is not None
+    header, (name, data) = _header(programs), wishes.against
+    layers = wishes.layers or (wishes.job.job.layer_names if wishes.job else ()) or header.layers
+    units = wishes.units or (wishes.job.units if wishes.job else None) or header.drawing_units
+    drawing = read_drawing(name, data, units, layers)
+    job = _job(drawing.part, programs, tools, wishes)
+    job = replace(job, layer_names=tuple(dict.fromkeys(each.layer for each in drawing.part.entities)) if layers else ())
+    regions, findings = regions_of(job)
+    if not regions:
+        said = " ".join(finding.text for finding in findings[:3])
+        raise InputError(f"{name}: there is no closed contour to compare with; choose other layers, or join loose ends: "
+                         f"--join-tolerance. {said}".rstrip())
+    proven = header.path_tolerance if wishes.tolerance is None else None
+    tolerance = TOLERANCE if wishes.tolerance is None else wishes.tolerance
+    origin = _origin(job, regions, wishes, header)
+    return FlatPart(job, regions, origin, tolerance if proven is None else proven, tolerance), (*drawing.findings, *findings)
+
+
+def _origin(job: Job, regions: tuple[Region, ...], wishes: Wishes, header: HeaderNote) -> tuple[float, float, float]:
+    """Return the program's zero in the drawing's coordinates."""
+    asked = wishes.origin is not None or (wishes.job is not None and "origin" in wishes.job.tables)
+    if not asked:
+        return header.origin or (0.0, 0.0, 0.0)
+    return work_origin(job, stock_box(job, regions))
+
+
+def _job(part: DrawnPart, programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> Job:
+    """Return the job that the programs do: the one that is given, with what was asked for put in."""
+    base = wishes.job.job if wishes.job is not None else Job(part)
+    operations = _operations(programs, tools, wishes)
+    missing = dict.fromkeys(each.cut.tool for each in operations if each.cut.tool not in tools)
+    mine = {tool.number: tool for tool in (*(each.tool for each in tools.values()), *other_tools(missing, wishes.tools, programs))}
+    operations = tuple(each for each in operations if each.cut.tool in mine)
+    header = _header(programs)
+    xy, z = wishes.origin or (base.origin_xy, base.origin_z)
+    join = next((t for t in (wishes.join_tolerance, base.join_tolerance if wishes.job else header.join_tolerance) if t is not None), None)
+    return replace(
+        base, part=part, tools=tuple(mine.values()), operations=operations, stock=_job_stock(base, operations, programs, wishes),
+        origin_xy=xy or OriginXY.DRAWING, origin_z=z or OriginZ.TOP,
+        join_tolerance=base.join_tolerance if join is None else join,
+    )  # fmt: skip
+
+
+def _job_stock(base: Job, operations: tuple[Operation, ...], programs: tuple[Examined, ...], wishes: Wishes) -> JobStock:
+    """Return the stock's margin, and how thick it is: as given, told by a comment, or as the job has it."""
+    note = next((each.program.stock for each in programs if each.program.stock is not None), None)
+    if isinstance(wishes.stock, BoxStock):
+        thickness = wishes.stock.solid.size[2]
+    elif note is not None and note.size[2] > 0:
+        thickness = note.size[2]
+    else:
+        thickness = max([base.stock.thickness, *(each.cut.depth for each in operations)])
+    return replace(base.stock, thickness=thickness)
+
+
+def _operations(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> tuple[Operation, ...]:
+    """Return what is milled how deep: as the job or the header of our own says, else a pocket a tool, as deep as was asked."""
+    told = wishes.job.job.operations if wishes.job is not None and "operation" in wishes.job.tables else tuple(_noted(programs))
+    if not told and wishes.depth is None:
+        assert wishes.against is not None
+        raise InputError(f"{wishes.against[0]}: nobody tells how deep the part is milled; give --depth, mm from the stock's top down "
+                         "to the floor, or a job file with operations.")
+    asked = told or tuple(PocketOperation(Cut(number)) for number in tools)
+    return tuple(_with(operation, wishes) for operation in asked)
+
+
+def _noted(programs: tuple[Examined, ...]) -> list[Operation]:
+    """Return the operations that headers of our own tell of, each once."""
+    notes = dict.fromkeys(note for each in programs if each.program.header is not None for note in each.program.header.operations)
+    kinds = {"pocket": PocketOperation, "contour": ContourOperation}
+    return [kinds[note.kind](Cut(note.tool, note.depth, note.depth, note.leave)) for note in notes]
+
+
+def _with(operation: Operation, wishes: Wishes) -> Operation:
+    """Return an operation with the depth and the stock to leave that were asked for; a step is never in the way of a depth."""
+    depth = operation.cut.depth if wishes.depth is None else wishes.depth
+    leave = operation.cut.stock_to_leave if wishes.leave is None else wishes.leave
+    return replace(operation, cut=replace(operation.cut, depth=depth, stepdown=depth, stock_to_leave=leave))
