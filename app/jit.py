@@ -49,10 +49,12 @@ if "NUMBA_CACHE_DIR" not in os.environ:
     numba.config.CACHE_DIR = _cache_folder()
 
 
-def kernel(signature: str) -> Callable[[Compiled], Compiled]:
+def kernel(signature: str, counts: bool = True) -> Callable[[Compiled], Compiled]:
     """Compile a function for the given numba signature; it releases the GIL and is kept in the cache.
 
     Args:
         signature: such as "float64(float64[:, ::1], int64)".
+        counts: whether it counts who holds an array, as it must if it makes one. Where an array goes through a short loop and a call
+            or two, counting takes longer than these; its caller holds it anyhow.
     """
-    return numba.njit(signature, nogil=True, cache=True, error_model="numpy")  # type: ignore[no-any-return]
+    return numba.njit(signature, nogil=True, cache=True, error_model="numpy", _nrt=counts)  # type: ignore[no-any-return]

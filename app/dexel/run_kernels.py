@@ -24,34 +24,44 @@ _ZERO, _ONE, _STEP, _NEVER = _F(0.0), _F(1.0), _F(LANES), _F(math.inf)
 _LINE = "void(float32[::1], int64, int64, UniTuple(float32, 5), UniTuple(float32, {}))"
 
 
-@kernel(_LINE.format(6))
-def ball_run(line, first, blocks, where, move):
-    """Lower a run under a ball.
+@kernel("float32(float32, float32, float32, UniTuple(float32, 6))")
+def ball_height(a, b, c, move):
+    """Return the height of a ball's sweep over a cell, NaN where it does not come.
 
     Free: z = z0 + s a - sqrt((1 + s²)(r² - c²)), where a sphere's end does not come first; there r² - c² - a² is under the root.
 
     Args:
-        where: a, b, c of the first cell, and how a (b alike) and c change from cell to cell, mm.
+        a, b, c: place of the cell.
         move: r², (s² / (1 + s²)), 1 + s², s, and the z of the ball's centre at both ends.
     """
-    a0, b0, c0, da, dc = where
     r2, lean2, stretch, s, low, high = move
+    q2 = r2 - c * c
+    ahead = q2 * lean2
+    before, after = a * abs(a) < ahead, b * abs(b) > ahead
+    root = q2 - a * a if before else (q2 - b * b if after else q2 * stretch)
+    return (low if before else (high if after else low + s * a)) - np.sqrt(root)
+
+
+@kernel(_LINE.format(6), counts=False)
+def ball_run(line, first, blocks, where, move):
+    """Lower a run under a ball.
+
+    Args:
+        where: a, b, c of the first cell, and how a (b alike) and c change from cell to cell, mm.
+        move: as for `ball_height`.
+    """
+    a0, b0, c0, da, dc = where
     for _ in range(blocks):
         part = line[first : first + LANES]
         for k in range(LANES):
             x = _F(k)
-            a, b, c = a0 + da * x, b0 + da * x, c0 + dc * x
-            q2 = r2 - c * c
-            ahead = q2 * lean2
-            before, after = a * abs(a) < ahead, b * abs(b) > ahead
-            root = q2 - a * a if before else (q2 - b * b if after else q2 * stretch)
-            z = (low if before else (high if after else low + s * a)) - np.sqrt(root)
+            z = ball_height(a0 + da * x, b0 + da * x, c0 + dc * x, move)
             part[k] = z if z < part[k] else part[k]
         first += LANES
         a0, b0, c0 = a0 + _STEP * da, b0 + _STEP * da, c0 + _STEP * dc
 
 
-@kernel(_LINE.format(3))
+@kernel(_LINE.format(3), counts=False)
 def flat_run(line, first, blocks, where, move):
     """Lower a run under a flat end: over a cell it is lowest when its rear rim passes. move: r², s, z of the lower end."""
     a0, b0, c0, da, dc = where
@@ -87,7 +97,7 @@ def profile(rho2, shape):
     return h if rho2 <= rim2 else _NEVER
 
 
-@kernel(_LINE.format(9))
+@kernel(_LINE.format(9), counts=False)
 def level_run(line, first, blocks, where, move):
     """Lower a run under any cutter that goes level, or straight down. move: shape, s (as good as 0), z of both ends."""
     a0, b0, c0, da, dc = where
@@ -104,7 +114,7 @@ def level_run(line, first, blocks, where, move):
         a0, b0, c0 = a0 + _STEP * da, b0 + _STEP * da, c0 + _STEP * dc
 
 
-@kernel(_LINE.format(13))
+@kernel(_LINE.format(13), counts=False)
 def cone_run(line, first, blocks, where, move):
     """Lower a run under a cone with or without a flat tip.
 
@@ -135,7 +145,7 @@ def cone_run(line, first, blocks, where, move):
         a0, b0, c0 = a0 + _STEP * da, b0 + _STEP * da, c0 + _STEP * dc
 
 
-@kernel(_LINE.format(14))
+@kernel(_LINE.format(14), counts=False)
 def taper_run(line, first, blocks, where, move):
     """Lower a run under a ball that goes over into a cone: it touches with the ball where that is within the ball's part.
 
@@ -174,7 +184,7 @@ def _nearer(y, c, wide, deep):
     return y + (c - (bend + deep) * y) / (bend * w * w + deep)
 
 
-@kernel("void(float32[::1], float32, float32, float32, float32)")
+@kernel("void(float32[::1], float32, float32, float32, float32)", counts=False)
 def bull_contacts(bends, c0, dc, wide, deep):
     """Write y of the places where a fillet round a flat touches, for sixteen cells.
 
@@ -230,7 +240,7 @@ def bull_run(line, first, blocks, where, move):
         a0, b0, c0 = a0 + _STEP * da, b0 + _STEP * da, c0 + _STEP * dc
 
 
-@kernel("void(float32[::1], int64, int64, UniTuple(float32, 13), UniTuple(float32, 7), float32)")
+@kernel("void(float32[::1], int64, int64, UniTuple(float32, 13), UniTuple(float32, 7), float32)", counts=False)
 def arc_run(line, first, blocks, where, shape, bend):
     """Lower a run under any cutter that goes round a level arc of at most a quarter turn.
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from app.dexel.reach_kernels import SLACK
 from app.dexel.run_kernels import LANES, arc_run, ball_run, bull_run, cone_run, flat_run, level_run, taper_run
+from app.dexel.trace_kernels import PENDING, ball_trace, gather, settle
 from app.jit import kernel
 
 TILE = 256
@@ -30,11 +31,11 @@ LOWEST_RISE = 1e-9
 """A move that rises less on a cutter's radius, mm, touches where a level one does."""
 
 _F = np.float32
-_TRIFLE = _F(1e-5)  # mm; a motion that lowers a cell by no more only rounds otherwise, so the cell stays its former owner's
-_ZERO, _NEVER, _FAR = _F(0.0), _F(math.inf), 1e18
+_ZERO, _FAR = _F(0.0), 1e18
 _SHAPE, _FRAME, _PLACE = "UniTuple(float64, 7)", "UniTuple(float64, 5)", "UniTuple(float64, 6)"
 _PLAN = "UniTuple(float64, 17)"
 _ARC = "UniTuple(float64, 4)"
+_TRACED = f"float32[::1], int32[::1], float32[::1], float32[::1], float64[::1], {_FRAME}, {_SHAPE}, {_PLACE}"
 
 
 @kernel(f"Tuple((int64, UniTuple(float32, 14)))({_SHAPE}, float64, float64, float64)")
@@ -64,7 +65,7 @@ def run_numbers(shape, s, low, high):
     return kind, form + (_F(inner * inner), _F(ahead), _F(steep), _F(s / math.sqrt(stretch)))
 
 
-@kernel("void(int64, float32[::1], int64, int64, UniTuple(float32, 5), UniTuple(float32, 14))")
+@kernel("void(int64, float32[::1], int64, int64, UniTuple(float32, 5), UniTuple(float32, 14))", counts=False)
 def straight_run(runs, line, first, blocks, where, m):
     """Lower a run under a straight move; `run_numbers` has said which runs."""
     if runs == BALL:
@@ -136,7 +137,7 @@ def place_in_run(frame, plan, line, first):
     return _F(a), _F(a - plan[10]), _F(uf * y - us * x), _F(uf * pitch), _F(-us * pitch)
 
 
-@kernel(f"void(float32[::1], {_FRAME}, {_SHAPE}, {_PLACE}, UniTuple(float64, 2))")
+@kernel(f"void(float32[::1], {_FRAME}, {_SHAPE}, {_PLACE}, UniTuple(float64, 2))", counts=False)
 def cut_straight(heights, frame, shape, ends, span):
     """Lower a tile's heights under a straight piece; what the arguments are `plan_straight` says."""
     plan = plan_straight(frame, shape, ends, span)
@@ -152,53 +153,28 @@ def cut_straight(heights, frame, shape, ends, span):
                 straight_run(runs, heights, at, blocks, where, numbers)
 
 
-@kernel("void(float32[::1], int32[::1], float32[::1], float64[::1], int64, int64, int64)")
-def settle(heights, owners, scratch, notes, at, blocks, owner):
-    """Compare swept heights with a tile's, and note what comes of it.
-
-    Args:
-        heights, owners: of the tile.
-        scratch: swept heights of a run; infinite again afterwards.
-        notes: volume in mm of height, engaged cells, greatest depth and its place in the tile, floor, and the depth
-            from which a motion that only asks is told of.
-        at: the run's first cell in the tile. blocks: its sixteens of cells.
-        owner: number of the motion; -1: it only asks, and heights stay.
-    """
-    floor, slack = _F(notes[4]), _F(notes[5]) if owner < 0 else _ZERO
-    taken, cells = 0.0, 0
-    for block in range(blocks):
-        new = scratch[LANES * block : LANES * (block + 1)]
-        for k in range(LANES):
-            z = new[k] if new[k] > floor else floor
-            depth = heights[at + k] - z
-            if depth > slack:
-                taken += depth
-                if depth > notes[2]:
-                    notes[2], notes[3] = depth, at + k
-                if owner < 0:
-                    cells += 1
-                else:
-                    heights[at + k] = z
-                    if owners[at + k] != owner and (depth > _TRIFLE or owners[at + k] < 0):
-                        cells += 1
-                        owners[at + k] = owner
-        new[:] = _NEVER
-        at += LANES
-    notes[0] += taken
-    notes[1] += cells
-
-
-@kernel(f"void(float32[::1], int32[::1], float32[::1], float64[::1], {_FRAME}, {_SHAPE}, {_PLACE}, UniTuple(float64, 2), int64)")
-def trace_straight(heights, owners, scratch, notes, frame, shape, ends, span, owner):
-    """Do what `cut_straight` does, and note what it took; what the first and the last arguments are `settle` says."""
+@kernel(f"void({_TRACED}, UniTuple(float64, 2), int64)", counts=False)
+def trace_straight(heights, owners, swept, sums, notes, frame, shape, ends, span, owner):
+    """Do what `cut_straight` does, and note what it took; the rest of the arguments are `settle`'s."""
     plan = plan_straight(frame, shape, ends, span)
     runs, numbers = run_numbers(shape, plan[11], plan[14], plan[15])
+    pending = 0
     for line in range(int(plan[0]), int(plan[1]) + 1):
         first, last = cells_in_line(frame, plan, float(line))
-        if last >= first:
-            blocks = (int(last - first) + LANES) // LANES
-            straight_run(runs, scratch, 0, blocks, place_in_run(frame, plan, float(line), first), numbers)
-            settle(heights, owners, scratch, notes, line * STRIDE + int(first), blocks, owner)
+        if last < first:
+            continue
+        where = place_in_run(frame, plan, float(line), first)
+        at, blocks = line * STRIDE + int(first), (int(last - first) + LANES) // LANES
+        if runs == BALL and owner >= 0:
+            ball_trace(heights, owners, sums, at, blocks, where, numbers[:6], _F(notes[5]), np.int32(owner))
+        else:
+            straight_run(runs, swept, 0, blocks, where, numbers)
+            settle(heights, owners, swept, sums, notes, at, blocks, owner)
+        pending += blocks
+        if pending >= PENDING:
+            gather(sums, notes)
+            pending = 0
+    gather(sums, notes)
 
 
 @kernel(f"UniTuple(float64, 6)({_FRAME}, {_SHAPE}, {_PLACE}, {_ARC})")
@@ -260,8 +236,8 @@ def place_by_arc(frame, ends, circle, plan, line, first):
             _F(ds * ds), _F((y - ps) * (y - ps)), _F((y - qs) * (y - qs)), _F(pitch))  # fmt: skip
 
 
-@kernel(f"void(float32[::1], int32[::1], float32[::1], float64[::1], {_FRAME}, {_SHAPE}, {_PLACE}, {_ARC}, int64, boolean)")
-def sweep_arc(heights, owners, scratch, notes, frame, shape, ends, circle, owner, traced):
+@kernel(f"void({_TRACED}, {_ARC}, int64, boolean)", counts=False)
+def sweep_arc(heights, owners, swept, sums, notes, frame, shape, ends, circle, owner, traced):
     """Lower a tile's heights under a level arc, traced or not; what the arguments are `plan_arc` and `settle` say."""
     plan = plan_arc(frame, shape, ends, circle)
     radius, flat, fillet, span, slope, lift, _ = shape
@@ -276,7 +252,8 @@ def sweep_arc(heights, owners, scratch, notes, frame, shape, ends, circle, owner
             where = place_by_arc(frame, ends, circle, plan, float(line), first)
             at, blocks = line * STRIDE + int(first), (int(last - first) + LANES) // LANES
             if traced:
-                arc_run(scratch, 0, blocks, where, form, bend)
-                settle(heights, owners, scratch, notes, at, blocks, owner)
+                arc_run(swept, 0, blocks, where, form, bend)
+                settle(heights, owners, swept, sums, notes, at, blocks, owner)
+                gather(sums, notes)
             else:
                 arc_run(heights, at, blocks, where, form, bend)

@@ -9,6 +9,7 @@ import numpy as np
 from app.dexel.reach_kernels import SHORT, reach
 from app.dexel.run_kernels import LANES
 from app.dexel.sweep_kernels import STRIDE, TILE, cut_straight, sweep_arc, trace_straight
+from app.dexel.trace_kernels import NOTES
 from app.jit import kernel
 
 NOTHING, CUTS, ASKS = range(3)
@@ -63,7 +64,7 @@ def survey(start, end, does, cutter, arc, shapes, arcs, first, last, reduced, wi
         shapes: rows of cutters, as `reach_kernels` says.
         arcs: rows of arcs: centre, radius, box.
         first, last: the pieces to do are first … last - 1.
-        reduced: pieces that go on are evaluated without the discs at their ends.
+        reduced: pieces that go on are evaluated without what the next one cuts as deep; what the one before has cut is always left out.
         window: low x, low y, high x, high y; pieces outside it get a box outside it.
         spans: (n, 6) from and to along straight pieces, mm (to < from: upright), low x, low y, high x, high y.
     """
@@ -94,9 +95,9 @@ def survey(start, end, does, cutter, arc, shapes, arcs, first, last, reduced, wi
         known = joins
         if size > 0.0:
             span = (-radius, size + radius)
-            if reduced and does[i] == CUTS:
+            if does[i] == CUTS:
                 shape = (radius, shapes[c, 1], shapes[c, 2], shapes[c, 3], shapes[c, 4], shapes[c, 5], shapes[c, 6])
-                span = reach(shape, course, onward, before, joins)
+                span = reach(shape, course, onward, before, joins and reduced)
         spans[i, 0], spans[i, 1] = span
         spans[i, 2], spans[i, 3], spans[i, 4], spans[i, 5] = box_of(span, (x0, y0), course, radius)
 
@@ -216,12 +217,13 @@ def store_owners(owners, lines, box, turned):
 
 @kernel(
     f"void({_PLACES}, {_PLACES}, {_TABLES}, float64[:, ::1], int32[::1], int32[::1], UniTuple(float64, 5), boolean, "
-    "float32[::1], int32[::1], float64[:, ::1], UniTuple(float64, 2))"
+    "float32[::1], int32[::1], float32[::1], float32[::1], float64[::1], float64[:, ::1], UniTuple(float64, 2))",
+    counts=False,
 )
-def cut_lines(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, frame, turned, heights, owners, told, limits):
+def cut_lines(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, frame, turned,
+              heights, owners, swept, sums, notes, told, limits):  # fmt: skip
     """Cut the lines of a tile by its pieces, in their order; what the arguments are `survey` and `cut_tile` say."""
-    scratch, notes = np.full(STRIDE + LANES, np.float32(math.inf)), np.zeros(6)
-    notes[4], notes[5] = limits
+    notes[5], notes[6] = limits
     traced = len(owners) > 0
     for k in range(len(refs)):
         i = refs[k]
@@ -232,16 +234,17 @@ def cut_lines(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs,
         if turned:
             ends = (ends[1], ends[0], ends[2], ends[4], ends[3], ends[5])
         owner = -1 if does[i] == ASKS else motions[i]
-        notes[0] = notes[1] = notes[2] = 0.0
         if a >= 0:
             circle = (arcs[a, 1], arcs[a, 0], arcs[a, 2], -1.0) if turned else (arcs[a, 0], arcs[a, 1], arcs[a, 2], 1.0)
-            sweep_arc(heights, owners, scratch, notes, frame, shape, ends, circle, owner, noted)
+            sweep_arc(heights, owners, swept, sums, notes, frame, shape, ends, circle, owner, noted)
         elif noted:
-            trace_straight(heights, owners, scratch, notes, frame, shape, ends, (spans[i, 0], spans[i, 1]), owner)
+            trace_straight(heights, owners, swept, sums, notes, frame, shape, ends, (spans[i, 0], spans[i, 1]), owner)
         else:
             cut_straight(heights, frame, shape, ends, (spans[i, 0], spans[i, 1]))
         if noted and len(told) > 0:
-            told[k, 0], told[k, 1], told[k, 2], told[k, 3] = notes[0], notes[1], notes[2], notes[3]
+            for j in range(5):
+                told[k, j] = notes[j]
+                notes[j] = 0.0
 
 
 @kernel(
@@ -258,8 +261,8 @@ def cut_tile(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, 
         box: first row and column of the tile, its rows and columns.
         turned: whether its lines run along Y.
         before, after: heights of the whole grid. owners: motion that cut each cell last; no rows: not wanted.
-        told: a row for each ref, or nothing: volume in mm of height, engaged cells, greatest depth, and its cell
-            as row * columns + column.
+        told: a row for each ref, or nothing: volume in mm of height, engaged cells, greatest depth, its cell
+            as row * columns + column, and the height that is reached there.
         limits: floor, and the depth from which a piece that only asks is told of, mm.
     """
     x0, y0, pitch = grid
@@ -268,8 +271,10 @@ def cut_tile(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, 
     frame = (y, x, pitch, float(rows), float(cols)) if turned else (x, y, pitch, float(cols), float(rows))
     heights = np.empty(TILE * STRIDE, np.float32)
     mine = np.full(TILE * STRIDE if len(owners) > 0 else 0, np.int32(-1))
+    swept, sums, notes = np.full(STRIDE + LANES, np.float32(math.inf)), np.zeros(2 * LANES, np.float32), np.zeros(NOTES)
     load(before, heights, box, turned)
-    cut_lines(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, frame, turned, heights, mine, told, limits)
+    cut_lines(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, frame, turned,
+              heights, mine, swept, sums, notes, told, limits)  # fmt: skip
     store(after, heights, box, turned, np.float32(limits[0]))
     if len(owners) > 0:
         store_owners(owners, mine, box, turned)

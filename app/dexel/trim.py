@@ -85,6 +85,7 @@ class RapidHit:
 
     Attributes:
         motion: its row. x, y: where it is deepest, mm. depth: how deep, mm. cells: how many it meets.
+        z: height that the cutter reaches there, mm; the metal stands `depth` higher.
     """
 
     motion: int
@@ -92,6 +93,7 @@ class RapidHit:
     y: float
     depth: float
     cells: int
+    z: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -207,7 +209,7 @@ class _Batch:
 
         job, boxes = self._job, _tile_boxes(self._job.grid)
         bounds, refs, votes = self._sorted(len(boxes))
-        told = np.zeros((len(refs) if job.options.trace or bool(np.any(self._does == ASKS)) else 0, 4))
+        told = np.zeros((len(refs) if job.options.trace or bool(np.any(self._does == ASKS)) else 0, 5))
         limits = (float(job.workpiece.floor), float(job.options.touch))
 
         def cut(tile: int) -> None:
@@ -247,9 +249,9 @@ class _Batch:
             job.volume += np.bincount(motion, np.where(asks, 0.0, told[:, 0]), len(job.volume)) * job.grid.pitch**2
             job.engaged += np.bincount(motion, np.where(asks, 0.0, told[:, 1]), len(job.engaged)).astype(np.int64)
         for k in np.flatnonzero(asks & (told[:, 1] > 0)):
-            row, (_, cells, depth, place) = int(motion[k]), told[k]
+            row, (_, cells, depth, place, z) = int(motion[k]), told[k]
             x, y = job.grid.place(int(place))
-            hit, old = RapidHit(row, x, y, float(depth), int(cells)), job.hits.get(row)
+            hit, old = RapidHit(row, x, y, float(depth), int(cells), float(z)), job.hits.get(row)
             deepest = hit if old is None or hit.depth > old.depth else old
             job.hits[row] = replace(deepest, cells=hit.cells + (old.cells if old else 0))
 

@@ -75,6 +75,11 @@ def cut(piece: Workpiece, motions: Motions, cutter: Cutter, options: TrimOptions
     return trim(piece, course_of(motions), {1: cutter}, options)
 
 
+def cut_apart(piece: Workpiece, motions: Motions, cutter: Cutter, options: TrimOptions = PLAIN) -> Cut:
+    """Cut with two tools by turns, both of the same shape: no motion goes on from another, so all are evaluated wherever they sweep."""
+    return trim(piece, Course(motions, np.arange(len(motions), dtype=np.int32) % 2 + 1), {1: cutter, 2: cutter}, options)
+
+
 def cells_of(piece: Workpiece) -> Floats:
     """Return (rows * cols, 2) centres of the cells."""
     x, y = np.meshgrid(piece.grid.xs(), piece.grid.ys())

@@ -17,9 +17,10 @@ from app.dexel.trim import TrimOptions
 from app.dexel.workpiece import Heights, Workpiece
 from app.model.motion import Floats, Motions, Plane
 from app.model.motion_path import arc_paths
-from tests.dexel.courses import CUTTERS, arc, box_piece, cells_of, cut, joined, motions_of, polyline
+from tests.dexel.courses import CUTTERS, arc, box_piece, cells_of, cut, cut_apart, joined, motions_of, polyline
 from tests.dexel.reference import Path, field, line, slopes
 
+TRACED = TrimOptions(trace=True)
 WALL = 50.0
 """A cell where a micrometre to the side changes the height by more than this much of it lies on a wall."""
 
@@ -131,8 +132,12 @@ REDUCED = {"rough walk": walk(5, 400, 0.8, 1.0), "smooth walk": np.repeat(walk(6
 @pytest.mark.parametrize("name", REDUCED)
 def test_what_is_not_evaluated_is_not_missed(cutter: str, name: str) -> None:
     piece, motions = box_piece(cells=290), polyline(REDUCED[name])
-    reduced = cut(piece, motions, CUTTERS[cutter]).heights
-    assert differ(cut(piece, motions, CUTTERS[cutter], TrimOptions(trace=True)).heights, reduced) == 0
+    whole = cut_apart(piece, motions, CUTTERS[cutter], TRACED)
+    assert differ(whole.heights, cut(piece, motions, CUTTERS[cutter]).heights) == 0
+    traced = cut(piece, motions, CUTTERS[cutter], TRACED)
+    assert differ(whole.heights, traced.heights) == 0
+    assert traced.volume == pytest.approx(whole.volume, abs=2e-3)
+    assert np.abs(traced.engaged - whole.engaged).max() <= 4 + 0.01 * whole.engaged.max()
 
 
 @pytest.mark.parametrize("cutter", CUTTERS)
@@ -141,8 +146,8 @@ def test_order_changes_no_bit_and_direction_next_to_nothing(cutter: str) -> None
     start, end = places[:-1], places[1:]
     piece, shuffle = box_piece(cells=300), np.random.default_rng(0).permutation(len(start))
     cutter_ = CUTTERS[cutter]
-    inorder = cut(piece, motions_of(start, end), cutter_, TrimOptions(trace=True))
-    shuffled = cut(piece, motions_of(start[shuffle], end[shuffle]), cutter_, TrimOptions(trace=True))
+    inorder = cut_apart(piece, motions_of(start, end), cutter_, TRACED)
+    shuffled = cut_apart(piece, motions_of(start[shuffle], end[shuffle]), cutter_)
     back = cut(piece, motions_of(end[::-1], start[::-1]), cutter_)
     assert np.array_equal(inorder.heights, shuffled.heights)
     assert differ(inorder.heights, back.heights) == 0

@@ -104,6 +104,7 @@ def test_a_rapid_through_metal_is_found_placed_and_sized() -> None:
     done = cut(piece, joined([hole, home, through]), CUTTERS["flat"])
     assert [hit.motion for hit in done.rapids] == [4]
     assert done.rapids[0].depth == pytest.approx(0.25, abs=1e-5)
+    assert done.rapids[0].z == pytest.approx(-0.25, abs=1e-5)
     assert np.hypot(done.rapids[0].x - 6, done.rapids[0].y - 4) < 3
     assert np.array_equal(done.heights, cut(piece, hole, CUTTERS["flat"]).heights)
     assert cut(piece, through, CUTTERS["flat"], TrimOptions(Rapids.CUT)).heights.min() == pytest.approx(-0.25)
@@ -149,7 +150,7 @@ def test_many_pieces_are_cut_in_parts(monkeypatch: pytest.MonkeyPatch) -> None:
     parts = cut(box_piece(cells=300), motions, CUTTERS["ball"], TRACED)
     assert differ(whole.heights, parts.heights) == 0
     assert whole.owner is not None and parts.owner is not None
-    assert np.mean(whole.owner != parts.owner) < 0.005
+    assert np.mean(whole.owner != parts.owner) < 0.01
     assert parts.volume == pytest.approx(whole.volume, abs=1e-3)
 
 
