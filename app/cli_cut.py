@@ -5,17 +5,15 @@ from __future__ import annotations
 import argparse
 import threading
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from app.atomic import write_together
-from app.cli_cut_options import cut_parser, read_arguments
+from app.cli_cut_options import Corners, cut_parser, read_arguments
 from app.cli_files import check_outputs, read_input, shown_progress
 from app.cli_output import REMARKS, finding_lines, tell
 from app.cli_signals import undisturbed
-from app.dexel.heights_file import heights_files, read_heights
-from app.dexel.workpiece import Stock
 from app.errors import InputError
-from app.files.height_image import HeightImage, height_image
 from app.files.job_toml import read_job
 from app.files.tool_files import read_rows, read_tools
 from app.model.part import Units
@@ -23,9 +21,11 @@ from app.nc.read.dialect import Dialect
 from app.nc.tool_offsets import tool_offsets
 from app.progress import Progress
 from app.workflow.cut import CutOptions, CutProgram, cut
+from app.workflow.cut_files import heights_of, picture_of
 from app.workflow.cut_report import CutReport, cut_report
 from app.workflow.examine import Examined, ExamineOptions, examine
 from app.workflow.setup import Ready, Wishes, setup_of
+from app.workflow.setup_stock import box_stock, read_stock
 from app.workflow.setup_tools import ToolsTold
 
 
@@ -103,26 +103,24 @@ def _wishes(arguments: argparse.Namespace) -> Wishes:
         shapeless = arguments.tools.suffix.lower() == ".tbl"
         told.append(ToolsTold(arguments.tools.name, {tool.number: tool for tool in library.tools}, shapeless))
     against = (arguments.against.name, read_input(arguments.against)) if arguments.against else None
-    return Wishes(
-        tuple(told), job, _stock(arguments.stock), against, arguments.depth, arguments.stock_to_leave, tuple(arguments.layer),
+    return _with_stock(Wishes(
+        tuple(told), job, None, against, arguments.depth, arguments.stock_to_leave, tuple(arguments.layer),
         arguments.units, arguments.origin, arguments.join_tolerance, arguments.tolerance,
-    )  # fmt: skip
+    ), arguments.stock)  # fmt: skip
 
 
 def _units(arguments: argparse.Namespace) -> Units:
     return Units.INCH if arguments.tool_units == "in" else Units.MM
 
 
-def _stock(given: Stock | Path | None) -> Stock | None:
-    """Return the metal that --stock names."""
+def _with_stock(wishes: Wishes, given: Corners | Path | None) -> Wishes:
+    """Return the wishes with the metal that --stock names."""
+    if given is None:
+        return wishes
     if not isinstance(given, Path):
-        return given
-    data = read_input(given)
-    if given.suffix.lower() == ".npy":
-        return read_heights(given.name, data, read_input(given.with_suffix(".json")))
-    from app.dexel.solid import read_solid
-
-    return read_solid(given.name, data)
+        return replace(wishes, stock=box_stock(given))
+    beside = read_input(given.with_suffix(".json")) if given.suffix.lower() == ".npy" else b""
+    return replace(wishes, stock=read_stock(given.name, read_input(given), beside))
 
 
 def _ensure_window(window: tuple[float, float, float, float] | None, ready: Ready) -> None:
@@ -144,19 +142,9 @@ def _texts(outputs: dict[str, Path], ready: Ready, done: CutProgram, report: Cut
     if "report" in outputs:
         yield "report", report.text().encode()
     if "heights" in outputs:
-        heights, where = heights_files(done.cut.workpiece)
+        heights, where = heights_of(done)
         yield "heights", heights
         if "heights, with its" in outputs:
             yield "heights, with its", where
     if "image" in outputs:
-        yield "image", height_image(_image(ready, done))
-
-
-def _image(ready: Ready, done: CutProgram) -> HeightImage:
-    """Return what is drawn."""
-    judged, grid = done.judgement, done.cut.before.grid
-    return HeightImage(
-        done.cut.heights, grid.pitch, done.top, done.floor, ready.programs[0].name,
-        None if judged is None else judged.deviation, None if judged is None else judged.unreachable,
-        0.0 if judged is None else judged.tolerance,
-    )  # fmt: skip
+        yield "image", picture_of(done, ready.programs[0].name)

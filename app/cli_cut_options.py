@@ -10,16 +10,15 @@ from pathlib import Path
 from typing import NoReturn
 
 from app.cli_options import OptionParser, join_tolerance, number, typed, with_equals
-from app.dexel.workpiece import MOST_CELLS, BoxStock
 from app.edit.errors import CommandError
 from app.edit.numbers import angle, length
 from app.errors import HitofudeError, InputError
 from app.files.job_toml import ORIGIN_HELP, parse_origin, read_units
 from app.model.operation import LEAST_LENGTH
-from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
 from app.workflow.cut import CELLS
 from app.workflow.examine import CONTROLS
+from app.workflow.setup_stock import FINEST, box_stock
 
 EPILOG = """\
 Tools that are not given with --tool are looked for in the job file, in the tool table, in the program's comments; the stock in
@@ -30,6 +29,9 @@ D is a diameter: 6, 6mm, 0.25in, 1/4in. Lengths are mm unless a unit is written.
 """
 
 SHAPES = "flat:D, ball:D, bull:D:CORNER, v:D:ANGLE, drill:D or drill:D:ANGLE, taper:TIP:ANGLE:D"
+Corners = list[float]
+"""x0, y0, z0, x1, y1, z1, mm."""
+
 LATER_ENGINES = {"gpu": "the engine on the graphics card", "patent": "the engine of the patent, by depth buffer,"}
 _COUNT = {ToolKind.FLAT: (1,), ToolKind.BALL: (1,), ToolKind.BULL: (2,), ToolKind.V: (2,), ToolKind.DRILL: (1, 2), ToolKind.TAPER: (3,)}
 
@@ -77,8 +79,8 @@ def _shaped(tool: int, kind: ToolKind, values: list[str]) -> Tool:
     return Tool(tool, diameter, kind)
 
 
-def stock_given(text: str) -> BoxStock | Path:
-    """Return a box by six numbers, or the file of a solid (.stl) or of heights (.npy).
+def stock_given(text: str) -> Corners | Path:
+    """Return the corners of a box, or the file of a solid (.stl) or of heights (.npy).
 
     Raises:
         InputError: it is none of these.
@@ -87,12 +89,13 @@ def stock_given(text: str) -> BoxStock | Path:
     if path.suffix.lower() in (".stl", ".npy"):
         return path
     try:
-        values = _lengths(text, 6, "X0,Y0,Z0,X1,Y1,Z1")
-        return BoxStock(StockBox(*values))
+        corners = _lengths(text, 6, "X0,Y0,Z0,X1,Y1,Z1")
+        box_stock(corners)
     except InputError as error:
         raise InputError(f"{error}; or name a solid, .stl, or heights, .npy") from error
     except HitofudeError as error:
         raise InputError(f"'{text}': {error} Write the lower corner first: X0,Y0,Z0,X1,Y1,Z1") from error
+    return corners
 
 
 def window_given(text: str) -> tuple[float, float, float, float]:
@@ -107,7 +110,7 @@ def window_given(text: str) -> tuple[float, float, float, float]:
     return x0, y0, x1, y1
 
 
-def _lengths(text: str, count: int, form: str) -> list[float]:
+def _lengths(text: str, count: int, form: str) -> Corners:
     values = text.split(",")
     try:
         if len(values) == count:
@@ -118,8 +121,8 @@ def _lengths(text: str, count: int, form: str) -> list[float]:
 
 
 def _cells(text: str) -> int:
-    if not re.fullmatch(r"\d{1,6}", text.strip()) or not 1 <= int(text) <= MOST_CELLS:
-        raise InputError(f"'{text}' is no number of cells; write a whole number from 1 to {MOST_CELLS}")
+    if not re.fullmatch(r"\d{1,6}", text.strip()) or not 1 <= int(text) <= FINEST:
+        raise InputError(f"'{text}' is no number of cells; write a whole number from 1 to {FINEST}")
     return int(text)
 
 

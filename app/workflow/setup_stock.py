@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import PurePath
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.dexel.workpiece import BoxStock, Stock
+from app.dexel.heights_file import read_heights
+from app.dexel.solid import read_solid
+from app.dexel.workpiece import MOST_CELLS, BoxStock, Stock
 from app.errors import InputError
 from app.model.finding import Finding, FindingKind
 from app.model.motion import Floats, MotionKind
@@ -15,6 +19,9 @@ from app.model.stock_box import StockBox
 from app.nc.extent import extent
 from app.nc.read.program import StockNote
 from app.workflow.examine import Examined
+
+FINEST = MOST_CELLS
+"""Cells along a side of a grid, at most."""
 
 HINT = "--stock X0,Y0,Z0,X1,Y1,Z1 gives another"
 
@@ -31,6 +38,31 @@ class KnownStock:
     stock: Stock
     source: str
     assumed: Finding | None = None
+
+
+def box_stock(corners: Sequence[float]) -> Stock:
+    """Return a box of metal.
+
+    Args:
+        corners: x0, y0, z0, x1, y1, z1, mm.
+
+    Raises:
+        ParameterError: one of its sides is not longer than 0.
+    """
+    return BoxStock(StockBox(*corners))
+
+
+def read_stock(name: str, data: bytes, beside: bytes) -> Stock:
+    """Return the metal that a file describes.
+
+    Args:
+        name: of the file: a solid, .stl, or heights, .npy.
+        data: its bytes. beside: of heights the JSON file beside it.
+
+    Raises:
+        InputError: it cannot be used.
+    """
+    return read_heights(name, data, beside) if PurePath(name).suffix.lower() == ".npy" else read_solid(name, data)
 
 
 def cut_box(programs: tuple[Examined, ...]) -> Floats:
