@@ -17,6 +17,7 @@ from app.errors import InputError
 from app.files.job_toml import read_job
 from app.files.tool_files import read_rows, read_tools
 from app.model.part import Units
+from app.model.tool_table import TableRow, ToolTable
 from app.nc.read.dialect import Dialect
 from app.nc.tool_offsets import tool_offsets
 from app.progress import Progress
@@ -85,8 +86,7 @@ def _inputs(arguments: argparse.Namespace) -> Iterator[Path]:
 def _programs(arguments: argparse.Namespace, progress: Progress) -> tuple[Examined, ...]:
     """Return every program as its control reads it."""
     dialect = Dialect(arguments.dialect) if arguments.dialect else None
-    table = tool_offsets(read_rows(arguments.tools.name, read_input(arguments.tools), _units(arguments))) if arguments.tools else {}
-    options = ExamineOptions(dialect, table, block_delete=arguments.block_delete == "on")
+    options = ExamineOptions(dialect, tool_offsets(_rows(arguments)), block_delete=arguments.block_delete == "on")
     count = len(arguments.programs)
     return tuple(examine(path.name, read_input(path), options, progress.part(k / count, (k + 1) / count))
                  for k, path in enumerate(arguments.programs))
@@ -99,9 +99,7 @@ def _wishes(arguments: argparse.Namespace) -> Wishes:
     if job is not None and "tool" in job.tables:
         told.append(ToolsTold("the job file", {tool.number: tool for tool in job.job.tools}))
     if arguments.tools is not None:
-        library, _ = read_tools(arguments.tools.name, read_input(arguments.tools), _units(arguments))
-        shapeless = arguments.tools.suffix.lower() == ".tbl"
-        told.append(ToolsTold(arguments.tools.name, {tool.number: tool for tool in library.tools}, shapeless))
+        told.append(_tools(arguments))
     against = (arguments.against.name, read_input(arguments.against)) if arguments.against else None
     return _with_stock(Wishes(
         tuple(told), job, None, against, arguments.depth, arguments.stock_to_leave, tuple(arguments.layer),
@@ -109,8 +107,21 @@ def _wishes(arguments: argparse.Namespace) -> Wishes:
     ), arguments.stock)  # fmt: skip
 
 
-def _units(arguments: argparse.Namespace) -> Units:
-    return Units.INCH if arguments.tool_units == "in" else Units.MM
+def _rows(arguments: argparse.Namespace) -> tuple[TableRow, ...]:
+    """Return the control's tool table as --tools tells it."""
+    if arguments.tools is None:
+        return ()
+    return read_rows(arguments.tools.name, read_input(arguments.tools), Units.INCH if arguments.tool_units == "in" else Units.MM)
+
+
+def _tools(arguments: argparse.Namespace) -> ToolsTold:
+    """Return the cutters that --tools tells of; a control's table knows diameters, and not of all, but no shapes."""
+    name = arguments.tools.name
+    if arguments.tools.suffix.lower() == ".tbl":
+        tools, _ = ToolTable(_rows(arguments)).tools(name)
+        return ToolsTold(name, {tool.number: tool for tool in tools}, shapeless=True)
+    library, _ = read_tools(name, read_input(arguments.tools))
+    return ToolsTold(name, {tool.number: tool for tool in library.tools})
 
 
 def _with_stock(wishes: Wishes, given: Corners | Path | None) -> Wishes:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import tomllib
 from collections.abc import Callable, Mapping
@@ -274,12 +275,14 @@ class _Reader:
         tools: list[Tool] = []
         for index, table in enumerate(self._tables("tool")):
             table.take("number", _whole)
-            for key in ("diameter", "spindle_speed", "feed_rate", "plunge_rate"):
+            for key in ("diameter", "spindle_speed", "feed_rate", "plunge_rate", "corner_radius", "tip_diameter"):
                 table.take(key, _number)
+            table.take("tip_angle", lambda value: math.radians(_number(value)))
             table.take("kind", _word({kind.value: kind for kind in ToolKind}, "kind of tool"))
             table.take("name", _text)
             table.take("flutes", _whole)
-            table.done("number, diameter, kind, name, flutes, spindle_speed, feed_rate, plunge_rate")
+            table.done("number, diameter, kind, name, flutes, spindle_speed, feed_rate, plunge_rate, "
+                       "corner_radius, tip_diameter, tip_angle")
             for key in ("number", "diameter"):
                 if key not in table.taken:
                     raise table.error(key, f"is missing in this [[tool]]; add {key} = …")

@@ -109,14 +109,15 @@ class _Motions:
         chosen = {"cut": self.feed & self.took, "link": self.feed & ~self.took, "rapid": ~self.feed}
         return {name: float(np.sum(self.length[mask])) for name, mask in chosen.items()}
 
-    def strokes(self) -> int:
-        """Return how many unbroken runs of motions at feed rate took metal."""
-        run = np.cumsum(~self.feed) + np.cumsum(np.diff(self.file, prepend=0))
-        return len(np.unique(run[self.feed & self.took]))
+    def leaves(self, top: float) -> NDArray[np.bool_]:
+        """Return which take the tool out of the stock."""
+        return np.asarray((np.minimum(self.start, self.end) < top - SURFACE) & (self.end >= top))
 
-    def retracts(self, top: float) -> int:
-        """Return how often the tool leaves the stock."""
-        return int(np.sum((np.minimum(self.start, self.end) < top - SURFACE) & (self.end >= top)))
+    def strokes(self, top: float) -> int:
+        """Return how many runs of motions at feed rate took metal, unbroken by rapids or by leaving the stock."""
+        breaks = ~self.feed | np.diff(self.file, prepend=0).astype(bool)
+        breaks[1:] |= self.leaves(top)[:-1]
+        return len(np.unique(np.cumsum(breaks)[self.feed & self.took]))
 
 
 def cut_report(done: CutProgram, ready: Ready) -> CutReport:
@@ -165,7 +166,7 @@ def _finite(value: float) -> float | None:
 def _path(done: CutProgram, ready: Ready, motions: _Motions) -> Json:
     """Return what the tools do on the way."""
     return {
-        "strokes": motions.strokes(), "retracts": motions.retracts(done.top),
+        "strokes": motions.strokes(done.top), "retracts": int(np.sum(motions.leaves(done.top))),
         "length_mm": motions.lengths(), "length_method": LENGTH_METHOD,
         "time_s": sum(each.time.total for each in ready.programs), "time_method": TIME_METHOD.format(ready.programs[0].machine.title),
         "moves": {name: int(np.sum(motions.kind == kind)) for name, kind in KINDS.items()},

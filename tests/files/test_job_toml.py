@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -74,6 +75,28 @@ def test_every_key_is_read() -> None:
         ("a", "b"), "other", Units.INCH, True,
     )  # fmt: skip
     assert read.units is Units.INCH
+    assert read.tables == {"drawing", "stock", "origin", "heights", "output", "tool", "operation"}
+
+
+def test_a_tool_has_the_shape_that_its_kind_has() -> None:
+    shapes = """
+    [[tool]]
+    number = 1
+    diameter = 8
+    kind = "bull"
+    corner_radius = 1.5
+    [[tool]]
+    number = 2
+    diameter = 6
+    kind = "taper"
+    tip_angle = 7.5
+    tip_diameter = 0.4
+    """
+    assert read_job("j", shapes.encode()).job.tools == (
+        Tool(1, 8.0, ToolKind.BULL, corner_radius=1.5), Tool(2, 6.0, ToolKind.TAPER, tip_angle=math.radians(7.5), tip_diameter=0.4),
+    )  # fmt: skip
+    with pytest.raises(InputError, match="j:1: T1: a tool of kind flat has no corner radius"):
+        read_job("j", (TOOL + "corner_radius = 1\n").encode())
 
 
 TOOL = "[[tool]]\nnumber = 1\ndiameter = 6\n"
