@@ -15,7 +15,7 @@ from PySide6.QtCore import QObject, Qt, Signal, Slot
 from app.errors import Cancelled, HitofudeError
 from app.progress import Progress
 
-_HEAD_START_S = 0.04
+HEAD_START_S = 0.04
 """Seconds in which the window shows that it computes, before the job competes with it for the interpreter."""
 
 _TOLD_EVERY_S = 0.04
@@ -76,6 +76,7 @@ class _Runner(threading.Thread):
     def __init__(self, work: _Work, worker: Worker) -> None:
         super().__init__(name=f"job {work.job_id}", daemon=True)
         self._work, self._worker, self._told = work, worker, 0.0
+        self._head_start = worker.head_start_s
 
     def _tell(self, fraction: float, text: str) -> None:
         now = time.monotonic()
@@ -86,7 +87,7 @@ class _Runner(threading.Thread):
     def run(self) -> None:
         """Run the function and answer; nothing may escape from here."""
         work = self._work
-        if work.cancelled.wait(_HEAD_START_S):
+        if work.cancelled.wait(self._head_start):
             return
         value, error = None, None
         try:
@@ -108,6 +109,9 @@ class Worker(QObject):
 
     A newer job replaces the one before, whose answer is dropped. `cancel` takes effect at once: the job is asked to
     stop, and whatever it still answers is dropped.
+
+    Attributes:
+        head_start_s: how long the window has for itself before a job begins, s; jobs that take less than that need none.
     """
 
     progress = Signal(float, str)
@@ -118,8 +122,9 @@ class Worker(QObject):
     told = Signal(int, float, str)
     answered = Signal(Answer)
 
-    def __init__(self, parent: QObject | None = None) -> None:
+    def __init__(self, parent: QObject | None = None, head_start_s: float = HEAD_START_S) -> None:
         super().__init__(parent)
+        self.head_start_s = head_start_s
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._threads: list[_Runner] = []
         self._next_id = 1

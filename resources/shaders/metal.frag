@@ -13,6 +13,14 @@ uniform float floor_z;
 uniform int face;             // 0 = metal, 1 = face of the section
 out vec4 colour;
 
+#ifndef TOP
+uniform vec4 hole;            // x0, y0, x1, y1 of what somebody else paints, mm
+
+bool elsewhere(vec2 at) {
+    return all(greaterThan(at, hole.xy)) && all(lessThan(at, hole.zw));
+}
+#endif
+
 bool striped(float step, float width) {
     return mod(gl_FragCoord.x + gl_FragCoord.y, step) < width;
 }
@@ -44,6 +52,9 @@ ivec2 foot_of_wall(ivec2 here) {
 }
 
 void main() {
+#ifdef TOP_CLIPPED
+    if (elsewhere(corner.xy + cell * corner.z)) discard;
+#endif
     vec3 map = texture(relief, cell / vec2(last_cell + 1)).rgb;
     vec2 root = map.xy * (255.0 / 127.0) - (128.0 / 127.0);
     vec2 aside = root * abs(root);
@@ -61,14 +72,17 @@ flat in vec3 side;
 uniform sampler2D heights;
 
 void main() {
+    if (elsewhere(place.xy)) discard;
     ivec2 cell = ivec2((place.xy - corner.xy) / corner.z);
     if (texelFetch(heights, clamp(cell, ivec2(0), textureSize(heights, 0) - 1), 0).r <= floor_z) discard;
     colour = vec4(lit(stock, side, 1.0), 1.0);
 }
 #else
+in vec3 place;
 flat in vec3 side;
 
 void main() {
+    if (elsewhere(place.xy - side.xy * corner.z * 0.01)) discard;
     vec3 base = face == 1 && striped(10.0, 1.5) ? mix(stock, hatch, 0.55) : stock;
     colour = vec4(lit(base, side, 1.0), 1.0);
 }

@@ -9,7 +9,8 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from app.ui.cut.picture import CutPicture, Floats, Heights
+from app.ui.cut.picture import CutPicture, Floats, Heights, Numbered, Span
+from app.ui.cut.relief import Bytes
 
 Rgb8 = tuple[int, int, int]
 
@@ -17,7 +18,12 @@ OUT_OF_REACH, STOCK = 254, 255
 """Values of cells that no tool of the job reaches, and of those that nobody cut."""
 
 STEPS = 254
+CYCLE = 8
+"""Colours of things that are told apart by number."""
+
 _FINE, _COARSE = 1.0, 10.0
+_STOP_PLACES = np.array([0.0, 0.24, 0.47, 0.53, 0.76, 1.0])
+_LEAST_SPAN = 1e-6
 
 
 class CutColour(Enum):
@@ -63,20 +69,26 @@ class Tick:
 
 
 @dataclass(frozen=True, eq=False)
-class Colouring:
-    """The colour of every cell, and what it means.
+class ColourKey:
+    """What colours mean.
 
     Attributes:
-        values: (rows, columns) uint8 place in the palette.
         palette: (256, 4) uint8; the last two are out of reach and stock.
         ticks: of a scale, lower end first; none where the colours are told apart by name.
         names: colour and name of what is told apart.
     """
 
-    values: NDArray[np.uint8]
-    palette: NDArray[np.uint8]
+    palette: Bytes
     ticks: tuple[Tick, ...] = ()
     names: tuple[tuple[Rgb8, str], ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Colouring:
+    """The colour of every cell, (rows, columns) place in the palette, and what it means."""
+
+    values: Bytes
+    key: ColourKey
 
 
 def possible(picture: CutPicture) -> tuple[CutColour, ...]:
@@ -87,13 +99,47 @@ def possible(picture: CutPicture) -> tuple[CutColour, ...]:
     return tuple(colour for colour in CutColour if has.get(colour, True))
 
 
-def colouring(picture: CutPicture, colour: CutColour, inks: Inks) -> Colouring:
-    """Return the colours of a picture; those of the metal where what is asked for is not known."""
-    makers: dict[CutColour, Callable[[CutPicture, Inks], Colouring]] = {
-        CutColour.DEPTH: _by_depth, CutColour.TOOL: _by_tool, CutColour.SURFACE: _by_surface,
-        CutColour.DEVIATION: _by_deviation, CutColour.MOVE: _by_move,
+def told(picture: CutPicture, colour: CutColour) -> CutColour:
+    """Return what the colours tell: METAL where what is asked for is not known."""
+    return colour if colour in possible(picture) else CutColour.METAL
+
+
+def values_of(picture: CutPicture, colour: CutColour, span: Span) -> Bytes:
+    """Return (rows, columns) the place of every cell in the palette, the same by day and by night.
+
+    It takes a while for many cells; the picture keeps it.
+
+    Args:
+        picture: the cells. colour: what is told, one of those that are possible.
+        span: of the whole cut.
+    """
+    makers: dict[CutColour, Callable[[CutPicture, Span], Bytes]] = {
+        CutColour.DEPTH: _depth_values, CutColour.DEVIATION: _deviation_values, CutColour.MOVE: _move_values,
+        CutColour.TOOL: lambda picture, _: _numbered_values(picture, picture.moves.tools if picture.moves is not None else None),
+        CutColour.SURFACE: lambda picture, _: _numbered_values(picture, picture.moves.surfaces if picture.moves is not None else None),
     }
-    return makers.get(colour if colour in possible(picture) else CutColour.METAL, _plain)(picture, inks)
+    if colour not in picture.values:
+        picture.values[colour] = makers.get(colour, _plain_values)(picture, span)
+    return picture.values[colour]
+
+
+def key_of(picture: CutPicture, colour: CutColour, inks: Inks, span: Span) -> ColourKey:
+    """Return what the colours mean."""
+    moves = picture.moves
+    makers: dict[CutColour, Callable[[], ColourKey]] = {
+        CutColour.DEPTH: lambda: _depth_key(picture.top, inks, span),
+        CutColour.DEVIATION: lambda: _deviation_key(picture.tolerance, inks, span),
+        CutColour.MOVE: lambda: _move_key(moves.line if moves is not None else None, inks, span),
+        CutColour.TOOL: lambda: _numbered_key(moves.tools[0] if moves is not None else None, "T{}", inks),
+        CutColour.SURFACE: lambda: _numbered_key(moves.surfaces[0] if moves is not None else None, "Surface {}", inks),
+    }
+    return makers.get(colour, lambda: _plain_key(inks))()
+
+
+def colouring(picture: CutPicture, colour: CutColour, inks: Inks, span: Span | None = None) -> Colouring:
+    """Return the colours of a picture; those of the metal where what is asked for is not known."""
+    colour, span = told(picture, colour), span or picture.span
+    return Colouring(values_of(picture, colour, span), key_of(picture, colour, inks, span))
 
 
 def ramp(colours: tuple[Rgb8, ...], places: Floats | None = None) -> Floats:
@@ -121,70 +167,93 @@ def _places(shares: Heights) -> NDArray[np.uint8]:
     return (np.clip(shares, 0.0, 1.0) * np.float32(STEPS - 1) + np.float32(0.5)).astype(np.uint8)
 
 
-def _plain(picture: CutPicture, inks: Inks) -> Colouring:
-    values = np.where(picture.uncut(), np.uint8(STOCK), np.uint8(0))
-    return Colouring(values, _palette(np.array([inks.metal], float), inks), names=((inks.metal, "Cut"), (inks.stock, "Stock")))
+def _plain_values(picture: CutPicture, span: Span) -> Bytes:
+    return np.where(picture.uncut(), np.uint8(STOCK), np.uint8(0))
 
 
-def _by_depth(picture: CutPicture, inks: Inks) -> Colouring:
-    uncut = picture.uncut()
-    lowest = float(np.min(picture.heights, where=~uncut, initial=picture.top))
-    span = max(picture.top - lowest, 1e-6)
-    values = np.where(uncut, np.uint8(STOCK), _places((picture.heights - np.float32(lowest)) / np.float32(span)))
-    ticks = tuple(Tick(float(at), f"{lowest + at * span:.3f}") for at in np.linspace(0.0, 1.0, 5))
-    return Colouring(values, _palette(ramp(inks.depth[::-1]), inks), ticks)
+def _plain_key(inks: Inks) -> ColourKey:
+    return ColourKey(_palette(np.array([inks.metal], float), inks), names=((inks.metal, "Cut"), (inks.stock, "Stock")))
 
 
-def _by_tool(picture: CutPicture, inks: Inks) -> Colouring:
-    return _by_number(picture, picture.moves.tool if picture.moves is not None else np.zeros(0, np.int32), "T{}", inks)
+def _depth_values(picture: CutPicture, span: Span) -> Bytes:
+    shares = (picture.heights - np.float32(span.lowest)) / np.float32(max(picture.top - span.lowest, _LEAST_SPAN))
+    return np.where(picture.uncut(), np.uint8(STOCK), _places(shares))
 
 
-def _by_surface(picture: CutPicture, inks: Inks) -> Colouring:
-    return _by_number(picture, picture.moves.surface if picture.moves is not None else np.zeros(0, np.int32), "Surface {}", inks)
+def _depth_key(top: float, inks: Inks, span: Span) -> ColourKey:
+    height = max(top - span.lowest, _LEAST_SPAN)
+    ticks = tuple(Tick(float(at), f"{span.lowest + at * height:.3f}") for at in np.linspace(0.0, 1.0, 5))
+    return ColourKey(_palette(ramp(inks.depth[::-1]), inks), ticks)
 
 
-def _by_number(picture: CutPicture, numbers: NDArray[np.int32], name: str, inks: Inks) -> Colouring:
+def _numbered_values(picture: CutPicture, numbers: Numbered | None) -> Bytes:
     """Return one colour for each number that the moves have."""
-    move = picture.move if picture.move is not None else np.full(picture.heights.shape, -1, np.int32)
-    known, place = np.unique(numbers, return_inverse=True)
-    count = min(len(inks.cycle), max(len(known), 1))
-    lookup = np.append(place % count, STOCK).astype(np.uint8)
-    named = tuple((inks.cycle[k % count], name.format(number)) for k, number in enumerate(known.tolist()))
-    return Colouring(lookup[move], _palette(np.array(inks.cycle[:count], float), inks), names=named)
+    if numbers is None or picture.move is None:
+        return np.full(picture.heights.shape, STOCK, np.uint8)
+    lookup = np.append(numbers[1] % CYCLE, STOCK).astype(np.uint8)
+    return np.asarray(lookup[picture.move])
 
 
-def _by_move(picture: CutPicture, inks: Inks) -> Colouring:
+def _numbered_key(known: NDArray[np.int32] | None, name: str, inks: Inks) -> ColourKey:
+    numbers = known.tolist() if known is not None else []
+    count = len(inks.cycle)
+    names = tuple((inks.cycle[k % CYCLE % count], name.format(number)) for k, number in enumerate(numbers))
+    return ColourKey(_palette(np.array([inks.cycle[k % count] for k in range(CYCLE)], float), inks), names=names)
+
+
+def _move_values(picture: CutPicture, span: Span) -> Bytes:
     move = picture.move if picture.move is not None else np.full(picture.heights.shape, -1, np.int32)
-    last = max(int(move.max()), 1)
-    values = np.where(move < 0, np.uint8(STOCK), _places((move / np.float32(last)).astype(np.float32)))
-    lines = picture.moves.line if picture.moves is not None else None
-    marks = [(at, round(at * last)) for at in (0.0, 0.25, 0.5, 0.75, 1.0)]
+    return np.where(move < 0, np.uint8(STOCK), _places(move.astype(np.float32) / np.float32(span.last)))
+
+
+def _move_key(lines: NDArray[np.int32] | None, inks: Inks, span: Span) -> ColourKey:
+    marks = [(at, round(at * span.last)) for at in (0.0, 0.25, 0.5, 0.75, 1.0)]
     ticks = tuple(Tick(at, f"line {lines[min(k, len(lines) - 1)]}" if lines is not None and len(lines) else str(k)) for at, k in marks)
-    return Colouring(values, _palette(ramp(inks.order), inks), ticks)
+    return ColourKey(_palette(ramp(inks.order), inks), ticks)
 
 
-def _by_deviation(picture: CutPicture, inks: Inks) -> Colouring:
-    """Return the colours of a scale that is fine round 0: a tolerance, ten of them, and the worst each take a fifth."""
+def _deviation_values(picture: CutPicture, span: Span) -> Bytes:
+    """Return places on a scale that is fine round 0."""
     deviation = picture.deviation if picture.deviation is not None else np.zeros_like(picture.heights)
-    fine, coarse = picture.tolerance * _FINE, picture.tolerance * _COARSE
-    worst = max(float(np.nanmax(np.abs(deviation))), 2 * coarse)
-    stops = np.array([-worst, -coarse, -fine, fine, coarse, worst])
-    places = np.array([0.0, 0.24, 0.47, 0.53, 0.76, 1.0])
-    values = _places(np.interp(deviation, stops, places).astype(np.float32))
+    fine = picture.tolerance * _FINE
+    values = _places(np.interp(deviation, _stops(picture.tolerance, span), _STOP_PLACES).astype(np.float32))
     values[picture.uncut() & (np.abs(deviation) <= fine)] = STOCK
     if picture.unreachable is not None:
         values[picture.unreachable & (deviation > fine)] = OUT_OF_REACH
+    return values
+
+
+def _stops(tolerance: float, span: Span) -> Floats:
+    """Return the deviations at which the scale bends: a tolerance, ten of them, and the worst each take a part of it, mm."""
+    fine, coarse = tolerance * _FINE, tolerance * _COARSE
+    worst = max(span.worst, 2 * coarse)
+    return np.array([-worst, -coarse, -fine, fine, coarse, worst])
+
+
+def _deviation_key(tolerance: float, inks: Inks, span: Span) -> ColourKey:
     pale = [_mixed(inks.right, ink, 0.35) for ink in (inks.gouge, inks.left)]
     colours = (inks.gouge, _mixed(inks.right, inks.gouge, 0.7), pale[0], inks.right, inks.right, pale[1],
                _mixed(inks.right, inks.left, 0.7), inks.left)
     steps = ramp(colours, np.array([0.0, 0.24, 0.4695, 0.47, 0.53, 0.5305, 0.76, 1.0]))
     remarks = ("gouge", "", "", "", "left")
+    worst, coarse = _stops(tolerance, span)[[5, 4]].tolist()
     texts = (-worst, -coarse, 0.0, coarse, worst)
-    ticks = tuple(Tick(at, f"{value:+.3f}" if value else "0.000", f"± {picture.tolerance:.3f}" if not value else remark)
+    ticks = tuple(Tick(at, f"{value:+.3f}" if value else "0.000", f"± {tolerance:.3f}" if not value else remark)
                   for at, value, remark in zip((0.0, 0.24, 0.5, 0.76, 1.0), texts, remarks, strict=True))
-    return Colouring(values, _palette(steps, inks), ticks)
+    return ColourKey(_palette(steps, inks), ticks)
 
 
 def _mixed(a: Rgb8, b: Rgb8, share: float) -> Rgb8:
     red, green, blue = (round(x + (y - x) * share) for x, y in zip(a, b, strict=True))
     return red, green, blue
+
+
+def prepare(picture: CutPicture, colour: CutColour, span: Span | None = None) -> None:
+    """Work out what showing a picture takes, on the thread of whoever made it.
+
+    Args:
+        picture: what is to be shown. colour: what its colours tell at first.
+        span: of the whole cut, where the picture is a part of it.
+    """
+    _ = picture.relief, picture.lowest, picture.highest
+    values_of(picture, told(picture, colour), span or picture.span)

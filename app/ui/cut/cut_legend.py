@@ -8,7 +8,7 @@ from PySide6.QtCore import QRectF, Qt, Signal
 from PySide6.QtGui import QColor, QImage, QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QSlider, QVBoxLayout, QWidget
 
-from app.ui.cut.colouring import STEPS, Colouring, CutColour
+from app.ui.cut.colouring import STEPS, ColourKey, CutColour
 from app.ui.icons import IconButton
 from app.ui.legend import LegendRow
 from app.ui.panels.fields import ChoiceField, ListField
@@ -35,37 +35,37 @@ class Key(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self._theme = LIGHT
-        self._colouring: Colouring | None = None
+        self._key: ColourKey | None = None
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""
         self._theme = theme
         self.update()
 
-    def show_colouring(self, colouring: Colouring) -> None:
+    def show_key(self, key: ColourKey) -> None:
         """Explain other colours."""
-        self._colouring = colouring
-        self.setFixedHeight(_SCALE_PX + 2 * _PAD_PX if colouring.ticks else _ROW_PX * len(colouring.names))
-        self.setAccessibleDescription(", ".join([tick.text for tick in colouring.ticks] + [name for _, name in colouring.names]))
+        self._key = key
+        self.setFixedHeight(_SCALE_PX + 2 * _PAD_PX if key.ticks else _ROW_PX * len(key.names))
+        self.setAccessibleDescription(", ".join([tick.text for tick in key.ticks] + [name for _, name in key.names]))
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Paint the colours and what they mean."""
-        if self._colouring is None:
+        if self._key is None:
             return
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setFont(text_font(12))
-        if self._colouring.ticks:
-            self._paint_scale(painter, self._colouring)
+        if self._key.ticks:
+            self._paint_scale(painter, self._key)
         else:
-            self._paint_names(painter, self._colouring)
+            self._paint_names(painter, self._key)
 
-    def _paint_scale(self, painter: QPainter, colouring: Colouring) -> None:
-        steps = colouring.palette[:STEPS][::-1, None].copy()
+    def _paint_scale(self, painter: QPainter, key: ColourKey) -> None:
+        steps = key.palette[:STEPS][::-1, None].copy()
         bar = QRectF(0, _PAD_PX, _BAR_PX, _SCALE_PX)
         painter.drawImage(bar, QImage(steps.tobytes(), 1, STEPS, 4, QImage.Format.Format_RGBA8888))
-        for tick in colouring.ticks:
+        for tick in key.ticks:
             y = bar.bottom() - tick.at * bar.height()
             painter.setPen(self._theme.muted)
             painter.drawLine(_BAR_PX + 3, round(y), _BAR_PX + 8, round(y))
@@ -74,8 +74,8 @@ class Key(QWidget):
             painter.setPen(self._theme.ink)
             painter.drawText(text, Qt.AlignmentFlag.AlignVCenter, tick.text)
 
-    def _paint_names(self, painter: QPainter, colouring: Colouring) -> None:
-        for k, (colour, name) in enumerate(colouring.names):
+    def _paint_names(self, painter: QPainter, key: ColourKey) -> None:
+        for k, (colour, name) in enumerate(key.names):
             middle = (k + 0.5) * _ROW_PX
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(QColor(*colour))
@@ -151,10 +151,10 @@ class CutLegend(QFrame):
         """Across which axis the stock is cut open."""
         return next(side for side, button in self.side.buttons.items() if button.isChecked() and isinstance(side, Side))
 
-    def show_colours(self, colour: CutColour, colouring: Colouring, choices: tuple[CutColour, ...]) -> None:
+    def show_colours(self, colour: CutColour, key: ColourKey, choices: tuple[CutColour, ...]) -> None:
         """Explain the colours, and offer those that there can be."""
         self.title.setText(colour.value)
-        self.key.show_colouring(colouring)
+        self.key.show_key(key)
         self.colour.set_choices([(choice, choice.value) for choice in choices])
         self.colour.show_value(colour)
         self.fit_contents()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from enum import Enum
-
 import numpy as np
 from PySide6.QtCore import QEasingCurve, QEvent, QPointF, Qt, QVariantAnimation, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent, QWheelEvent
@@ -12,35 +10,25 @@ from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 from app.errors import HitofudeError
 from app.ui.canvas.viewport import GLIDE_MS
 from app.ui.cut.camera import Camera, StandardView
-from app.ui.cut.colouring import CutColour, colouring, possible
+from app.ui.cut.colouring import CutColour, possible
+from app.ui.cut.colours import Colours
 from app.ui.cut.cut_legend import CutLegend, Side
-from app.ui.cut.inks import inks_of, look_of
+from app.ui.cut.hands import KEYS, Hands
+from app.ui.cut.inks import look_of
 from app.ui.cut.overlay import CutOverlay, Line, Probe, facts_of, place_of
 from app.ui.cut.painting import Painting
-from app.ui.cut.picking import Hit, Section, pick
+from app.ui.cut.picking import Hit, Section, pick_finest
 from app.ui.cut.picture import CutPicture
 from app.ui.cut.profile import profile
 from app.ui.cut.profile_panel import HEIGHT, ProfilePanel
 from app.ui.cut.surface import GlSurface, ImageSurface, made_surface, pixel_size
 from app.ui.nc.motion_shapes import Look
 from app.ui.samples import Sample
-from app.ui.theme import LIGHT, Theme
+from app.ui.theme import Theme
 
-_NOTCH, _CLICK_PX, _TURN, _STEP = 1.2, 4.0, 0.008, np.radians(15.0)
+_NOTCH = 1.2
 _EDGE_PX = 16
 _LOOKS = {Sample.RAPID: Look.RAPID, Sample.POCKET: Look.CUT, Sample.PLUNGE: Look.PLUNGE, Sample.CONTOUR: Look.CONTOUR}
-_KEYS = {Qt.Key.Key_1: StandardView.TOP, Qt.Key.Key_2: StandardView.FRONT, Qt.Key.Key_3: StandardView.RIGHT,
-         Qt.Key.Key_4: StandardView.ISOMETRIC}
-_ARROWS = {Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Up: (0, 1), Qt.Key.Key_Down: (0, -1)}
-
-
-class Drag(Enum):
-    """What a held mouse button does."""
-
-    NONE = 0
-    ORBIT = 1
-    PAN = 2
-    PROFILE = 3
 
 
 class CutView(QWidget):
@@ -52,7 +40,8 @@ class CutView(QWidget):
         cursor_moved(x, y): the place under the mouse, mm.
 
     Attributes:
-        picture: what is shown; None = nothing. colour: what its colours tell. camera: from where it is seen, in the screen's px.
+        picture: what is shown; None = nothing. detail: a part of it that was cut again with finer cells; None = there is none.
+        colours: of both. camera: from where they are seen, in the screen's px.
         hit: the cell under the mouse. failure: why nothing can be shown here, or "".
     """
 
@@ -63,17 +52,16 @@ class CutView(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.picture: CutPicture | None = None
-        self.colour = CutColour.METAL
+        self.detail: CutPicture | None = None
         self.camera = Camera()
         self.section: Section | None = None
         self.hit: Hit | None = None
         self.failure = ""
         self.surface: GlSurface | ImageSurface | None = None
-        self.painting = Painting(self)
-        self._theme, self._shown = LIGHT, frozenset(int(look) for look in Look)
-        self._fitted, self._drag, self._making = True, Drag.NONE, False
+        self.painting, self.colours, self._hands = Painting(self), Colours(self), Hands(self)
+        self._shown = frozenset(int(look) for look in Look)
+        self._fitted, self._making = True, False
         self._side, self._signs = Side.WHOLE, (1.0, 1.0)
-        self._pressed, self._last, self._pivot = QPointF(), QPointF(), np.zeros(3)
         self.sentence = QLabel()
         self.sentence.setProperty("role", "muted")
         self.sentence.setAlignment(Qt.AlignmentFlag.AlignCenter)
@@ -100,12 +88,13 @@ class CutView(QWidget):
         self.legend.layer_switched.connect(self._on_layer)
         self.legend.section_chosen.connect(self._on_section)
         self.profile.closed.connect(lambda: self.show_line(None))
+        self.colours.known.connect(self._show_colours)
         self.overlay.hide()
         self.legend.hide()
 
     def show_cut(self, picture: CutPicture | None) -> None:
         """Show another cut; the view stays unless the stock is another one."""
-        before, self.picture = self.picture, picture
+        before, self.picture, self.detail = self.picture, picture, None
         self.overlay.show_probe(None)
         self.show_line(None)
         self.hit = None
@@ -116,8 +105,9 @@ class CutView(QWidget):
             return
         looks = set(picture.paths.look.tolist()) if picture.paths is not None else set()
         self.legend.show_layers({sample for sample, look in _LOOKS.items() if look in looks})
+        self.overlay.show_pitch(picture.pitch, finer=False)
         self.painting.new_picture()
-        self._show_colours()
+        self.colours.refresh()
         self._on_section(self.legend.chosen_side, self.legend.slider.value() / self.legend.slider.maximum())
         if before is None or not (np.array_equal(before.low, picture.low) and np.array_equal(before.high, picture.high)):
             self.look_now(self._fitted_camera())
@@ -125,20 +115,36 @@ class CutView(QWidget):
         if self.isVisible():
             self._need_surface()
 
+    def show_detail(self, detail: CutPicture | None) -> None:
+        """Show a part of the cut in finer cells, or only the whole again."""
+        if self.picture is None or detail is self.detail:
+            return
+        self.detail = detail
+        colour = self.colours.told
+        self.overlay.show_pitch((detail or self.picture).pitch, finer=detail is not None)
+        if detail is None or colour in detail.values:
+            self.painting.new_detail(detail.values[colour] if detail is not None else None)
+        else:
+            self.colours.refresh()
+
+    @property
+    def colour(self) -> CutColour:
+        """What the colours of the metal tell."""
+        return self.colours.asked
+
     def set_colour(self, colour: CutColour) -> None:
         """Let the colours of the metal tell something else."""
-        self.colour = colour
-        self._show_colours()
+        self.colours.asked = colour
+        self.colours.refresh()
 
     def set_theme(self, theme: Theme) -> None:
         """Paint by day or by night."""
-        self._theme = theme
-        self._show_colours()
+        self.colours.set_theme(theme)
 
     def fit(self) -> None:
         """Show the whole stock in the direction that is looked in."""
         if self.picture is not None:
-            self._glide_to(self._fitted_camera())
+            self.glide_to(self._fitted_camera())
             self._fitted = True
 
     def zoom_by(self, factor: float, at: QPointF | None = None) -> None:
@@ -150,7 +156,7 @@ class CutView(QWidget):
     def stand(self, view: StandardView) -> None:
         """Look from a standard direction at the whole stock."""
         if self.picture is not None:
-            self._glide_to(self._fitted_camera(self.camera.seen_from(view)))
+            self.glide_to(self._fitted_camera(self.camera.seen_from(view)))
             self._fitted = True
 
     def look_now(self, camera: Camera) -> None:
@@ -164,7 +170,7 @@ class CutView(QWidget):
         if self.picture is None:
             return None
         place = at * self.devicePixelRatioF()
-        return pick(self.picture, self.camera.ray((place.x(), place.y()), pixel_size(self)), self.section)
+        return pick_finest(self.picture, self.detail, self.camera.ray((place.x(), place.y()), pixel_size(self)), self.section)
 
     def frame_parts(self) -> tuple[Camera, Section | None, frozenset[int]]:
         """Return what is to be painted: from where, what is taken away, and which paths."""
@@ -188,81 +194,42 @@ class CutView(QWidget):
             self.painting.moved()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Hold the stock: the left button turns it round the place under the mouse, the middle one shifts it.
-
-        With Ctrl the left button draws a line over the metal instead.
-        """
-        self._pressed = self._last = event.position()
-        pans = event.button() is not Qt.MouseButton.LeftButton or event.modifiers() & Qt.KeyboardModifier.ShiftModifier
-        self._drag = Drag.PAN if pans else Drag.ORBIT
-        hit = self.probe(event.position())
-        if hit is not None and not pans and event.modifiers() & Qt.KeyboardModifier.ControlModifier:
-            self._drag = Drag.PROFILE
-        if hit is not None:
-            self._pivot = np.array(hit.place)
-        elif self.picture is not None:
-            self._pivot = (self.picture.low + self.picture.high) / 2
+        """Hold the stock."""
+        self._hands.press(event)
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Turn or shift what is held; else tell what is under the mouse."""
-        step, self._last = event.position() - self._last, event.position()
-        if self._drag is Drag.NONE:
-            self._hover(event.position())
-        elif (event.position() - self._pressed).manhattanLength() >= _CLICK_PX or not self.overlay.probe:
-            self._show_hit(None, event.position())
-            if self._drag is Drag.PROFILE:
-                self._draw_line(self.probe(event.position()))
-            elif self._drag is Drag.ORBIT:
-                self.look_now(self.camera.orbited(-step.x() * _TURN, step.y() * _TURN, self._pivot))
-            else:
-                ratio = self.devicePixelRatioF()
-                self.look_now(self.camera.panned(step.x() * ratio, step.y() * ratio))
+        self._hands.move(event)
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Let go; a click picks the cell."""
-        clicked = self._drag is Drag.ORBIT and (event.position() - self._pressed).manhattanLength() < _CLICK_PX
-        self._drag = Drag.NONE
-        self._hover(event.position())
-        if clicked and self.hit is not None and self.picture is not None:
-            self.cell_picked.emit(*self.hit.place, self.picture.move_at(self.hit.row, self.hit.column))
+        self._hands.release(event)
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """The second press of two is a press like any other."""
-        self.mousePressEvent(event)
+        self._hands.press(event)
 
     def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
         """Nothing is under the mouse."""
-        self._show_hit(None, QPointF())
+        self.show_hit(None, QPointF())
 
     def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
         """Zoom at the mouse."""
         if event.angleDelta().y() and self.picture is not None:
-            self._show_hit(None, event.position())
+            self.show_hit(None, event.position())
             self.zoom_by(_NOTCH ** (event.angleDelta().y() / 120), event.position())
         event.accept()
 
     def event(self, event: QEvent) -> bool:
         """Keep the digits and F from whoever types elsewhere."""
-        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and not event.modifiers() and event.key() in _KEYS:
+        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and not event.modifiers() and event.key() in KEYS:
             event.accept()
             return True
         return super().event(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
         """F fits, 1 to 4 are the standard views, arrows turn, Escape ends the profile."""
-        key = Qt.Key(event.key())
-        if event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier:
-            super().keyPressEvent(event)
-        elif key == Qt.Key.Key_Escape and self.overlay.line is not None:
-            self.show_line(None)
-        elif key == Qt.Key.Key_F:
-            self.fit()
-        elif key in _KEYS:
-            self.stand(_KEYS[key])
-        elif key in _ARROWS and self.picture is not None:
-            yaw, pitch = _ARROWS[key]
-            self._glide_to(self.camera.orbited(yaw * _STEP, pitch * _STEP, (self.picture.low + self.picture.high) / 2))
-        else:
+        if not self._hands.key(event):
             super().keyPressEvent(event)
 
     def show_line(self, line: Line | None) -> None:
@@ -275,12 +242,6 @@ class CutView(QWidget):
         self.profile.setVisible(line is not None)
         if line is not None and self.picture is not None:
             self.profile.show_profile(profile(self.picture, line[0][:2], line[1][:2]))
-
-    def _draw_line(self, hit: Hit | None) -> None:
-        """Draw a line from where the metal was pressed."""
-        x, y, z = (float(value) for value in self._pivot)
-        if hit is not None and (x, y) != hit.place[:2]:
-            self.show_line(((x, y, z), hit.place))
 
     def _need_surface(self) -> None:
         """Make what the cut is painted on, once; where that cannot be, say why.
@@ -321,9 +282,10 @@ class CutView(QWidget):
         self.overlay.show_camera(camera)
         self.painting.moved()
 
-    def _glide_to(self, camera: Camera) -> None:
+    def glide_to(self, camera: Camera) -> None:
+        """Look another way, by and by."""
         self._glide.stop()
-        self._show_hit(None, QPointF())
+        self.show_hit(None, QPointF())
         if not self.isVisible():
             self._look(camera)
             return
@@ -331,14 +293,13 @@ class CutView(QWidget):
         self._glide.start()
 
     def _show_colours(self) -> None:
-        """Work the colours out, and explain them."""
+        """Paint in other colours, and explain them."""
         if self.picture is None:
             return
-        choices = possible(self.picture)
-        colour = self.colour if self.colour in choices else CutColour.METAL
-        made = colouring(self.picture, colour, inks_of(self._theme))
-        self.painting.new_colours(made, look_of(self._theme))
-        self.legend.show_colours(colour, made, choices)
+        colour, made = self.colours.told, self.colours.of_whole(self.picture)
+        detail = self.detail.values[colour] if self.detail is not None else None
+        self.painting.new_colours(made, detail, look_of(self.colours.theme))
+        self.legend.show_colours(colour, made.key, possible(self.picture))
         self._place_legend()
 
     def _place_legend(self) -> None:
@@ -365,19 +326,20 @@ class CutView(QWidget):
             self.section = Section(normal, sign * float(low + share * (high - low)))
         self.painting.moved()
 
-    def _hover(self, at: QPointF) -> None:
-        self._show_hit(self.probe(at), at)
+    def hover(self, at: QPointF) -> None:
+        """Tell what is under the mouse."""
+        self.show_hit(self.probe(at), at)
 
-    def _show_hit(self, hit: Hit | None, at: QPointF) -> None:
+    def show_hit(self, hit: Hit | None, at: QPointF) -> None:
         """Tell what is known of a cell, here and to whoever listens."""
         if hit is None and self.hit is None:
             return
         self.hit = hit
-        if hit is None or self.picture is None:
+        if hit is None:
             self.overlay.show_probe(None)
             self.hovered.emit("")
             return
-        facts = facts_of(self.picture, hit)
+        facts = facts_of(hit)
         self.overlay.show_probe(Probe(at, place_of(hit), facts))
         self.hovered.emit(facts)
         self.cursor_moved.emit(hit.place[0], hit.place[1])

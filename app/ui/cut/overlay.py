@@ -11,7 +11,6 @@ from PySide6.QtWidgets import QWidget
 
 from app.ui.cut.camera import Camera
 from app.ui.cut.picking import Hit
-from app.ui.cut.picture import CutPicture
 from app.ui.theme import LIGHT, Theme, text_font
 
 _AXIS_PX, _AXES_EDGE_PX, _NAME_PX = 30.0, 52.0, 11.0
@@ -36,11 +35,17 @@ def number(value: float) -> str:
     return f"{round(value, 3) + 0.0:.3f}".replace("-", "\u2212")
 
 
-def facts_of(picture: CutPicture, hit: Hit) -> str:
+def pitch_words(pitch: float) -> str:
+    """Return the width of a cell: "98 µm", "2.4 µm"."""
+    microns = 1000 * pitch
+    return f"{microns:.0f} µm" if microns >= 9.95 else f"{microns:.1f} µm"
+
+
+def facts_of(hit: Hit) -> str:
     """Return what there is to say about a cell: depth, tool and line that cut it, deviation."""
+    picture, move = hit.picture, hit.move
     depth = picture.top - hit.height
     facts = [f"{number(depth)} deep" if depth > 5e-4 else "not cut"]
-    move = picture.move_at(hit.row, hit.column)
     if move >= 0 and picture.moves is not None and move < len(picture.moves.line):
         facts += [f"T{picture.moves.tool[move]}", f"line {picture.moves.line[move]}"]
     if picture.deviation is not None:
@@ -64,6 +69,7 @@ class CutOverlay(QWidget):
         self._theme, self._camera = LIGHT, Camera()
         self.probe: Probe | None = None
         self.line: Line | None = None
+        self._pitch, self._finer = "", False
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""
@@ -82,6 +88,11 @@ class CutOverlay(QWidget):
         self.line = line
         self.update()
 
+    def show_pitch(self, pitch: float, finer: bool) -> None:
+        """Tell how wide the cells are, mm, and whether they are finer than those of the whole."""
+        self._pitch, self._finer = f"cells {pitch_words(pitch)}", finer
+        self.update()
+
     def show_probe(self, probe: Probe | None) -> None:
         """Show what is known of a place, or nothing."""
         if probe != self.probe:
@@ -93,6 +104,7 @@ class CutOverlay(QWidget):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self._paint_axes(painter)
+        self._paint_pitch(painter)
         if self.line is not None:
             self._paint_line(painter, self.line)
         if self.probe is not None:
@@ -112,6 +124,13 @@ class CutOverlay(QWidget):
             if right[axis] ** 2 + up[axis] ** 2 > 0.02:
                 name = origin + way * (_AXIS_PX + _NAME_PX)
                 painter.drawText(QRectF(name.x() - 8, name.y() - 8, 16, 16), Qt.AlignmentFlag.AlignCenter, "XYZ"[axis])
+
+    def _paint_pitch(self, painter: QPainter) -> None:
+        """Paint how wide the cells are, beside the axes."""
+        painter.setFont(text_font(12, semibold=self._finer))
+        painter.setPen(self._theme.accent_text if self._finer else self._theme.muted)
+        row = QRectF(2 * _AXES_EDGE_PX + 8, self.height() - _AXES_EDGE_PX + 10, 160, 18)
+        painter.drawText(row, Qt.AlignmentFlag.AlignVCenter, self._pitch)
 
     def _paint_line(self, painter: QPainter, line: Line) -> None:
         ratio = self.devicePixelRatioF()

@@ -6,10 +6,12 @@ import time
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QTimer
+from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.ui.cut.colouring import Colouring
-from app.ui.cut.scene import CutScene, Frame
+from app.ui.cut.frame import Frame
+from app.ui.cut.relief import Bytes
+from app.ui.cut.scene import CutScene
 from app.ui.cut.stage import CutLook
 from app.ui.cut.surface import pixel_size
 
@@ -26,42 +28,72 @@ _LEAST_BUDGET, _MOST_BUDGET = 1 << 14, 1 << 22
 class Painting(QObject):
     """Keeps the scene of a view up to date.
 
+    Signals:
+        stirred(): what is seen begins to change. rested(): nothing has moved for a while.
+
     Attributes:
         budget: squares that a picture of the moving cut is painted with; it follows the time that painting takes.
         frame_ms: how long the last coarse picture took, ms.
         fine: whether the fine picture is shown. due: whether the coarse one is still to be painted.
     """
 
+    stirred = Signal()
+    rested = Signal()
+
     def __init__(self, view: CutView) -> None:
         super().__init__(view)
         self._view = view
         self.budget, self.frame_ms, self.fine = 2 * _LEAST_BUDGET, 0.0, False
         self._colours: Colouring | None = None
+        self._detail_values: Bytes | None = None
         self._look = CutLook((0.0,) * 3, (0.5,) * 3, (0.5,) * 3, ((0.5, 0.5, 0.5, 1.0),) * 4)
-        self._picture_due = self._colours_due = self.due = False
+        self._picture_due = self._colours_due = self._detail_due = self.due = False
         self._steps: Iterator[None] | None = None
         self._rest = QTimer(self, singleShot=True, interval=REST_MS)
-        self._rest.timeout.connect(self._begin_fine)
+        self._rest.timeout.connect(self._on_rest)
         self._next = QTimer(self, singleShot=True, interval=0)
         self._next.timeout.connect(self._go_on)
 
-    def new_picture(self) -> None:
-        """The view shows another cut."""
-        self._picture_due = True
-        self.moved()
+    @property
+    def resting(self) -> bool:
+        """Whether nothing has moved for a while."""
+        return not self._rest.isActive()
 
-    def new_colours(self, colours: Colouring, look: CutLook) -> None:
-        """The cut has other colours."""
-        self._colours, self._look, self._colours_due = colours, look, True
-        self.moved()
+    def new_picture(self) -> None:
+        """The view shows another cut; it is painted once its colours are known."""
+        self._picture_due = True
+        self._begin_anew()
+
+    def new_colours(self, colours: Colouring, detail: Bytes | None, look: CutLook) -> None:
+        """The cut has other colours.
+
+        Args:
+            colours: of the whole. detail: of the finer look at a part of it, if there is one.
+            look: of everything else.
+        """
+        self._colours, self._detail_values, self._look = colours, detail, look
+        self._colours_due = self._detail_due = True
+        self._begin_anew()
+
+    def new_detail(self, values: Bytes | None) -> None:
+        """The view shows another finer look at a part of the cut, or none: the fine picture is painted anew at once."""
+        self._detail_values, self._detail_due = values, True
+        if self.resting and not self.due:
+            self._begin_fine()
+        else:
+            self._begin_anew()
 
     def renew(self) -> None:
         """The scene is a new one."""
         self._picture_due = self._colours_due = True
-        self.moved()
+        self._begin_anew()
 
     def moved(self) -> None:
-        """What is shown is no longer right: paint it coarse at once, and fine when nothing moves any more."""
+        """What is seen changes: paint it coarse at once, and fine when nothing moves any more."""
+        self._begin_anew()
+        self.stirred.emit()
+
+    def _begin_anew(self) -> None:
         self._steps, self.due, self.fine = None, True, False
         self._next.stop()
         self._rest.start()
@@ -75,18 +107,29 @@ class Painting(QObject):
         if not self.due:
             return
         begun = time.perf_counter()
-        if self._picture_due and self._view.picture is not None:
-            scene.show_picture(self._view.picture)
-            scene.show_paths(self._view.picture.paths)
-        if self._colours_due and self._colours is not None:
-            scene.show_colours(self._colours)
-        uploaded = self._picture_due or self._colours_due
-        self._picture_due = self._colours_due = self.due = False
+        uploaded = self._upload(scene)
+        self.due = False
         scene.draw(self._frame(self.budget))
         scene.ctx.finish()
         self.frame_ms = 1000 * (time.perf_counter() - begun)
         if not uploaded:
             self._learn()
+
+    def _upload(self, scene: CutScene) -> bool:
+        """Hand over what is new; return whether something was. Heights wait for their colours."""
+        picture, colours = self._view.picture, self._colours
+        if picture is None or colours is None or colours.values.shape != picture.heights.shape:
+            return False
+        new = self._picture_due or self._colours_due or self._detail_due
+        if self._picture_due:
+            scene.show_picture(picture)
+            scene.show_paths(picture.paths)
+        if self._colours_due:
+            scene.show_colours(colours)
+        if self._detail_due or self._picture_due:
+            scene.show_detail(self._view.detail, self._detail_values)
+        self._picture_due = self._colours_due = self._detail_due = False
+        return new
 
     def _frame(self, budget: int) -> Frame:
         camera, section, shown = self._view.frame_parts()
@@ -99,10 +142,16 @@ class Painting(QObject):
         elif self.frame_ms > _SLOW_MS:
             self.budget = max(self.budget // 2, _LEAST_BUDGET)
 
+    def _on_rest(self) -> None:
+        self._begin_fine()
+        self.rested.emit()
+
     def _begin_fine(self) -> None:
         surface = self._view.surface
         if surface is None or self.due or not self._view.isVisible():
             return
+        surface.work(self._upload)
+        self.fine = False
         self._steps = surface.work(lambda scene: scene.draw_in_steps(self._frame(0)))
         self._go_on()
 

@@ -35,12 +35,36 @@ class Hit:
         row, column: of the cell.
         place: (x, y, z) where the line of sight meets the metal, mm.
         height: of the cell, mm; lower than it z is a wall.
+        picture: whose cell it is.
     """
 
     row: int
     column: int
     place: tuple[float, float, float]
     height: float
+    picture: CutPicture
+
+    @property
+    def move(self) -> int:
+        """The move that cut the cell last; -1 = none, or nobody knows."""
+        return self.picture.move_at(self.row, self.column)
+
+
+def pick_finest(picture: CutPicture, detail: CutPicture | None, ray: Ray, section: Section | None = None) -> Hit | None:
+    """Return the first cell that a line of sight meets, of the finer cells where there are some.
+
+    Args:
+        picture: all of the heights. detail: those of a part of it once more, finer; None = there are none.
+        ray: line of sight.
+        section: only what it leaves can be met.
+    """
+    hit = pick(picture, ray, section)
+    fine = pick(detail, ray, section) if detail is not None else None
+    if detail is None or fine is None or hit is None:
+        return fine or hit
+    covered = all(low <= at <= high for low, at, high in zip(detail.low[:2], hit.place[:2], detail.high[:2], strict=True))
+    nearer = np.dot(np.subtract(fine.place, hit.place), ray.direction) <= 0
+    return fine if covered or nearer else hit
 
 
 def pick(picture: CutPicture, ray: Ray, section: Section | None = None) -> Hit | None:
@@ -74,13 +98,13 @@ def pick(picture: CutPicture, ray: Ray, section: Section | None = None) -> Hit |
     if z[first] > heights[first]:
         t = (heights[first] - ray.origin[2]) / ray.direction[2]
     x, y, height = (float(value) for value in ray.origin + t * ray.direction)
-    return Hit(int(rows[first]), int(columns[first]), (x, y, height), float(heights[first]))
+    return Hit(int(rows[first]), int(columns[first]), (x, y, height), float(heights[first]), picture)
 
 
 def _span(picture: CutPicture, ray: Ray, section: Section | None) -> tuple[float, float] | None:
     """Return from where to where a ray is inside the box of the stock and on the side that a section leaves."""
     high = picture.high
-    high[2] = max(float(picture.heights.max()), picture.floor)
+    high[2] = max(picture.highest, picture.floor)
     low, begin, end = picture.low, -np.inf, np.inf
     planes = [(np.eye(3)[axis] * sign, sign * bound) for axis in range(3) for sign, bound in ((1, high[axis]), (-1, low[axis]))]
     if section is not None:

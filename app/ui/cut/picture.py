@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from enum import Enum
 from functools import cached_property
 
 import numpy as np
@@ -12,6 +13,7 @@ from app.ui.cut.relief import Bytes, relief
 
 Heights = NDArray[np.float32]
 Floats = NDArray[np.float64]
+Numbered = tuple[NDArray[np.int32], NDArray[np.int64]]
 
 TOUCHED = 1e-5
 """A cell lower than the top by more than this, mm, counts as cut where nobody says which move cut it."""
@@ -31,6 +33,16 @@ class CutMoves:
     tool: NDArray[np.int32]
     surface: NDArray[np.int32]
 
+    @cached_property
+    def tools(self) -> Numbered:
+        """The T numbers that there are, and the place of each move's among them."""
+        return np.unique(self.tool, return_inverse=True)
+
+    @cached_property
+    def surfaces(self) -> Numbered:
+        """The surfaces that there are, and the place of each move's among them."""
+        return np.unique(self.surface, return_inverse=True)
+
 
 @dataclass(frozen=True, eq=False)
 class CutPaths:
@@ -49,6 +61,19 @@ class CutPaths:
         return len(self.look)
 
 
+@dataclass(frozen=True, slots=True)
+class Span:
+    """What the scales of a cut's colours run over; a finer look at a part of it takes those of the whole.
+
+    Attributes:
+        lowest: of the heights that were cut, mm. worst: the largest deviation either way, mm. last: the greatest number of a move.
+    """
+
+    lowest: float
+    worst: float
+    last: int
+
+
 @dataclass(frozen=True, eq=False)
 class CutPicture:
     """Stock after cutting, one height a cell.
@@ -63,6 +88,7 @@ class CutPicture:
         tolerance: deviation within which the part is right, mm, > 0.
         unreachable: (rows, columns) bool, left metal that no tool of the job reaches.
         paths: the way the tool went.
+        values: places in a palette by what colours tell (`app.ui.cut.colouring`), kept here once they are worked out.
     """
 
     heights: Heights
@@ -77,6 +103,7 @@ class CutPicture:
     tolerance: float = 0.01
     unreachable: NDArray[np.bool_] | None = None
     paths: CutPaths | None = None
+    values: dict[Enum, Bytes] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.heights.ndim != 2 or not self.heights.size or self.heights.dtype != np.float32:
@@ -109,6 +136,23 @@ class CutPicture:
     def relief(self) -> Bytes:
         """What the light needs, see `relief`; made when first asked for, which may be on another thread than the window's."""
         return relief(self.heights, self.pitch)
+
+    @cached_property
+    def lowest(self) -> float:
+        """The lowest height, mm."""
+        return float(self.heights.min())
+
+    @cached_property
+    def highest(self) -> float:
+        """The greatest height, mm."""
+        return float(self.heights.max())
+
+    @cached_property
+    def span(self) -> Span:
+        """What the scales of its colours run over."""
+        lowest = float(np.min(self.heights, where=~self.uncut(), initial=self.top))
+        worst = float(np.nanmax(np.abs(self.deviation))) if self.deviation is not None else 0.0
+        return Span(lowest, worst, max(int(self.move.max()), 1) if self.move is not None else 1)
 
     def uncut(self) -> NDArray[np.bool_]:
         """Return (rows, columns) which cells no move has cut."""

@@ -36,7 +36,7 @@ def pixels(window):
 def metal_share(window, view):
     """Share of the view that is not its ground."""
     shown = pixels(window)[:view.height(), :view.width()]
-    ground = np.array(view._theme.canvas.getRgb()[:3])
+    ground = np.array(view.colours.theme.canvas.getRgb()[:3])
     return float((np.abs(shown - ground).max(axis=2) > 12).mean())
 
 

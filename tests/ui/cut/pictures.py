@@ -8,9 +8,10 @@ import pytest
 from app.errors import HitofudeError
 from app.ui.cut.camera import Camera
 from app.ui.cut.colouring import CutColour, Inks, colouring
+from app.ui.cut.frame import Frame
 from app.ui.cut.picture import CutPicture
 from app.ui.cut.relief import GAIN, LIMIT
-from app.ui.cut.scene import CutScene, Frame
+from app.ui.cut.scene import CutScene
 from app.ui.cut.stage import CutLook
 
 CANVAS, STOCK, METAL = (0.0, 0.0, 0.25), (100, 100, 100), (200, 200, 200)

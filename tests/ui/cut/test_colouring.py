@@ -21,20 +21,20 @@ def test_only_what_is_known_is_offered_and_the_rest_is_metal():
     assert set(possible(picture(move=MOVE, moves=MOVES))) == set(CutColour) - {CutColour.DEVIATION}
     made = colouring(picture(), CutColour.DEVIATION, INKS)
     assert made.values.tolist() == [[STOCK, 0], [0, 0]]
-    assert tuple(made.palette[0, :3]) == INKS.metal
+    assert tuple(made.key.palette[0, :3]) == INKS.metal
 
 
 def test_depth_runs_from_the_top_to_the_deepest_cell():
     made = colouring(picture(), CutColour.DEPTH, INKS)
     assert made.values.tolist() == [[STOCK, round(253 * 0.75)], [round(253 * 0.5 + 0.01), 0]]
-    assert [tick.text for tick in made.ticks] == ["-4.000", "-3.000", "-2.000", "-1.000", "0.000"]
-    assert tuple(made.palette[0, :3]) == INKS.depth[-1]
+    assert [tick.text for tick in made.key.ticks] == ["-4.000", "-3.000", "-2.000", "-1.000", "0.000"]
+    assert tuple(made.key.palette[0, :3]) == INKS.depth[-1]
 
 
 def test_tools_and_surfaces_have_a_colour_each_and_a_name():
     made = colouring(picture(move=MOVE, moves=MOVES), CutColour.TOOL, INKS)
     assert made.values.tolist() == [[STOCK, 1], [0, 1]]
-    assert [name for _, name in made.names] == ["T2", "T5"]
+    assert [name for _, name in made.key.names] == ["T2", "T5"]
     surfaces = colouring(picture(move=MOVE, moves=MOVES), CutColour.SURFACE, INKS)
     assert surfaces.values.tolist() == [[STOCK, 0], [1, 1]]
 
@@ -43,20 +43,20 @@ def test_order_of_moves_is_told_by_their_lines():
     made = colouring(picture(move=MOVE, moves=MOVES), CutColour.MOVE, INKS)
     assert made.values[0, 0] == STOCK
     assert made.values[0, 1] < made.values[1, 0] < made.values[1, 1]
-    assert (made.ticks[0].text, made.ticks[-1].text) == ("line 10", "line 30")
+    assert (made.key.ticks[0].text, made.key.ticks[-1].text) == ("line 10", "line 30")
 
 
 @pytest.mark.parametrize(("deviation", "colour"), [(0.0, INKS.right), (0.009, INKS.right), (3.0, INKS.left), (-3.0, INKS.gouge)])
 def test_deviation_within_tolerance_is_plain_and_the_worst_has_the_full_colour(deviation, colour):
     values = np.array([[3.0, deviation], [-3.0, 0.0]], np.float32)
     made = colouring(picture(deviation=values), CutColour.DEVIATION, INKS)
-    assert np.allclose(made.palette[made.values[0, 1], :3], colour, atol=1)
+    assert np.allclose(made.key.palette[made.values[0, 1], :3], colour, atol=1)
 
 
 def test_a_small_gouge_is_not_taken_for_right_beside_a_large_one():
     values = np.array([[-3.0, -0.012], [0.012, 3.0]], np.float32)
     made = colouring(picture(deviation=values), CutColour.DEVIATION, INKS)
-    small, left = (made.palette[made.values[place], :3].astype(int) for place in ((0, 1), (1, 0)))
+    small, left = (made.key.palette[made.values[place], :3].astype(int) for place in ((0, 1), (1, 0)))
     assert small[0] - small[2] > 30
     assert left[2] - left[0] > 30
 

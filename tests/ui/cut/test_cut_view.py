@@ -170,7 +170,7 @@ def test_legend_explains_the_colours_and_chooses_them(qtbot, view, picture):
     plain = pixels(view)
     box.activated.emit(box.findText("Tool"))
     assert view.colour is CutColour.TOOL
-    assert view.legend.title.text() == "Tool"
+    qtbot.waitUntil(lambda: view.legend.title.text() == "Tool", timeout=5000)
     assert view.legend.key.accessibleDescription() == "T1, T2, T3"
     assert np.any(pixels(view) != plain)
     qtbot.waitUntil(lambda: view.painting.fine, timeout=20_000)

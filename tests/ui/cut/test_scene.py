@@ -8,10 +8,11 @@ import pytest
 
 from app.ui.cut.camera import Camera, StandardView
 from app.ui.cut.colouring import CutColour
+from app.ui.cut.frame import Frame, section_ends
 from app.ui.cut.path_ribbons import rows_of, thinned
 from app.ui.cut.picking import Section
 from app.ui.cut.picture import CutMoves, CutPaths
-from app.ui.cut.scene import CutScene, Frame, section_ends
+from app.ui.cut.scene import CutScene
 from app.ui.nc.motion_shapes import Look
 from tests.ui.cut import pictures
 from tests.ui.cut.pictures import (
@@ -223,7 +224,7 @@ def test_only_cells_in_sight_are_painted_and_none_of_them_is_missing(context):
     with context:
         scene = CutScene(context)
         scene.show_picture(picture)
-        first, last = scene._seen_cells(Frame(camera, SIZE, LOOK), picture)
+        first, last = Frame(camera, SIZE, LOOK).seen_cells(picture)
         scene.release()
     assert (last[0] - first[0]) * (last[1] - first[1]) < 0.6 * 256**2
     image = painted(context, picture, camera)

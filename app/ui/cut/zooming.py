@@ -1,0 +1,121 @@
+"""Step S101: what is seen of the stock is cut again with as many cells as the whole, whenever the view rests."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal
+
+from app.progress import Progress
+from app.ui.cut.colouring import CutColour, prepare
+from app.ui.cut.picture import CutPicture
+from app.ui.cut.shown_cut import picture_of
+from app.ui.cut.surface import pixel_size
+from app.ui.cut.window import Sighted, serves, wanted
+from app.ui.worker import Answer, Worker
+
+if TYPE_CHECKING:
+    from app.ui.cut.cut_view import CutView
+    from app.workflow.cut import CutProgram
+
+MOST_LOOKS = 5
+"""A finer look shows better what is seen, and so may ask for another one; so often at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """What a finer look found.
+
+    Attributes:
+        sight: what was looked at. detail: its part in finer cells; None = the whole will do.
+    """
+
+    sight: Sighted
+    detail: CutPicture | None
+
+
+def look_closer(program: CutProgram, sight: Sighted, colour: CutColour, progress: Progress) -> Look:
+    """Cut the part of the stock that is seen with as many cells as the whole; runs on the worker's thread.
+
+    Args:
+        program: the whole, cut. sight: what is looked at. colour: what its colours tell.
+
+    Raises:
+        HitofudeError: it cannot be cut.
+        Cancelled: the view has moved on.
+    """
+    from app.workflow.cut import CutOptions, cut
+
+    cells = program.options.cells
+    window = wanted(sight, cells)
+    progress.step(0.3, "Looking closer")
+    if window is None:
+        return Look(sight, None)
+    if serves(window, sight.detail):
+        return Look(sight, sight.detail)
+    moves = sight.picture.moves
+    assert moves is not None
+    part = cut(program.setup, CutOptions(cells, window, judge=False), progress.part(0.3, 0.9))
+    detail = picture_of(part, moves)
+    prepare(detail, colour, sight.picture.span)
+    return Look(sight, detail)
+
+
+class Zooming(QObject):
+    """Follows a view; its own worker, so that a look never holds up anything else.
+
+    Signals:
+        looked(): the view shows the cells that it should. failed(sentence).
+    """
+
+    looked = Signal()
+    failed = Signal(str)
+
+    def __init__(self, view: CutView, parent: QObject) -> None:
+        super().__init__(parent)
+        self._view = view
+        self._program: CutProgram | None = None
+        self._job_id: int | None = None
+        self._looks = 0
+        self.worker = Worker(self, head_start_s=0.0)
+        self.worker.done.connect(self._on_done)
+        self.worker.failed.connect(self._on_failed)
+        view.painting.stirred.connect(self._on_stirred)
+        view.painting.rested.connect(self._look)
+
+    def follow(self, program: CutProgram | None) -> None:
+        """Look closer at another program from now on."""
+        self.worker.cancel()
+        self._program, self._looks = program, 0
+
+    def _on_stirred(self) -> None:
+        self._looks = 0
+        if self.worker.busy:
+            self.worker.cancel()
+
+    def _look(self) -> None:
+        view, program = self._view, self._program
+        if program is None or view.picture is None or not view.isVisible() or self._looks >= MOST_LOOKS:
+            return
+        sight, colour = Sighted(view.picture, view.detail, view.camera, pixel_size(view), view.section), view.colours.told
+        self._looks += 1
+        self._job_id = self.worker.start(lambda progress: look_closer(program, sight, colour, progress), 0)
+
+    def _on_done(self, answer: Answer) -> None:
+        """Show what was found; with it, more of what is seen may be known, so look again until nothing changes."""
+        look, view = answer.value, self._view
+        if answer.job_id != self._job_id or not isinstance(look, Look) or look.sight.picture is not view.picture:
+            return
+        if look.detail is view.detail:
+            self.looked.emit()
+            return
+        view.show_detail(look.detail)
+        if look.detail is not None and view.painting.resting:
+            self._look()
+        else:
+            self.looked.emit()
+
+    def _on_failed(self, answer: Answer) -> None:
+        if answer.job_id == self._job_id:
+            self.failed.emit(answer.error or "")

@@ -1,0 +1,107 @@
+"""Zooming in cuts what is seen again with finer cells, on the real engine."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPointF
+
+from app.ui.cut.camera import StandardView
+from app.ui.cut.colouring import CutColour
+from app.ui.cut.cut_view import CutView
+from app.ui.cut.zooming import Zooming
+from app.ui.theme import LIGHT
+from tests.ui.cut.pictures import without_a_screen
+from tests.ui.cut.real_cut import detailed_heights, real_shown
+
+WAIT_MS = 20_000
+
+
+@pytest.fixture(scope="module")
+def shown():
+    return real_shown(colour=CutColour.DEPTH)
+
+
+@pytest.fixture
+def zooming(qtbot, shown):
+    without_a_screen().release()
+    view = CutView()
+    qtbot.addWidget(view)
+    view.resize(800, 560)
+    view.set_theme(LIGHT)
+    view.set_colour(CutColour.DEPTH)
+    view.show()
+    made = Zooming(view, view)
+    made.failed.connect(pytest.fail)
+    made.follow(shown.cut)
+    with qtbot.waitSignal(made.looked, timeout=WAIT_MS):
+        view.show_cut(shown.picture)
+    view.look_now(view._fitted_camera(view.camera.seen_from(StandardView.TOP)))
+    yield made
+    made.worker.finish(10.0)
+
+
+def zoom(qtbot, zooming, factor, place=(30.0, 17.0, 0.0)):
+    view = zooming._view
+    at = view.camera.project(np.array([place]), (view.width(), view.height()))[0]
+    with qtbot.waitSignal(zooming.looked, timeout=WAIT_MS):
+        view.zoom_by(factor, QPointF(at[0], at[1]))
+
+
+def test_at_rest_the_part_that_is_seen_has_cells_of_its_own(qtbot, zooming, shown):
+    view = zooming._view
+    assert view.detail is None
+    zoom(qtbot, zooming, 8.0)
+    detail = view.detail
+    assert max(detail.heights.shape) == 256
+    assert detail.pitch < shown.picture.pitch / 4
+    window = (*detail.low[:2], *detail.high[:2])
+    same = detailed_heights(window)
+    assert same.shape == detail.heights.shape
+    assert np.abs(same - detail.heights).max() <= 1e-5
+    assert view.probe(QPointF(400, 280)).picture is detail
+    assert CutColour.DEPTH in detail.values
+    assert view.overlay._pitch == f"cells {1000 * detail.pitch:.0f} µm"
+
+
+def test_farther_in_the_cells_end_at_a_micrometre(qtbot, zooming):
+    for factor in (30.0, 30.0):
+        zoom(qtbot, zooming, factor)
+    assert zooming._view.detail.pitch == pytest.approx(1e-3, rel=0.02)
+
+
+def test_zooming_out_shows_the_whole_at_once_and_lets_the_part_go(qtbot, zooming, shown):
+    view = zooming._view
+    zoom(qtbot, zooming, 8.0)
+    assert view.detail is not None and view.picture is shown.picture
+    view.zoom_by(1 / 8)
+    assert view.painting.due and view.picture is shown.picture
+    qtbot.waitUntil(lambda: view.detail is None, timeout=WAIT_MS)
+    assert view.overlay._pitch == f"cells {1000 * shown.picture.pitch:.0f} µm"
+
+
+def test_a_movement_leaves_the_look_that_is_on_its_way(qtbot, zooming):
+    view = zooming._view
+    view.zoom_by(8.0)
+    qtbot.waitUntil(lambda: zooming.worker.busy, timeout=WAIT_MS)
+    view.look_now(view.camera.panned(3.0, 0.0))
+    assert not zooming.worker.busy
+    assert view.detail is None
+    with qtbot.waitSignal(zooming.looked, timeout=WAIT_MS):
+        pass
+    assert view.detail is not None
+
+
+def test_other_colours_reach_the_part_too(qtbot, zooming):
+    view = zooming._view
+    zoom(qtbot, zooming, 8.0)
+    view.set_colour(CutColour.TOOL)
+    qtbot.waitUntil(lambda: view.legend.title.text() == "Tool", timeout=WAIT_MS)
+    assert CutColour.TOOL in view.detail.values
+    qtbot.waitUntil(lambda: view.painting.fine, timeout=WAIT_MS)
+
+
+def test_deviation_of_the_part_is_that_of_its_own_cells(qtbot, zooming, shown):
+    view = zooming._view
+    zoom(qtbot, zooming, 12.0, (33.0, 15.0, 0.0))
+    deviation = view.detail.deviation
+    assert deviation is not None and deviation.shape == view.detail.heights.shape
+    assert float(deviation.min()) == pytest.approx(float(shown.picture.deviation.min()), abs=1e-4)
