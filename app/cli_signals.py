@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -27,8 +28,24 @@ def stoppable() -> Iterator[threading.Event]:
         stopped.set()
         raise Stopped
 
-    with _on_interrupt(stop):
+    with _on_interrupt(stop), _silent_where_unheard():
         yield stopped
+
+
+@contextmanager
+def _silent_where_unheard() -> Iterator[None]:
+    """Let the interpreter say nothing of a Stopped that it cannot raise, as in the callbacks of an import: the event is set."""
+    before = sys.unraisablehook
+
+    def hook(told: Any) -> None:
+        if told.exc_type is not Stopped:
+            before(told)
+
+    sys.unraisablehook = hook
+    try:
+        yield
+    finally:
+        sys.unraisablehook = before
 
 
 @contextmanager

@@ -8,7 +8,7 @@ convex pieces, each swept for itself: the lowest of their heights.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -33,6 +33,7 @@ class Cutter:
         fillet: radius of the rounding between the disc and the cone, or the wall, mm, >= 0.
         slope: rise of the cone per mm of radius, > 0; infinite where the fillet ends in a vertical wall or there is no cone.
         centre_cutting: whether it may go straight down into metal.
+        lift: how far the tip is above the point that is led along the path, mm.
     """
 
     radius: float
@@ -40,6 +41,7 @@ class Cutter:
     fillet: float = 0.0
     slope: float = math.inf
     centre_cutting: bool = True
+    lift: float = 0.0
 
     def __post_init__(self) -> None:
         if not (0 < self.radius < 1e6 and 0 <= self.flat <= self.radius and 0 <= self.fillet <= self.radius and self.slope > 0):
@@ -61,6 +63,36 @@ class Cutter:
     def rim_of_fillet(self) -> float:
         """Radius at which the fillet ends, mm."""
         return self.flat + self.fillet_span
+
+    def radius_at(self, height: float) -> float:
+        """Return how wide the cutter is at most up to a height over the tip, mm; 0 below the tip."""
+        if height < 0:
+            return 0.0
+        top = self.fillet - math.sqrt(max(self.fillet**2 - self.fillet_span**2, 0.0))
+        if height < top:
+            return self.flat + math.sqrt(max(self.fillet**2 - (self.fillet - height) ** 2, 0.0))
+        return self.radius if math.isinf(self.slope) else min(self.radius, self.rim_of_fillet + (height - top) / self.slope)
+
+    def grown(self, by: float) -> Cutter:
+        """Return the cutter that cuts, at a point, at least as deep as this one does within `by` mm of it; by >= 0."""
+        return replace(self, radius=self.radius + by, flat=self.flat + by)
+
+    def shrunk(self, by: float) -> Cutter | None:
+        """Return a cutter that cuts, at a point, nowhere deeper than this one does within `by` mm of it; None where nothing is left.
+
+        The flat goes first, sideways. A fillet that ends in a wall shrinks towards its middle, which the profile moved
+        sideways lies below; a cone or a fillet before one, nowhere steeper than the cone, moves up by its rise.
+        """
+        if by >= self.radius:
+            return None
+        rest = max(by - self.flat, 0.0)
+        flat, radius = self.flat - (by - rest), self.radius - by
+        if not math.isinf(self.slope):
+            whole = self.rim_of_fillet - self.flat + flat <= radius
+            if not whole:
+                return Cutter(radius, lift=self.lift + by * self.slope, slope=self.slope)
+            return replace(self, radius=radius, flat=flat, lift=self.lift + rest * self.slope)
+        return replace(self, radius=radius, flat=flat, fillet=self.fillet - rest, lift=self.lift + rest)
 
     def heights(self, radii: Floats) -> Floats:
         """Return the profile over the tip, mm; infinite beyond the radius.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 
@@ -26,6 +27,11 @@ class FindingKind(Enum):
     ENGAGEMENT = "engagement"
     MACHINE = "machine"
     TOOL_SHAPE = "tool_shape"
+    START_IN_STOCK = "start_in_stock"
+    PLUNGE = "plunge"
+    BELOW_TABLE = "below_table"
+    ASSUMED = "assumed"
+    HIDDEN = "hidden"
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +44,7 @@ class Finding:
         counts: True when it makes the job "done, with findings" (exit status 1); False for a remark.
         entity_ids: entities concerned, so that the window can mark them.
         amount: the measured length (mm) or area (mm2) or number, if there is one.
+        line: of the NC program, 1-based; 0 = it is about none.
     """
 
     kind: FindingKind
@@ -47,3 +54,9 @@ class Finding:
     counts: bool = True
     entity_ids: tuple[int, ...] = ()
     amount: float | None = None
+    line: int = 0
+
+
+def worst_first(findings: Iterable[Finding]) -> tuple[Finding, ...]:
+    """Return each finding once, those that count first, otherwise in order."""
+    return tuple(sorted(dict.fromkeys(findings), key=lambda finding: not finding.counts))

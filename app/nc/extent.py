@@ -57,7 +57,7 @@ def _known_reach(program: NcProgram) -> tuple[Floats, Floats]:
     """Return what each motion reaches, (n, 3); NaN where it is not known."""
     motions = program.motions
     low, high = reach(motions)
-    nowhere = _nowhere(program)
+    nowhere = nowhere_of(program)
     straight = (motions.kind == MotionKind.RAPID) | (motions.kind == MotionKind.LINE)
     from_nowhere = np.concatenate([np.ones_like(nowhere[:1]), nowhere[:-1]]) & straight[:, None]
     for side in (low, high):
@@ -66,7 +66,7 @@ def _known_reach(program: NcProgram) -> tuple[Floats, Floats]:
     return low, high
 
 
-def _nowhere(program: NcProgram) -> NDArray[np.bool_]:
+def nowhere_of(program: NcProgram) -> NDArray[np.bool_]:
     """Return (n, 3) whether a motion ends, along an axis, where nobody knows: before the program sets it, or at the machine's home."""
     motions = program.motions
     nowhere = np.zeros((len(motions), 3), bool)
@@ -89,7 +89,7 @@ def at_home(program: NcProgram) -> NDArray[np.bool_]:
     Args:
         program: as it was read, or with its motions anchored.
     """
-    return _nowhere(program) & (np.arange(len(program.motions))[:, None] >= program.motions.known_from)
+    return nowhere_of(program) & (np.arange(len(program.motions))[:, None] >= program.motions.known_from)
 
 
 def misfits(program: NcProgram, machine: Machine) -> tuple[Problem, ...]:

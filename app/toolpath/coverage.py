@@ -9,6 +9,7 @@ cleared; strips thinner than STRIP are numeric and not counted.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -22,6 +23,7 @@ from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program
 from app.model.operation import Operation, PocketOperation
+from app.model.part import Region
 from app.progress import NO_PROGRESS, Progress
 from app.toolpath.flat import flattened, grown, lines, move_rows, region_shapes
 from app.toolpath.proven import uncertain
@@ -89,9 +91,6 @@ class Coverage:
 def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Coverage:
     """Measure what the moves of a program leave on the floor.
 
-    With a pocket operation the whole of every region is to be cleared; with contour operations alone, the band along
-    the walls that a contour tool is wide.
-
     Args:
         program: moves and the regions they machine.
         job: tools and operations that the moves belong to.
@@ -100,19 +99,48 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Cov
     Raises:
         Cancelled: the job was asked to stop.
     """
-    operations = [operation for operation in job.operations if operation.cut.enabled]
-    if not operations or not program.regions:
-        return Coverage()
-    pockets = [operation for operation in operations if isinstance(operation, PocketOperation)]
-    floor = max(operation.cut.depth for operation in pockets or operations)
-    regions = region_shapes(program, CHORD)
     progress.step(0.0, "Measuring what is left")
+    areas = areas_of(program.regions, job)
+    if areas is None:
+        return Coverage()
+    left = _left(areas.wanted, program.moves, (job, areas.depth), progress)
+    corners = _solid(shapely.difference(areas.floor, areas.reach))
+    return _coverage(areas.floor.area, areas.depth, _places(left, True), _places(corners, False))
+
+
+@dataclass(frozen=True, eq=False)
+class Areas:
+    """Areas at the floor of the deepest pass, part coordinates.
+
+    Attributes:
+        depth: of the floor, mm below Z 0.
+        floor: within the walls and their stock to leave.
+        reach: of it, what some tool of the job reaches.
+        wanted: of that, what is to be cleared.
+    """
+
+    depth: float
+    floor: Shape
+    reach: Shape
+    wanted: Shape
+
+
+def areas_of(regions: Sequence[Region], job: Job) -> Areas | None:
+    """Return what a job has to clear of regions; None where it clears nothing.
+
+    With a pocket operation that is the whole of every region; with contour operations alone, the band along the walls that a
+    contour tool is wide.
+    """
+    operations = [operation for operation in job.operations if operation.cut.enabled]
+    if not operations or not regions:
+        return None
+    pockets = [operation for operation in operations if isinstance(operation, PocketOperation)]
+    shapes = region_shapes(regions, CHORD)
     leave = min(operation.cut.stock_to_leave for operation in operations)
-    area = shapely.union_all(grown(regions, -leave, CHORD) if leave else regions)
-    reach = shapely.union_all([_reach(regions, operation, job) for operation in _farthest(operations, job)])
-    wanted = reach if pockets else shapely.difference(reach, _beyond_band(regions, operations, job))
-    left = _left(wanted, program.moves, (job, floor), progress)
-    return _coverage(area.area, floor, _places(left, True), _places(_solid(shapely.difference(area, reach)), False))
+    floor = shapely.union_all(grown(shapes, -leave, CHORD) if leave else shapes)
+    reach = shapely.union_all([_reach(shapes, operation, job) for operation in _farthest(operations, job)])
+    wanted = reach if pockets else shapely.difference(reach, _beyond_band(shapes, operations, job))
+    return Areas(max(operation.cut.depth for operation in pockets or operations), floor, reach, wanted)
 
 
 def _coverage(area: float, floor: float, left: tuple[Place, ...], corners: tuple[Place, ...]) -> Coverage:

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
 from app.geometry.primitives import TURN, R, Rows, contour_rows, points_at, sample, sweeps
-from app.model.moves import MoveKind, Moves, Program
-from app.model.part import Contour
+from app.model.moves import MoveKind, Moves
+from app.model.part import Contour, Region
 
 
 def move_rows(moves: Moves) -> Rows:
@@ -44,12 +44,12 @@ def lines(rows: Rows, chord: float) -> NDArray[np.object_]:
     return np.asarray(shapely.linestrings(points, indices=owner), dtype=object)
 
 
-def region_shapes(program: Program, chord: float) -> NDArray[np.object_]:
-    """Return the regions of a program as polygons (n,) whose chords stay within `chord` mm of their contours.
+def region_shapes(regions: Sequence[Region], chord: float) -> NDArray[np.object_]:
+    """Return regions as polygons (n,) whose chords stay within `chord` mm of their contours.
 
     They stay apart, since regions that touch have a wall of no thickness between them.
     """
-    parts = shapely.get_parts([_polygon(region.contours, chord) for region in program.regions])
+    parts = shapely.get_parts([_polygon(region.contours, chord) for region in regions])
     parts = shapely.get_parts(parts)
     return np.asarray(parts[(shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)], dtype=object)
 

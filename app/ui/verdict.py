@@ -21,12 +21,14 @@ class Level(Enum):
 
 
 _WORST_FIRST = (
-    FindingKind.GOUGE, FindingKind.RAPID_IN_MATERIAL, FindingKind.LEFT_REACHABLE, FindingKind.TOLERANCE, FindingKind.MACHINE,
+    FindingKind.GOUGE, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK, FindingKind.PLUNGE, FindingKind.BELOW_TABLE,
+    FindingKind.LEFT_REACHABLE, FindingKind.TOLERANCE, FindingKind.MACHINE,
     FindingKind.TOOL_SHAPE, FindingKind.OPEN_CONTOUR, FindingKind.SELF_INTERSECTION, FindingKind.OVERLAP, FindingKind.REGION_TOO_SMALL,
     FindingKind.NECK_TOO_NARROW, FindingKind.ENGAGEMENT, FindingKind.UNITS_ASSUMED, FindingKind.GAP_CLOSED, FindingKind.TINY_ENTITY,
-    FindingKind.LEFT_OUT, FindingKind.LEFT_UNREACHABLE,
+    FindingKind.LEFT_OUT, FindingKind.ASSUMED, FindingKind.HIDDEN, FindingKind.LEFT_UNREACHABLE,
 )
-_RED = {FindingKind.GOUGE, FindingKind.RAPID_IN_MATERIAL, FindingKind.LEFT_REACHABLE}
+_RED = {FindingKind.GOUGE, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK, FindingKind.PLUNGE, FindingKind.BELOW_TABLE,
+        FindingKind.LEFT_REACHABLE}
 
 _NAMES = {
     FindingKind.GOUGE: "gouge", FindingKind.RAPID_IN_MATERIAL: "rapid in material", FindingKind.LEFT_REACHABLE: "material left",
@@ -36,7 +38,9 @@ _NAMES = {
     FindingKind.ENGAGEMENT: "full slot", FindingKind.TINY_ENTITY: "tiny entity", FindingKind.LEFT_OUT: "left out",
     FindingKind.LEFT_UNREACHABLE: "corners out of reach", FindingKind.GAP_CLOSED: "gap closed",
     FindingKind.UNITS_ASSUMED: "units assumed", FindingKind.MACHINE: "beyond the machine",
-    FindingKind.TOOL_SHAPE: "a tool of another shape",
+    FindingKind.TOOL_SHAPE: "a tool of another shape", FindingKind.START_IN_STOCK: "start in the stock",
+    FindingKind.PLUNGE: "plunge in metal", FindingKind.BELOW_TABLE: "cut into the table", FindingKind.ASSUMED: "assumed",
+    FindingKind.HIDDEN: "metal below metal",
 }
 
 

@@ -1,101 +1,174 @@
-"""From a made program to the metal that it leaves: the very bytes are read back and cut out of the job's stock."""
+"""Any program cut out of its stock: what is left, what went wrong on the way, and how near it is to the part."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.dexel.cutter import cutter_of
-from app.dexel.trim import Course, Cut, TrimOptions, trim
-from app.dexel.workpiece import Grid, Workpiece
-from app.model.job import Job
-from app.model.motion_path import anchored
-from app.model.stock_box import stock_box, work_origin
-from app.nc.posts import load_post
-from app.nc.read.options import ReadOptions
+from app.dexel.cutter import Cutter, cutter_of
+from app.dexel.trim import Cut, TrimOptions, trim
+from app.dexel.workpiece import Grid, Heights, Stock, Workpiece, ensure_memory
+from app.model.finding import Finding, worst_first
+from app.model.tool import Tool
 from app.nc.read.program import NcProgram
-from app.nc.read.reader import read_program
 from app.progress import NO_PROGRESS, Progress
-from app.workflow.make import Made
+from app.workflow.accidents import Stage, accidents
+from app.workflow.certify import certify
+from app.workflow.course import KnownCourse, course_of
+from app.workflow.exact import Exact, exact_of
+from app.workflow.judge import Judging, judge, wanted_over
+from app.workflow.judgement import Judgement, findings_of
+from app.workflow.parts import FlatPart, Part
 
 CELLS = 1024
 """Along the stock's longer side, as on the text's screen."""
 
+TRIM_BYTES_A_CELL, BYTES_A_CELL = 16, 64
+"""What cutting alone takes, and with judging: heights, owners, bounds, wanted heights, masks, labels."""
+
 
 @dataclass(frozen=True, eq=False)
-class CutProgram:
-    """A program that was cut, of one file or more.
+class CutSetup:
+    """What is cut out of what, with what, to become what.
 
     Attributes:
-        programs: of each file, as read back.
-        cut: what is left after the last one; its owners count through the motions of all files.
-        top, floor: of the stock, mm, program coordinates.
+        programs: of each file, at least one, in the order of cutting, anchored (`app.model.motion_path.anchored`).
+        tools: by T number; 0 stands for the tool of a program that names none.
+        stock: the metal, program coordinates.
+        part: what is to come out; None = nobody has said.
     """
 
     programs: tuple[NcProgram, ...]
+    tools: Mapping[int, Tool]
+    stock: Stock
+    part: Part | None = None
+
+    def lines(self) -> NDArray[np.int32]:
+        """Return the line of each motion of all programs, in its own file."""
+        return np.concatenate([program.motions.line for program in self.programs])
+
+    def numbers(self) -> NDArray[np.int32]:
+        """Return the T number of each motion of all programs."""
+        return np.concatenate([_tools(program) for program in self.programs])
+
+
+@dataclass(frozen=True, slots=True)
+class CutOptions:
+    """How finely to look.
+
+    Attributes:
+        cells: along the longer side of the stock, or of the window.
+        window: x0, y0, x1, y1, mm: only this part of the stock; None = all of it.
+        trace: note who cut each cell last, and what each motion took.
+        judge: measure on the motions and certify; else the cells alone are compared with the part, which is quick.
+    """
+
+    cells: int = CELLS
+    window: tuple[float, float, float, float] | None = None
+    trace: bool = True
+    judge: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class CutProgram:
+    """A program that was cut.
+
+    Attributes:
+        setup: what was cut. options: how it was looked at.
+        cut: what is left after the last file; its owners, and the motions of its rapids, count through the motions of all files.
+        top, floor: of the stock, mm, program coordinates.
+        judgement: against the part; None where there is none.
+        findings: what went wrong on the way and what is wrong with the result, what counts first; places in program coordinates.
+    """
+
+    setup: CutSetup
+    options: CutOptions
     cut: Cut
     top: float
     floor: float
+    judgement: Judgement | None
+    findings: tuple[Finding, ...]
 
-    def lines(self) -> NDArray[np.int32]:
-        """Return the line of each motion, in its own file."""
-        return np.concatenate([program.motions.line for program in self.programs])
 
-    def tools(self) -> NDArray[np.int32]:
-        """Return the T number of each motion."""
-        return np.concatenate([_tools(program) for program in self.programs])
+def cut(setup: CutSetup, options: CutOptions = CutOptions(), progress: Progress = NO_PROGRESS, exact: Exact | None = None) -> CutProgram:
+    """Cut programs out of their stock, and judge what is left.
+
+    Args:
+        exact: what closed forms say against a drawing, where the caller knows it; else it is measured.
+
+    Raises:
+        HitofudeError: a tool makes no shape, or is not among the tools; or there are more cells than memory holds.
+        Cancelled: the job was asked to stop.
+    """
+    run = _Run.of(setup, options)
+    result, accidents = run.cut(progress.part(0.0, 0.4))
+    judgement = run.judged(result, exact, progress.part(0.4, 1.0)) if setup.part is not None else None
+    findings = worst_first((*accidents, *(findings_of(judgement) if judgement is not None else ())))
+    return CutProgram(setup, options, result, float(run.workpiece.heights.max()), run.workpiece.floor, judgement, findings)
+
+
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """A setup made ready: what each program is cut along, the cutters, the metal."""
+
+    setup: CutSetup
+    options: CutOptions
+    courses: tuple[KnownCourse, ...]
+    cutters: Mapping[int, Cutter]
+    workpiece: Workpiece
+
+    @staticmethod
+    def of(setup: CutSetup, options: CutOptions) -> _Run:
+        grid = Grid.over(options.window or setup.stock.box, options.cells)
+        ensure_memory(grid, BYTES_A_CELL if setup.part is not None and options.judge else TRIM_BYTES_A_CELL)
+        courses = tuple(course_of(program) for program in setup.programs)
+        return _Run(setup, options, courses, {n: cutter_of(tool) for n, tool in setup.tools.items()}, setup.stock.over(grid))
+
+    def cut(self, progress: Progress) -> tuple[Cut, tuple[Finding, ...]]:
+        """Cut all programs, and look for what goes wrong on the way."""
+        told: list[Finding] = []
+        cut: Cut | None = None
+        done, count = 0, len(self.courses)
+        for k, known in enumerate(self.courses):
+            part, before = progress.part(k / count, (k + 1) / count), self.workpiece if cut is None else cut.workpiece
+            after = trim(before, known.course, self.cutters, TrimOptions(trace=self.options.trace), part.part(0.0, 0.8))
+            told += accidents(Stage(known, before, after, self.cutters), part.part(0.8, 1.0))
+            cut = after if cut is None else _joined(cut, after, done)
+            done += len(known.course.motions)
+        assert cut is not None
+        return cut, tuple(told)
+
+    def trimmed(self, cutters: Mapping[int, Cutter], options: TrimOptions, progress: Progress) -> Heights:
+        """Return what all programs leave when they are cut with other cutters."""
+        workpiece, count = self.workpiece, len(self.courses)
+        for k, known in enumerate(self.courses):
+            workpiece = trim(workpiece, known.course, cutters, options, progress.part(k / count, (k + 1) / count)).workpiece
+        return workpiece.heights
+
+    def judged(self, cut: Cut, exact: Exact | None, progress: Progress) -> Judgement:
+        """Compare a cut with the part."""
+        part = self.setup.part
+        assert part is not None
+        used = {number for known in self.courses for number in np.unique(known.course.tool).tolist()}
+        wanted = wanted_over(part, cut, tuple(self.cutters[k] for k in sorted(used & set(self.cutters))), progress.part(0.0, 0.3))
+        if exact is None and self.options.judge and isinstance(part, FlatPart):
+            exact = exact_of(part, [known.course for known in self.courses], progress.part(0.3, 0.7))
+        certificate = certify(self.workpiece, wanted, self.cutters, self.trimmed, progress.part(0.7, 1.0)) if self.options.judge else None
+        return judge(Judging(part, cut, wanted, exact, self.setup.lines()), certificate)
 
 
 def _tools(program: NcProgram) -> NDArray[np.int32]:
     return np.array([state.tool for state in program.states], np.int32)[program.motions.state]
 
 
-def cut_made(made: Made, cells: int = CELLS, progress: Progress = NO_PROGRESS) -> CutProgram:
-    """Cut a made program out of its job's stock.
-
-    Args:
-        made: with at least one file.
-        cells: along the stock's longer side.
-
-    Raises:
-        HitofudeError: a tool makes no shape, or there are more cells than memory holds.
-        Cancelled: the job was asked to stop.
-    """
-    workpiece = _stock(made.job, made, cells)
-    cutters = {tool.number: cutter_of(tool) for tool in made.job.tools}
-    options = ReadOptions(dialect=load_post(made.job.post).dialect)
-    programs: list[NcProgram] = []
-    cut: Cut | None = None
-    for k, file in enumerate(made.files):
-        part = progress.part(k / len(made.files), (k + 1) / len(made.files))
-        program = read_program(file.nc.text.encode("ascii"), options, part.part(0.0, 0.2))
-        program = replace(program, motions=anchored(program.motions))
-        own = int(made.program.moves.tool[file.first])  # where the control changes no tools, the file names none
-        program = replace(program, states=tuple(replace(state, tool=state.tool or own) for state in program.states))
-        course = Course.of(program.motions, tuple(state.tool for state in program.states), program.homeward)
-        after = trim(workpiece, course, cutters, TrimOptions(trace=True), part.part(0.2, 1.0))
-        cut = after if cut is None else _joined(cut, after, sum(len(each.motions) for each in programs))
-        workpiece = cut.workpiece
-        programs.append(program)
-    assert cut is not None
-    return CutProgram(tuple(programs), cut, float(cut.before.heights.max()), cut.before.floor)
-
-
-def _stock(job: Job, made: Made, cells: int) -> Workpiece:
-    """Return the job's stock in program coordinates."""
-    box = stock_box(job, made.program.regions)
-    x, y, z = work_origin(job, box)
-    grid = Grid.over((box.x0 - x, box.y0 - y, box.x1 - x, box.y1 - y), cells)
-    heights = np.full((grid.rows, grid.cols), box.z1 - z, np.float32)
-    return Workpiece(grid, heights, box.z0 - z)
-
-
 def _joined(first: Cut, then: Cut, motions: int) -> Cut:
     """Return two cuts, one after the other, as one; `motions` came before the second."""
-    assert first.owner is not None and then.owner is not None
-    owner = np.where(then.owner >= 0, then.owner + np.int32(motions), first.owner)
+    owner = None
+    if first.owner is not None and then.owner is not None:
+        owner = np.where(then.owner >= 0, then.owner + np.int32(motions), first.owner)
     rapids = tuple(replace(hit, motion=hit.motion + motions) for hit in then.rapids)
     return Cut(
         first.before, then.heights, first.rapids + rapids, owner, np.concatenate([first.volume, then.volume]),

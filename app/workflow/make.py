@@ -11,7 +11,7 @@ import numpy as np
 
 from app.errors import GeometryError
 from app.files.drawing import Drawing, read_drawing
-from app.model.finding import Finding, FindingKind
+from app.model.finding import Finding, FindingKind, worst_first
 from app.model.job import Job
 from app.model.machine import Machine
 from app.model.moves import Program
@@ -24,9 +24,11 @@ from app.nc.write import NcFile, NcText
 from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
 from app.toolpath.coverage import Coverage, coverage_findings, measure
+from app.workflow.cut import CutProgram
+from app.workflow.cut_job import cut_job, news
 from app.workflow.options import MakeOptions, job_with_options
-from app.workflow.report import Measured, Report, make_report, rings_in_words, worst_first
-from app.workflow.verdict import Gouge, RapidInMaterial, gouge, rapids_in_material
+from app.workflow.report import Measured, Report, make_report, rings_in_words
+from app.workflow.verdict import Gouge, RapidInMaterial, deepest_of, gouge_depths, rapids_in_material
 from app.workflow.written import write_and_check
 
 NO_TEXT = NcText("", np.zeros(0, np.int32))
@@ -48,6 +50,7 @@ class Made:
         report: every measured number.
         findings: everything there is to say, what counts first.
         coverage: what is left on the floor, with outlines.
+        cut: the files cut out of the stock and compared with the drawing; None when no move was made.
     """
 
     job: Job
@@ -57,6 +60,7 @@ class Made:
     report: Report
     findings: tuple[Finding, ...]
     coverage: Coverage
+    cut: CutProgram | None
 
     @property
     def nc(self) -> NcText:
@@ -152,15 +156,18 @@ def finish(
     lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
     program = replace(program, moves=replace(program.moves, line=lines))
     progress.step(0.2, "Checking clearance")
-    deepest, rapids = gouge(program, job), rapids_in_material(program, job)
-    coverage = measure(program, job, progress.part(0.4, 0.95))
-    own = (*_gouge_findings(deepest, program), *_rapid_findings(rapids, program), *_shape_findings(program, job),
+    depths, rapids = gouge_depths(program, job), rapids_in_material(program, job)
+    deepest = deepest_of(depths)
+    coverage = measure(program, job, progress.part(0.3, 0.7))
+    unsafe = (*_gouge_findings(deepest, program), *_rapid_findings(rapids, program))
+    metal = cut_job(program, job, written, (depths, coverage), progress.part(0.7, 0.98)) if written.files else None
+    own = (*unsafe, *(news(metal, unsafe) if metal is not None else ()), *_shape_findings(program, job),
            *written.coarseness(job.out_units), *(written.misfits() if machine else ()),
            *coverage_findings(coverage), *_ring_findings(program))
     findings = worst_first((*own, *program.findings, *drawing_findings))
     progress.step(1.0, "Done")
-    report = make_report(Measured(program, job, written, deepest, rapids, coverage, findings))
-    return Made(job, program, written.files, written.box(cuts=True), report, findings, coverage)
+    report = make_report(Measured(program, job, written, deepest, rapids, coverage, findings, metal))
+    return Made(job, program, written.files, written.box(cuts=True), report, findings, coverage, metal)
 
 
 def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:

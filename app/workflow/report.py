@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,6 +17,8 @@ from app.model.stock_box import extent
 from app.nc.extent import Extent
 from app.nc.write import blend_mm, writing_tolerance
 from app.toolpath.coverage import CHORD, STRIP, Coverage, Place
+from app.workflow.cut import CutProgram
+from app.workflow.judgement import SpotKind
 from app.workflow.verdict import Gouge, RapidInMaterial, in_stock
 from app.workflow.written import Written
 
@@ -31,6 +32,9 @@ MOVES_METHOD = ("motions of the control, as the NC text was read back: arcs spli
                 "first XY, and after a tool change from where the tool before was lifted to safe Z")
 CHECK_METHOD = "the written bytes read back and compared with the moves: a bound both ways, all along; kinds, feeds, tools, spindle alike"
 
+CUT_METHOD = ("the files, read back, cut out of the stock on a grid of heights, exactly at the cells' centres, and compared with the "
+              "drawing; the bounds hold between the centres too")
+
 Json = dict[str, Any]
 
 
@@ -41,6 +45,7 @@ class Measured:
     Attributes:
         written: the files, read back.
         findings: all of them: of the drawing, the path, the verdict, the floor.
+        cut: the files, cut out of the stock; None without files.
     """
 
     program: Program
@@ -50,6 +55,7 @@ class Measured:
     rapids: tuple[RapidInMaterial, ...]
     coverage: Coverage
     findings: tuple[Finding, ...]
+    cut: CutProgram | None
 
 
 @dataclass(frozen=True)
@@ -102,6 +108,7 @@ def make_report(measured: Measured) -> Report:
         "moves_method": MOVES_METHOD,
         "extent_mm": {"cut": _box(written.box(cuts=True)), "all": _box(written.box(cuts=False)), "coordinates": "of the program"},
         "check": _check(written),
+        "cut": _cut(measured.cut),
         "skipped": [_finding(each) for each in _of(measured, FindingKind.REGION_TOO_SMALL, FindingKind.LEFT_OUT, FindingKind.TINY_ENTITY)],
         "open_contours": [_finding(each) for each in _of(measured, FindingKind.OPEN_CONTOUR)],
         "engine": "; ".join([ENGINE, *([rings_in_words(program.polyline_rings)] if program.polyline_rings else [])]),
@@ -136,6 +143,16 @@ def _check(written: Written) -> Json:
             "tolerance_mm": max((each.tolerance_mm for each in checks), default=0.0),
             "differences": sum(len(each.problems) for each in checks), "motions": len(written.kind),
             "files": [file.suffix for file in written.files], "method": CHECK_METHOD}
+
+
+def _cut(result: CutProgram | None) -> Json | None:
+    """Return what cutting the files has shown."""
+    if result is None or result.judgement is None or result.judgement.certificate is None:
+        return None
+    judgement, certificate, grid = result.judgement, result.judgement.certificate, result.cut.before.grid
+    return {"removed_mm3": result.cut.removed_volume, "rows": grid.rows, "cols": grid.cols, "pitch_mm": grid.pitch,
+            "no_point_gouged_deeper_than_mm": certificate.gouge_mm, "no_metal_within_reach_higher_than_mm": certificate.left_mm,
+            "gouged_places": sum(spot.kind is SpotKind.GOUGE for spot in judgement.spots), "method": CUT_METHOD}
 
 
 def _box(box: Extent) -> Json:
@@ -237,8 +254,3 @@ def pocket_strokes(moves: Moves) -> int:
     feed = moves.kind != MoveKind.RAPID
     run = np.cumsum(~feed)
     return len(np.unique(run[feed & (moves.purpose == Purpose.POCKET)]))
-
-
-def worst_first(findings: Iterable[Finding]) -> tuple[Finding, ...]:
-    """Return each finding once, those that count first, otherwise in order."""
-    return tuple(sorted(dict.fromkeys(findings), key=lambda finding: not finding.counts))

@@ -8,10 +8,12 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from app.dexel.cutter import cutter_of
 from app.geometry.near import near
 from app.geometry.primitives import contour_rows
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program
+from app.model.tool import ToolKind
 from app.tolerances import LEVEL
 from app.toolpath.flat import lines, move_rows, region_shapes
 from app.workflow.clearance import curve_distance
@@ -30,10 +32,10 @@ class Gouge:
     """The deepest cut into the part.
 
     Attributes:
-        max_mm: how far the cutter, with its stock to leave, reaches beyond a wall, mm; 0 = nowhere.
-        x, y, z: where the tool's centre is then, mm, part coordinates; None when max_mm is 0.
+        max_mm: how far the cutter, with its stock to leave, reaches beyond a wall, or below the floor, mm; 0 = nowhere.
+        x, y, z: where the tool's tip is then, mm, part coordinates; None when max_mm is 0.
         move: index of that move, or -1.
-        count: moves that reach more than 1 um beyond a wall.
+        count: moves that reach beyond by more than 1 um, or than is tolerated.
     """
 
     max_mm: float = 0.0
@@ -60,34 +62,81 @@ def in_stock(moves: Moves) -> NDArray[np.bool_]:
 
 
 def required_clearance(moves: Moves, job: Job) -> Floats:
-    """Return (n,) the least distance of each move's centre line from walls: tool radius + stock to leave, mm."""
-    radius = {tool.number: tool.radius for tool in job.tools}
+    """Return (n,) the least distance of each move's centre line from walls: the cutter's radius + stock to leave, mm.
+
+    A cutter that is not as wide as that at its tip counts as wide as it is at Z 0, where the walls end, when the move is deepest.
+    """
+    shapes = {tool.number: None if tool.kind is ToolKind.FLAT else cutter_of(tool) for tool in job.tools}
+    straight = {tool.number: tool.radius for tool in job.tools}
     leave = [operation.cut.stock_to_leave for operation in job.operations]
-    return np.array([radius[int(t)] + leave[int(o)] for t, o in zip(moves.tool, moves.operation, strict=True)])
+    height = -np.minimum(moves.start[:, 2], moves.end[:, 2])
+    need = np.array([straight[int(t)] + leave[int(o)] for t, o in zip(moves.tool, moves.operation, strict=True)])
+    for number, cutter in shapes.items():
+        if cutter is not None:
+            mine = moves.tool == number
+            need[mine] += np.array([cutter.radius_at(each) for each in height[mine].tolist()]) - straight[number]
+    return need
 
 
-def gouge(program: Program, job: Job) -> Gouge:
-    """Return the deepest gouge of a program, by exact distances of every move in the stock from every wall.
+@dataclass(frozen=True, eq=False)
+class Depths:
+    """How deep moves in the stock cut into the part, n of them.
+
+    Attributes:
+        move: (n,) their indices.
+        depth: (n,) mm; <= 0: they keep clear by as much.
+        places: (n, 3) where the tool's tip is then, mm, part coordinates.
+    """
+
+    move: NDArray[np.int64]
+    depth: Floats
+    places: Floats
+
+
+def gouge_depths(program: Program, job: Job) -> Depths:
+    """Return how deep each move in the stock cuts into walls, by exact distances, or below the floor of its tool's operations.
 
     Args:
         program: its regions' contours are the walls; what lies outside of all regions is part.
-        job: its tools' radii and its stock to leave are what the path must keep clear of.
+        job: its tools and its stock to leave are what the path must keep clear of.
     """
     moves = program.moves
-    chosen = np.flatnonzero(in_stock(moves))
-    if not len(chosen) or not program.regions:
-        return Gouge()
+    chosen = np.flatnonzero(in_stock(moves)) if program.regions else np.zeros(0, np.int64)
+    if not len(chosen):
+        return Depths(chosen, np.zeros(0), np.zeros((0, 3)))
     rows, need = move_rows(moves)[chosen], required_clearance(moves, job)[chosen]
     walls = np.concatenate([contour_rows(contour) for region in program.regions for contour in region.contours])
     depth, places = _depths(rows, need, walls)
     outside, beyond = _outside(rows, program)
     depth[outside], places[outside] = need[outside] + beyond, rows[outside, 2:4]
-    worst = int(np.argmax(depth))
-    if depth[worst] <= 0:
+    low = np.minimum(moves.start[chosen, 2], moves.end[chosen, 2])
+    too_deep = -low - _floors(moves, job)[chosen]
+    deeper = too_deep > np.maximum(depth, _SURFACE)
+    depth[deeper], places[deeper] = too_deep[deeper], rows[deeper, 2:4]
+    return Depths(chosen, depth, np.column_stack([places, low]))
+
+
+def gouge(program: Program, job: Job) -> Gouge:
+    """Return the deepest gouge of a program; see `gouge_depths`."""
+    return deepest_of(gouge_depths(program, job))
+
+
+def deepest_of(depths: Depths) -> Gouge:
+    """Return the deepest gouge; moves that reach more than LEVEL into the part are counted."""
+    worst = int(np.argmax(depths.depth)) if len(depths.depth) else 0
+    if not len(depths.depth) or depths.depth[worst] <= 0:
         return Gouge()
-    move = int(chosen[worst])
-    z = float(min(moves.start[move, 2], moves.end[move, 2]))
-    return Gouge(float(depth[worst]), float(places[worst, 0]), float(places[worst, 1]), z, move, int(np.sum(depth > LEVEL)))
+    x, y, z = depths.places[worst].tolist()
+    return Gouge(float(depths.depth[worst]), x, y, z, int(depths.move[worst]), int(np.sum(depths.depth > LEVEL)))
+
+
+def _floors(moves: Moves, job: Job) -> Floats:
+    """Return (n,) how deep each move's tool may go, mm: the depth of the deepest operation that it is used in."""
+    deepest: dict[int, float] = {}
+    for operation in job.operations:
+        if operation.cut.enabled:
+            deepest[operation.cut.tool] = max(deepest.get(operation.cut.tool, 0.0), operation.cut.depth)
+    return np.array([deepest.get(number, 0.0) for number in moves.tool.tolist()])
 
 
 def _depths(rows: Floats, need: Floats, walls: Floats) -> tuple[Floats, Floats]:
@@ -104,7 +153,7 @@ def _depths(rows: Floats, need: Floats, walls: Floats) -> tuple[Floats, Floats]:
 
 def _outside(rows: Floats, program: Program) -> tuple[NDArray[np.int64], Floats]:
     """Return the moves whose end lies in no region, and how far outside, mm."""
-    polygons = shapely.union_all(region_shapes(program, _CHORD))
+    polygons = shapely.union_all(region_shapes(program.regions, _CHORD))
     ends = shapely.points(rows[:, 2:4])
     shapely.prepare(polygons)
     distance = np.zeros(len(rows))

@@ -60,12 +60,12 @@ class Written:
     @cached_property
     def length(self) -> Floats:
         """(m,) mm; the first approach counts from above its end, as nobody knows where the tool is before."""
-        return _joined([lengths(program.motions) for program in self._programs], np.float64)
+        return _joined([lengths(program.motions) for program in self.programs], np.float64)
 
     @cached_property
     def durations(self) -> tuple[Duration, ...]:
         """How long each file takes."""
-        return tuple(duration(program, self.machine) for program in self._programs)
+        return tuple(duration(program, self.machine) for program in self.programs)
 
     @property
     def moving(self) -> Floats:
@@ -83,12 +83,13 @@ class Written:
         return len(self.files) * self.machine.tool_change if self.post.file_per_tool else 0.0
 
     @cached_property
-    def _programs(self) -> tuple[NcProgram, ...]:
+    def programs(self) -> tuple[NcProgram, ...]:
+        """Of each file, as read back, its motions anchored."""
         return tuple(replace(each.program, motions=anchored(each.program.motions)) for each in self.checks)
 
     def box(self, cuts: bool) -> Extent:
         """Return the box round all motions, or round those that cut, mm, program coordinates."""
-        boxes = [extent(program, program.motions.kind != MotionKind.RAPID if cuts else None) for program in self._programs]
+        boxes = [extent(program, program.motions.kind != MotionKind.RAPID if cuts else None) for program in self.programs]
         low, high = (np.array([getattr(box, end) for box in boxes]) for end in ("low", "high"))
         return Extent(tuple(np.min(low, axis=0).tolist()), tuple(np.max(high, axis=0).tolist())) if boxes else NOWHERE
 
@@ -96,7 +97,7 @@ class Written:
         """Return what the machine cannot do."""
         return tuple(
             Finding(FindingKind.MACHINE, f"NC line {problem.line}{_in_file(file)}: {problem.text}")
-            for file, program in zip(self.files, self._programs, strict=True) for problem in misfits(program, self.machine)
+            for file, program in zip(self.files, self.programs, strict=True) for problem in misfits(program, self.machine)
         )  # fmt: skip
 
     def coarseness(self, units: Units) -> tuple[Finding, ...]:

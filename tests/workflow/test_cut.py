@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 
 from app.resources import resource
-from app.workflow.cut import CutProgram, cut_made
+from app.workflow.cut import CutProgram
 from app.workflow.make import Made, make
 from app.workflow.options import MakeOptions
-
-CELLS = 512
 
 
 @cache
@@ -18,15 +16,15 @@ def made(post: str) -> Made:
     return make("fig2.dxf", resource("samples", "fig2.dxf").read_bytes(), MakeOptions(post=post))
 
 
-@cache
 def cut(post: str) -> CutProgram:
-    return cut_made(made(post), CELLS)
+    result = made(post).cut
+    assert result is not None
+    return result
 
 
 def test_the_floor_is_flat_at_its_depth_and_the_rest_is_untouched() -> None:
     result = cut("linuxcnc")
-    heights = result.cut.heights
-    assert set(np.unique(heights).tolist()) == {-2.0, 0.0}
+    assert set(np.unique(result.cut.heights).tolist()) == {-2.0, 0.0}
     assert (result.top, result.floor) == (0.0, -10.0)
     assert not result.cut.rapids
 
@@ -42,14 +40,25 @@ def test_every_cell_knows_its_line() -> None:
     owner = result.cut.owner
     assert owner is not None
     assert np.array_equal(owner >= 0, result.cut.heights < 0)
-    cutting = np.unique(result.lines()[owner[owner >= 0]])
+    cutting = np.unique(result.setup.lines()[owner[owner >= 0]])
     text = made("linuxcnc").nc.text.splitlines()
     assert not [line for line in cutting.tolist() if "G0" in text[line - 1]]
-    assert set(np.unique(result.tools()[owner[owner >= 0]]).tolist()) == {1, 2}
+    assert set(np.unique(result.setup.numbers()[owner[owner >= 0]]).tolist()) == {1, 2}
 
 
 def test_a_file_for_each_tool_leaves_the_same() -> None:
     one, several = cut("linuxcnc"), cut("grbl")
     assert len(made("grbl").files) == 2
     assert np.array_equal(one.cut.heights, several.cut.heights)
-    assert set(np.unique(several.tools()).tolist()) == {1, 2}
+    assert set(np.unique(several.setup.numbers()).tolist()) == {1, 2}
+
+
+def test_the_cut_agrees_with_the_closed_forms() -> None:
+    report, judgement = made("linuxcnc").report.data, cut("linuxcnc").judgement
+    assert judgement is not None and judgement.certificate is not None
+    assert judgement.gouge.count == 0
+    assert judgement.unreachable_mm2 == pytest.approx(report["left"]["unreachable_mm2"])
+    cells = np.count_nonzero(judgement.unreachable) * cut("linuxcnc").cut.before.grid.pitch ** 2
+    assert cells == pytest.approx(judgement.unreachable_mm2, rel=0.15)
+    assert report["cut"]["gouged_places"] == 0
+    assert judgement.certificate.gouge_mm < 3 * judgement.certificate.pitch_mm

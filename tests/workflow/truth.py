@@ -16,7 +16,7 @@ DOUBT = 0.01
 def assert_left_is_true(made: Made, count: int = 400) -> int:
     """Assert that points lie in a piece that is left exactly when no move at the floor covers them; return how many decided."""
     moves, rng = made.program.moves, np.random.default_rng(1)
-    area = shapely.union_all(region_shapes(made.program, 1e-3))
+    area = shapely.union_all(region_shapes(made.program.regions, 1e-3))
     shapely.prepare(area)
     x0, y0, x1, y1 = area.bounds
     points = rng.uniform((x0, y0), (x1, y1), (count, 2))

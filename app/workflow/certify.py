@@ -1,0 +1,65 @@
+"""What holds at every point, also between the cells' centres: heights that bound what is left, from below and from above.
+
+A cutter that is half a cell's diagonal wider cuts a cell's centre at least as deep as the true one cuts any point of the
+cell; one that is as much slimmer cuts it nowhere deeper. So each cell has a lower and an upper height, and whatever the
+true metal is between them, it is no farther from the part than the longest way from a height to the part's surface.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from app.dexel.cutter import Cutter
+from app.dexel.target import by_strips
+from app.dexel.trim import Rapids, TrimOptions
+from app.dexel.workpiece import Heights, Workpiece
+from app.progress import NO_PROGRESS, Progress
+from app.workflow.judge import Wanted
+from app.workflow.judgement import Certificate
+
+ROUNDING = 2e-5
+"""mm that heights in float32 and chords of curves may be off."""
+
+NOWHERE = 1e6
+"""mm to which a cutter is lifted that is slimmer than a cell."""
+
+Trimming = Callable[[Mapping[int, Cutter], TrimOptions, Progress], Heights]
+"""Cuts all programs with other cutters, and gives the heights that are left."""
+
+
+def certify(before: Workpiece, part: Wanted, cutters: Mapping[int, Cutter], trimming: Trimming,
+            progress: Progress = NO_PROGRESS) -> Certificate:  # fmt: skip
+    """Return how far from the part any point can be that was cut or left.
+
+    Rapids count as cuts for the one and as none for the other. Of metal left only what lies within reach is spoken of.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    from app.dexel.judge_kernels import farthest
+
+    pitch = before.grid.pitch
+    half = pitch / math.sqrt(2.0)
+    wide = {number: cutter.grown(half) for number, cutter in cutters.items()}
+    slim = {number: cutter.shrunk(half) or replace(cutter, lift=NOWHERE) for number, cutter in cutters.items()}
+    progress.step(0.0, "Looking between the cells")
+    low = trimming(wide, TrimOptions(Rapids.CUT), progress.part(0.0, 0.4))
+    high = trimming(slim, TrimOptions(Rapids.IGNORED), progress.part(0.4, 0.8))
+    wanted, stock = _frozen(part.target.wanted), _frozen(before.heights)
+    spoken = _frozen(np.where(part.reach, part.target.high, np.float32(np.inf)))
+
+    def worst(heights: Heights, counts: Heights, sign: int) -> float:
+        fixed, where = _frozen(heights), (pitch, half)
+        return max(by_strips(len(stock), lambda a, b: float(farthest(fixed, wanted, counts, where, sign, a, b)), progress)) + ROUNDING
+
+    return Certificate(worst(low, stock, 1), worst(high, spoken, -1), pitch)
+
+
+def _frozen(field: Heights) -> Heights:
+    view = np.ascontiguousarray(field).view()
+    view.setflags(write=False)
+    return view

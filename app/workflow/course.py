@@ -1,0 +1,42 @@
+"""What of a program can be cut: motions whose ways are known, and where the program first comes to a known place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.dexel.trim import Course
+from app.model.motion import MotionKind
+from app.nc.extent import nowhere_of
+from app.nc.read.program import NcProgram
+
+
+@dataclass(frozen=True, eq=False)
+class KnownCourse:
+    """The course of a program, as far as its places are known.
+
+    Attributes:
+        course: motions that begin, along an axis, at a place that nobody knows, begin where they end along it. Left out are
+            those that end at such a place, curves that begin at one, and the rapid that first comes to a known place.
+        first: row of the motion that first ends at a known place; the number of motions where none does.
+    """
+
+    course: Course
+    first: int
+
+
+def course_of(program: NcProgram) -> KnownCourse:
+    """Return what of a program can be cut; before it sets an axis, and at a place of the machine, nobody knows where it is."""
+    motions, nowhere = program.motions, nowhere_of(program)
+    unknown = np.asarray(nowhere.any(axis=1))
+    from_nowhere = np.concatenate([np.ones_like(nowhere[:1]), nowhere[:-1]])
+    curved = motions.kind >= MotionKind.ARC_CW
+    start = np.where(from_nowhere & ~curved[:, None], motions.end, motions.start)
+    first = int(np.argmin(unknown)) if not unknown.all() else len(unknown)
+    left_out = unknown | (curved & from_nowhere.any(axis=1))
+    if first < len(unknown) and motions.kind[first] == MotionKind.RAPID:
+        left_out[first] = True
+    motions = replace(motions, start=start, known_from=(0, 0, 0))
+    tools = tuple(state.tool for state in program.states)
+    return KnownCourse(Course.of(motions, tools, tuple(np.flatnonzero(left_out).tolist())), first)

@@ -1,0 +1,61 @@
+"""Gouges and what is left of a drawing, measured on the motions themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from app.dexel.trim import Course
+from app.model.job import Job
+from app.model.moves import Moves, Program
+from app.model.tool import ToolKind
+from app.progress import NO_PROGRESS, Progress
+from app.toolpath.coverage import Coverage, measure
+from app.workflow.motion_moves import moves_of
+from app.workflow.parts import FlatPart
+from app.workflow.verdict import Depths, gouge_depths
+
+
+@dataclass(frozen=True, eq=False)
+class Exact:
+    """What closed forms say of a drawing that was milled, part coordinates.
+
+    Attributes:
+        depths: of the moves in the stock; `move` counts the motions of all programs.
+        coverage: what is left on the floor; None where a tool that cuts is not flat at its end.
+    """
+
+    depths: Depths
+    coverage: Coverage | None
+
+
+def exact_of(part: FlatPart, courses: Sequence[Course], progress: Progress = NO_PROGRESS) -> Exact:
+    """Measure programs that were cut one after the other.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    found = [moves_of(course, part.job, part.origin) for course in courses]
+    before = np.cumsum([0, *(len(course.motions) for course in courses)])
+    moves = _joined([each.moves for each in found])
+    motion = np.concatenate([each.motion + count for each, count in zip(found, before.tolist(), strict=False)])
+    program = Program(moves, part.regions)
+    progress.step(0.0, "Checking clearance")
+    depths = gouge_depths(program, part.job)
+    flat = _flat(moves, part.job)
+    coverage = measure(program, part.job, progress.part(0.2, 1.0)) if flat else None
+    return Exact(replace(depths, move=motion[depths.move]), coverage)
+
+
+def _joined(parts: Sequence[Moves]) -> Moves:
+    """Return moves, one after the other."""
+    columns: dict[str, Any] = {name: np.concatenate([part.columns()[name] for part in parts]) for name in parts[0].columns()}
+    return Moves(**columns)
+
+
+def _flat(moves: Moves, job: Job) -> bool:
+    """Return whether all tools that move are flat."""
+    return all(job.tool(number).kind is ToolKind.FLAT for number in np.unique(moves.tool).tolist())

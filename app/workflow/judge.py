@@ -1,0 +1,221 @@
+"""A cut against the part: which cells are gouged or left, how large each place is, and what holds between the cells.
+
+For a drawing milled to depths, gouges and areas left are measured on the motions themselves, exactly; the cells confirm
+them, and a gouge that only the cells show counts too. For a solid, and where a tool's end is not flat, the cells decide.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.dexel.cutter import Cutter
+from app.dexel.target import Target, solid_target, within_reach
+from app.dexel.trim import Cut
+from app.dexel.workpiece import Grid
+from app.progress import NO_PROGRESS, Progress
+from app.toolpath.coverage import Place
+from app.workflow.exact import Exact
+from app.workflow.flat_target import flat_target
+from app.workflow.judgement import BANDS, Band, Certificate, Judgement, Spot, SpotKind
+from app.workflow.parts import FlatPart, Part, SolidPart
+from app.workflow.places import CellPlace, places_of
+from app.workflow.solid_depth import depth_in_solid
+from app.workflow.verdict import Gouge
+
+Mask = NDArray[np.bool_]
+
+APART = 1.0
+"""mm between gouges that are told one by one."""
+
+MOST_GOUGES = 100
+
+
+@dataclass(frozen=True, eq=False)
+class Wanted:
+    """The part over the grid of a cut.
+
+    Attributes:
+        target: heights.
+        reach: (rows, cols) where some tool that cuts gets down to the part.
+    """
+
+    target: Target
+    reach: Mask
+
+
+def wanted_over(part: Part, cut: Cut, cutters: tuple[Cutter, ...], progress: Progress = NO_PROGRESS) -> Wanted:
+    """Return the part over the grid of a cut; metal that was not there is not gouged.
+
+    Args:
+        cutters: that may cut.
+
+    Raises:
+        ParameterError: the grid does not fit into memory.
+        Cancelled: the job was asked to stop.
+    """
+    grid, stock = cut.before.grid, cut.before.heights
+    if isinstance(part, FlatPart):
+        flat = flat_target(part, grid)
+        target, reach = flat.target, flat.reach
+    else:
+        target = solid_target(part.solid, grid, part.leave, progress)
+        lowest = within_reach(target.wanted, cutters, grid.pitch, progress)
+        reach = lowest <= np.maximum(target.high, target.wanted) + np.float32(part.tolerance)
+    return Wanted(replace(target, low=np.minimum(target.low, stock)), reach)
+
+
+@dataclass(frozen=True, eq=False)
+class Judging:
+    """What a judgement is made of: the cut, the part over it, what closed forms say, and the lines of the motions."""
+
+    part: Part
+    cut: Cut
+    wanted: Wanted
+    exact: Exact | None
+    lines: NDArray[np.int32]
+
+    @property
+    def grid(self) -> Grid:
+        """Of the cut."""
+        return self.cut.before.grid
+
+    def line_at(self, row: int, col: int) -> tuple[int, int]:
+        """Return line and row of the motion that cut a cell last; 0 and -1 where none did or nobody noted it."""
+        owner = -1 if self.cut.owner is None else int(self.cut.owner[row, col])
+        return (int(self.lines[owner]), owner) if owner >= 0 else (0, -1)
+
+    def to_program(self, x: float, y: float) -> tuple[float, float]:
+        """Return a place of the part in program coordinates."""
+        origin = self.part.origin if isinstance(self.part, FlatPart) else (0.0, 0.0)
+        return x - origin[0], y - origin[1]
+
+
+def judge(judging: Judging, certificate: Certificate | None) -> Judgement:
+    """Return what is said of a cut."""
+    part, tolerance = judging.part, judging.part.tolerance
+    deviation = judging.wanted.target.deviation(judging.cut.heights)
+    left = deviation > tolerance
+    unreachable = left & ~judging.wanted.reach
+    gouges = tuple(_gouges(judging, deviation))
+    gouge = _worst(judging, gouges)
+    masks = {SpotKind.LEFT: left & ~unreachable, SpotKind.UNREACHABLE: unreachable}
+    left_spots = tuple(spot for kind, mask in masks.items() for spot in _left(judging, mask, deviation, kind))
+    coverage = judging.exact.coverage if judging.exact is not None else None
+    if coverage is not None:
+        reachable_mm2, unreachable_mm2 = coverage.reachable_left_mm2, coverage.unreachable_mm2
+        left_spots = tuple(_measured(judging, place) for place in coverage.places)
+    else:
+        cell = judging.grid.pitch**2
+        reachable_mm2, unreachable_mm2 = (float(np.count_nonzero(mask)) * cell for mask in masks.values())
+    discs = (spot.disc_mm for spot in left_spots if spot.kind is SpotKind.UNREACHABLE)
+    line = int(judging.lines[gouge.move]) if gouge.move >= 0 else 0
+    return Judgement(
+        deviation, unreachable, gouge, line, reachable_mm2, unreachable_mm2, max(discs, default=0.0), (*gouges, *left_spots),
+        tuple(_bands(judging, deviation)), certificate, isinstance(part, FlatPart), tolerance,
+    )  # fmt: skip
+
+
+def _gouges(judging: Judging, deviation: NDArray[np.float32]) -> Iterator[Spot]:
+    """Yield the gouges, the deepest first: by closed forms, and those that only the cells show."""
+    part = judging.part
+    exact = tuple(_exact_gouges(judging))
+    own = (_gouge_of_cells(judging, place) for place in places_of(deviation < -part.tolerance, -deviation, judging.grid))
+    near = 2 * judging.grid.pitch + APART + (max(tool.radius for tool in part.job.tools) if isinstance(part, FlatPart) else 0.0)
+    others = (spot for spot in own if spot.depth_mm > part.tolerance
+              and not any(np.hypot(spot.x - known.x, spot.y - known.y) <= near for known in exact))  # fmt: skip
+    yield from sorted((*exact, *others), key=lambda spot: -spot.depth_mm)
+
+
+def _exact_gouges(judging: Judging) -> Iterator[Spot]:
+    """Yield the gouging motions, the deepest first, but for those near a deeper one."""
+    part = judging.part
+    if judging.exact is None or not isinstance(part, FlatPart):
+        return
+    depths, origin = judging.exact.depths, np.array(part.origin)
+    told: list[tuple[float, float]] = []
+    for k in np.argsort(-depths.depth, kind="stable")[: np.count_nonzero(depths.depth > part.wall_tolerance)].tolist():
+        x, y, z = (depths.places[k] - origin).tolist()
+        if len(told) < MOST_GOUGES and all(np.hypot(x - other[0], y - other[1]) > APART for other in told):
+            told.append((x, y))
+            motion = int(depths.move[k])
+            yield Spot(SpotKind.GOUGE, x, y, z, float(depths.depth[k]), 0.0, 0.0, int(judging.lines[motion]), motion)
+
+
+def _gouge_of_cells(judging: Judging, place: CellPlace) -> Spot:
+    """Return a gouge as the cells show it; its depth is the way out of the part, not straight up."""
+    depth, (row, col) = max((_way_out(judging, cell), cell) for cell in (place.cell, place.middle))
+    x, y = judging.grid.place(row * judging.grid.cols + col)
+    line, motion = judging.line_at(row, col)
+    return Spot(SpotKind.GOUGE, x, y, float(judging.cut.heights[row, col]), depth, place.area_mm2, place.disc_mm, line, motion)
+
+
+def _way_out(judging: Judging, cell: tuple[int, int]) -> float:
+    """Return how far the end of the metal in a cell is from the part's surface, mm: exactly for a solid, else by the cells around."""
+    from app.dexel.judge_kernels import apart
+
+    row, col = cell
+    target, height = judging.wanted.target, float(judging.cut.heights[row, col])
+    rough = float(apart(_frozen(target.wanted), row, col, height, (judging.grid.pitch, 0.0), 1))
+    if not isinstance(judging.part, SolidPart) or judging.part.leave:
+        return rough
+    solid = judging.part.solid
+    low, high = max(height, float(solid.triangles[..., 2].min())), float(target.wanted[row, col])
+    return depth_in_solid(solid, judging.grid.place(row * judging.grid.cols + col), low, high)
+
+
+def _frozen(field: NDArray[np.float32]) -> NDArray[np.float32]:
+    view = field.view()
+    view.setflags(write=False)
+    return view
+
+
+def _worst(judging: Judging, spots: tuple[Spot, ...]) -> Gouge:
+    """Return the deepest gouge; where there is none, how little the path keeps from one."""
+    part, worst = judging.part, spots[0] if spots else None
+    if judging.exact is None or not isinstance(part, FlatPart):
+        return Gouge(worst.depth_mm, worst.x, worst.y, worst.z, worst.motion, len(spots)) if worst else Gouge()
+    depths = judging.exact.depths
+    if worst:
+        count = max(len(spots), int(np.sum(depths.depth > part.wall_tolerance)))
+        return Gouge(worst.depth_mm, worst.x, worst.y, worst.z, worst.motion, count)
+    if not len(depths.depth) or depths.depth.max() <= 0:
+        return Gouge()
+    k = int(np.argmax(depths.depth))
+    x, y, z = (depths.places[k] - np.array(part.origin)).tolist()
+    return Gouge(float(depths.depth[k]), x, y, z, int(depths.move[k]), 0)
+
+
+def _left(judging: Judging, mask: Mask, deviation: NDArray[np.float32], kind: SpotKind) -> Iterator[Spot]:
+    """Yield places of metal left, the highest first."""
+    for place in places_of(mask, deviation, judging.grid):
+        row, col = place.cell
+        x, y = judging.grid.place(row * judging.grid.cols + col)
+        line, motion = judging.line_at(row, col)
+        yield Spot(kind, x, y, float(judging.cut.heights[row, col]), place.worst, place.area_mm2, place.disc_mm, line, motion)
+
+
+def _measured(judging: Judging, place: Place) -> Spot:
+    """Return a piece of floor that is left; how high it stands, and who cut there last, the cells tell."""
+    grid, (x, y) = judging.grid, judging.to_program(place.x, place.y)
+    row, col = int((y - grid.y0) / grid.pitch), int((x - grid.x0) / grid.pitch)
+    kind = SpotKind.LEFT if place.reachable else SpotKind.UNREACHABLE
+    if not (0 <= row < grid.rows and 0 <= col < grid.cols):
+        return Spot(kind, x, y, 0.0, 0.0, place.area_mm2, place.disc_mm)
+    around = (slice(max(row - 1, 0), row + 2), slice(max(col - 1, 0), col + 2))
+    over = float(np.max(judging.cut.heights[around] - judging.wanted.target.wanted[around], initial=0.0))
+    wanted = float(judging.wanted.target.wanted[around].min())
+    return Spot(kind, x, y, wanted + over, over, place.area_mm2, place.disc_mm, *judging.line_at(row, col))
+
+
+def _bands(judging: Judging, deviation: NDArray[np.float32]) -> Iterator[Band]:
+    """Yield the area of each band of deviation, where the part says something."""
+    tolerance = judging.part.tolerance
+    edges = sorted({-np.inf, np.inf, -tolerance, tolerance, *(edge for edge in BANDS if abs(edge) > tolerance)})
+    told = deviation[np.isfinite(judging.wanted.target.high) | (deviation < 0)]
+    counts, _ = np.histogram(told, np.array(edges))
+    for low, high, count in zip(edges[:-1], edges[1:], counts.tolist(), strict=True):
+        yield Band(float(low), float(high), count * judging.grid.pitch**2)
