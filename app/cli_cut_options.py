@@ -59,7 +59,7 @@ def tool_given(text: str) -> tuple[int, Tool]:
         raise InputError(f"'{text}' is no tool; write NUMBER=KIND:DIAMETER, such as 1=ball:6: {SHAPES}")
     values = match[3].split(":")
     if len(values) not in _COUNT[kind]:
-        raise InputError(f"'{text}' has {len(values)} numbers behind {kind.value}; write one of {SHAPES}")
+        raise InputError(f"'{text}' has {_counted(values)} behind {kind.value}; write one of {SHAPES}")
     try:
         return int(match[1]), _shaped(max(int(match[1]), 1), kind, values)
     except CommandError as error:
@@ -117,7 +117,11 @@ def _lengths(text: str, count: int, form: str) -> Corners:
             return [length(value) for value in values]
     except CommandError as error:
         raise InputError(f"'{text}': {error.reason}") from error
-    raise InputError(f"'{text}' has {len(values)} numbers; write {count}: {form}")
+    raise InputError(f"'{text}' has {_counted(values)}; write {count}: {form}")
+
+
+def _counted(values: list[str]) -> str:
+    return f"{len(values)} number{'' if len(values) == 1 else 's'}"
 
 
 def _cells(text: str) -> int:

@@ -239,7 +239,7 @@ def _summary(data: Json) -> Iterator[str]:
            f"{_clock(data['time_s'])} min")
     if certificate is not None:
         yield (f"  between the cells, {certificate['pitch_mm']:.4g} mm wide, too: no point deeper than {certificate['gouge_mm']:.4f} mm "
-               f"inside the part was cut, and where a tool reaches no metal stands farther than {certificate['left_mm']:.4f} mm from it")
+               "inside the part was cut")
     for tool in data["tools"]:
         yield (f"  T{tool['number']} {tool['kind']} {tool['diameter_mm']:g} mm ({tool['from']}): {tool['removed_mm3']:.1f} mm3, "
                f"{_clock(tool['time_s'])} min")

@@ -1,0 +1,230 @@
+"""The command `cut` as its user sees it: what is removed, by closed forms; what is written; what is found."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from app.cli import main
+from app.dexel.heights_file import read_heights
+from app.dexel.workpiece import free_memory
+
+ROOT = Path(__file__).resolve().parents[1]
+SLOT = """\
+G21 G90 G17 G54
+T1 M6
+G0 Z5
+X10 Y10
+G1 Z-2 F100
+X40
+G0 Z5
+M2
+"""
+STOCK = "--stock=0,0,-10,50,20,0"
+DEPTH, LENGTH = 2.0, 30.0
+
+
+@pytest.fixture
+def slot(tmp_path: Path) -> Path:
+    path = tmp_path / "slot.ngc"
+    path.write_text(SLOT)
+    return path
+
+
+def cut(*arguments: object) -> int:
+    return main(["cut", *map(str, arguments)])
+
+
+def solid(path: Path, bounds: list[list[float]]) -> Path:
+    """Write a box as STL."""
+    import trimesh
+
+    trimesh.creation.box(bounds=bounds).export(path)
+    return path
+
+
+def report_of(tmp_path: Path, *arguments: object, status: int = 0) -> dict[str, Any]:
+    path = tmp_path / "report.json"
+    assert cut(*arguments, "--report", path, "--quiet") == status
+    return dict(json.loads(path.read_text()))
+
+
+def test_the_whole_command(slot: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    files = {name: tmp_path / f"o.{name}" for name in ("npy", "png", "json")}
+    arguments = ["--heights", tmp_path / "h.npy", "--image", files["png"], "--report", files["json"]]
+    assert cut(slot, STOCK, "--tool", "1=flat:6", *arguments) == 0
+    shown = capsys.readouterr()
+    assert shown.err == ""
+    assert "slot.ngc: 416." in shown.out
+    assert "mm3 removed; compared with no part (--against); 0 rapids in material, 1 stroke, 1 retract, 44 mm, 1:23 min\n" in shown.out
+    assert "  T1 flat 6 mm (--tool): 416." in shown.out
+    data = json.loads(files["json"].read_text())
+    keys = {"gouge", "left", "rapids_in_material", "strokes", "retracts", "length_mm", "time_s", "moves", "skipped", "open_contours",
+            "engine", "tolerance", "removed_mm3", "worst", "bands", "certificate", "stock", "grid", "tools", "findings", "assumed"}  # fmt: skip
+    assert keys <= set(data)
+    assert (data["gouge"], data["left"], data["certificate"]) == (None, None, None)
+    assert data["length_mm"] == {"cut": 37.0, "link": 0.0, "rapid": 7.0}
+    assert data["moves"] == {"G0": 3, "G1": 2, "G2": 0, "G3": 0, "spline": 0}
+    assert data["stock"] == {"low": [0, 0, -10], "high": [50, 20, 0], "from": "as given"}
+    assert data["grid"] == {"x0": 0, "y0": 0, "pitch_mm": 50 / 1024, "rows": 410, "cols": 1024}
+    assert data["programs"] == [{"file": "slot.ngc", "control": "linuxcnc", "block_delete": True, "lines": 8, "problems": []}]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["h.json", "h.npy", "o.json", "o.png", "slot.ngc"]
+
+
+ROUND = math.radians(59)
+PROFILES: dict[str, Callable[[float], float]] = {
+    "flat:6": lambda r: 0.0,
+    "ball:6": lambda r: 3 - math.sqrt(9 - r * r),
+    "bull:6:1": lambda r: 0.0 if r < 2 else 1 - math.sqrt(max(1 - (r - 2) ** 2, 0.0)),
+    "v:6:60": lambda r: r / math.tan(math.radians(30)),
+    "drill:6": lambda r: r / math.tan(ROUND),
+    "drill:6:118": lambda r: r / math.tan(ROUND),
+    "taper:1:20:6": lambda r: (0.5 - math.sqrt(0.25 - r * r) if r < 0.5 * math.cos(math.radians(10))
+                               else 0.5 - 0.5 * math.sin(math.radians(10)) + (r - 0.5 * math.cos(math.radians(10))) / math.tan(math.radians(10))),
+    "flat:1/4in": lambda r: 0.0,
+    "BALL:6mm": lambda r: 3 - math.sqrt(9 - r * r),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("shape", PROFILES)
+def test_a_slot_has_the_volume_of_its_closed_form(shape: str, slot: Path, tmp_path: Path) -> None:
+    profile, radius = PROFILES[shape], 3.175 if "in" in shape else 3.0
+
+    def depth(r: float) -> float:
+        return max(DEPTH - profile(min(r, radius - 1e-12)), 0.0)
+
+    across, ends = 2 * quad(depth, 0, radius, limit=200)[0], 2 * math.pi * quad(lambda r: r * depth(r), 0, radius, limit=200)[0]
+    data = report_of(tmp_path, slot, STOCK, f"--tool=1={shape}")
+    assert data["removed_mm3"] == pytest.approx(across * LENGTH + ends, rel=3e-3)
+    (tool,) = data["tools"]
+    assert tool["removed_mm3"] == pytest.approx(data["removed_mm3"], rel=1e-6)
+    assert tool["kind"] == shape.split(":")[0].lower()
+
+
+def test_heights_are_as_they_are_told_and_can_be_cut_again(slot: Path, tmp_path: Path) -> None:
+    out = tmp_path / "h.npy"
+    assert cut(slot, STOCK, "--tool=1=flat:6", "--heights", out, "--grid", "500", "--quiet") == 0
+    heights, where = np.load(out), json.loads((tmp_path / "h.json").read_text())
+    assert (heights.dtype, heights.shape) == (np.float32, (200, 500))
+    assert where == {"x0": 0, "y0": 0, "pitch": 0.1, "floor": -10, "engine": "cpu"}
+    assert heights[100, 250] == -2
+    assert heights[131, 250] == 0
+    assert heights[100, 65] == 0
+    second = tmp_path / "second.ngc"
+    second.write_text(SLOT.replace("Z-2", "Z-3"))
+    again = report_of(tmp_path, second, "--stock", out, "--tool=1=flat:6", "--grid", "500")
+    assert again["removed_mm3"] == pytest.approx((LENGTH * 6 + 9 * math.pi) * 1.0, rel=3e-3)
+    assert read_heights("h", out.read_bytes(), (tmp_path / "h.json").read_bytes()).workpiece.floor == -10
+
+
+def test_a_solid_as_stock(slot: Path, tmp_path: Path) -> None:
+    data = report_of(tmp_path, slot, "--stock", solid(tmp_path / "low.stl", [[0, 0, -10], [50, 20, -1]]), "--tool=1=flat:6")
+    assert data["removed_mm3"] == pytest.approx((LENGTH * 6 + 9 * math.pi) * 1.0, rel=3e-3)
+    assert data["stock"]["high"][2] == -1
+
+
+def test_a_window_is_cut_as_finely(slot: Path, tmp_path: Path) -> None:
+    data = report_of(tmp_path, slot, STOCK, "--tool=1=flat:6", "--window", "5,5,15,15", "--grid", "200")
+    assert data["grid"] == {"x0": 5, "y0": 5, "pitch_mm": 0.05, "rows": 200, "cols": 200}
+    assert data["removed_mm3"] == pytest.approx(2 * (5 * 6 + 4.5 * math.pi), rel=5e-3)
+
+
+def test_the_picture_is_one(slot: Path, tmp_path: Path) -> None:
+    assert cut(slot, STOCK, "--tool=1=flat:6", "--image", tmp_path / "o.png", "--quiet") == 0
+    picture = cv2.imread(str(tmp_path / "o.png"))
+    assert picture.shape[0] > 410
+    assert picture.shape[1] > 1024
+
+
+def test_a_rapid_through_metal_and_a_start_in_it_are_found(slot: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    slot.write_text(SLOT.replace("X40\n", "X40\nG0 Y2\n"))
+    data = report_of(tmp_path, slot, STOCK, "--tool=1=flat:6", status=1)
+    hit, out_of_it = data["rapids_in_material"]
+    assert (hit["line"], hit["z"], out_of_it["line"]) == (7, -2, 8)
+    assert hit["depth_mm"] == pytest.approx(2.0)
+    assert hit["cells"] > 100
+    assert cut(slot, STOCK, "--tool=1=flat:6") == 1
+    assert "  ! A rapid goes through metal, 2.000 mm deep at (" in capsys.readouterr().out
+
+
+def test_several_programs_are_cut_one_after_the_other(slot: Path, tmp_path: Path) -> None:
+    other = tmp_path / "deeper.ngc"
+    other.write_text(SLOT.replace("T1", "T2").replace("Z-2", "Z-3").replace("X40\n", "X40\nG0 Y2\n"))
+    data = report_of(tmp_path, slot, STOCK, "--tool=1=flat:6", other, "--tool", "2=flat:2", status=1)
+    first, second = data["tools"]
+    assert first["removed_mm3"] == pytest.approx(2 * (LENGTH * 6 + 9 * math.pi), rel=3e-3)
+    assert second["removed_mm3"] == pytest.approx(LENGTH * 2 + math.pi, rel=1e-2)
+    assert (data["strokes"], data["moves"]["G0"]) == (2, 7)
+    assert [(hit["file"], hit["line"]) for hit in data["rapids_in_material"]] == [("deeper.ngc", 7), ("deeper.ngc", 8)]
+    assert data["time_s"] == pytest.approx(first["time_s"] + second["time_s"])
+
+
+def test_a_program_that_cannot_be_read_to_its_end(slot: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    slot.write_text(SLOT.replace("X40", "X[4"))
+    assert cut(slot, STOCK, "--tool=1=flat:6") == 2
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert shown.err.startswith("hitofude: slot.ngc:6:")
+    assert shown.err.count("\n") == 1
+
+
+def test_warnings_are_remarks(slot: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    slot.write_text(SLOT.replace("M2\n", ""))
+    assert cut(slot, STOCK, "--tool=1=flat:6") == 0
+    assert "  - slot.ngc:7: the program has no end" in capsys.readouterr().out
+
+
+def test_the_control_and_slashed_blocks_are_as_asked(slot: Path, tmp_path: Path) -> None:
+    slot.write_text(SLOT.replace("X40", "/X40"))
+    common = (STOCK, "--tool=1=flat:6")
+    assert report_of(tmp_path, slot, *common)["length_mm"]["cut"] == 7.0
+    assert report_of(tmp_path, slot, *common, "--block-delete", "off")["length_mm"]["cut"] == 37.0
+    assert report_of(tmp_path, slot, *common, "--dialect", "mach3")["programs"][0]["control"] == "mach3"
+
+
+@pytest.mark.parametrize("engine", ["auto", "cpu"])
+def test_the_engine_of_record(engine: str, slot: Path, tmp_path: Path) -> None:
+    assert report_of(tmp_path, slot, STOCK, "--tool=1=flat:6", "--engine", engine)["engine"].startswith("cpu: ")
+
+
+def test_more_cells_than_memory_holds_are_told_before(slot: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    cells, part = math.isqrt((free_memory() or 0) // 40), solid(tmp_path / "part.stl", [[0, 0, -10], [50, 20, -1]])
+    if not 0 < cells <= 30_000:
+        pytest.skip("this machine has more memory than the largest grid takes, or does not tell")
+    assert cut(slot, "--stock=0,0,-10,50,50,0", "--tool=1=flat:6", "--against", part, "--grid", cells) == 2
+    assert f"A grid of {cells} x {cells} cells takes" in capsys.readouterr().err
+
+
+def test_no_window_library_is_needed(slot: Path, tmp_path: Path) -> None:
+    code = ("import sys; from app.cli import main; assert main(sys.argv[1:]) == 0; "
+            "print([name for name in sys.modules if 'PySide' in name or 'pyqtgraph' in name or 'OpenGL' in name or name.startswith('app.ui')])")
+    command = [sys.executable, "-c", code, "cut", str(slot), STOCK, "--tool=1=flat:6", "--quiet", "--image", str(tmp_path / "o.png")]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_ctrl_c_is_130_and_leaves_old_files(slot: Path, tmp_path: Path) -> None:
+    out = tmp_path / "o.json"
+    out.write_text("old")
+    slot.write_text(SLOT.replace("X40\n", "".join(f"X{10 + k % 31} Y{10 + k % 7}\n" for k in range(400_000))))
+    command = [sys.executable, "-m", "app", "cut", str(slot), STOCK, "--tool=1=ball:6", "--report", str(out), "--grid", "4096"]
+    running = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    while "libllvmlite" not in Path(f"/proc/{running.pid}/maps").read_text() and running.poll() is None:
+        os.sched_yield()
+    running.send_signal(signal.SIGINT)
+    _, told = running.communicate(timeout=60)
+    assert (running.returncode, told) == (130, "hitofude: cancelled; no file was written\n")
+    assert out.read_text() == "old"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["o.json", "slot.ngc"]
