@@ -25,6 +25,19 @@ class PixelCode(IntEnum):
     """A contour pixel that does not count: vertex, plateau, overlap line."""
     INSIDE = 4
     """The text's I."""
+    PROCESSED = 5
+    """The mark of steps 304 and 307: cut, or too near to what must stay."""
+    FRAME = 6
+    """A pixel of an outermost frame path (steps 143 and 144)."""
+    RING = 7
+    """A pixel of a path further in (step 146)."""
+    CIRCLE = 8
+    LONG_LINE = 9
+    VERTEX = 10
+    SHORT_LINE = 11
+    ARC = 12
+    SPLINE = 13
+    """The last six: what smoothing (steps 401-407) has made of a path's pixel."""
 
 
 @dataclass(frozen=True)

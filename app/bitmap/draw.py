@@ -28,16 +28,18 @@ def draw(frame: Frame, contours: Sequence[Contour] | Rows) -> tuple[Plane, Plane
     from app.bitmap import kernels
 
     plane, left = np.zeros((frame.rows, frame.cols), np.uint8), np.zeros(frame.rows, np.uint8)
-    rows = contours if isinstance(contours, np.ndarray) else _rows(contours)
-    kernels.draw(_image_rows(frame, rows), plane, left)
+    kernels.draw(image_rows(frame, rows_of(contours)), plane, left)
     return plane, left
 
 
-def _rows(contours: Sequence[Contour]) -> Rows:
+def rows_of(contours: Sequence[Contour] | Rows) -> Rows:
+    """Return the rows (n, 8) of contours, mm, or the rows themselves."""
+    if isinstance(contours, np.ndarray):
+        return contours
     return np.concatenate([np.zeros((0, 8)), *(contour_rows(contour) for contour in contours)])
 
 
-def _image_rows(frame: Frame, rows: Rows) -> Rows:
+def image_rows(frame: Frame, rows: Rows) -> Rows:
     """Return lines and arcs (n, 8) in image coordinates; their sense of turning is mirrored with the y axis."""
     image = np.empty_like(rows)
     for x, y in ((X0, Y0), (X1, Y1), (CX, CY)):

@@ -78,7 +78,7 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
         operation = job.operations[index]
         _WAYS[type(operation)](setting, index, progress.part(0.05 + 0.95 * k / len(operations), 0.05 + 0.95 * (k + 1) / len(operations)))
     if job.order is Order.PATENT_1986:
-        setting.findings.extend(_slotting(job))
+        setting.findings.extend(slotting(job))
     ordered = sorted(setting.findings, key=lambda f: not f.counts)
     seen = setting.on_bitmap or BitmapCheck(0.0, 0.0, 0, (0.0, 0.0), 0.0)
     return Program(builder.moves(), regions, tuple(ordered), setting.strokes, setting.polyline_rings,
@@ -123,7 +123,7 @@ def _contour(setting: Setting, index: int, progress: Progress) -> None:
     setting.findings.extend(setting.on_bitmap.findings())
     setting.findings.extend(too_small(setting.regions, levels[0], tool, counts=True))
     setting.findings.extend(necks(levels[0], setting.distances, tool))
-    _emit(setting, index, contour_strokes(levels[0].rings, operation.cut.direction))
+    emit(setting, index, contour_strokes(levels[0].rings, operation.cut.direction))
 
 
 def _pocket(setting: Setting, index: int, progress: Progress) -> None:
@@ -142,10 +142,15 @@ def _pocket(setting: Setting, index: int, progress: Progress) -> None:
     progress.step(0.7, "Link rings")
     strokes = link(levels, setting.distances, operation.cut.direction)
     setting.strokes += len(strokes) * len(pass_heights(operation.cut.depth, operation.cut.stepdown))
-    _emit(setting, index, strokes)
+    emit(setting, index, strokes)
 
 
-def _emit(setting: Setting, index: int, strokes: Sequence[Stroke]) -> None:
+def emit(setting: Setting, index: int, strokes: Sequence[Stroke]) -> None:
+    """Append the strokes of one of the job's operations, in an order of short rapids, at all its depths.
+
+    Raises:
+        ParameterError: it is deeper than the stock.
+    """
     job = setting.job
     cut = job.operations[index].cut
     tool: Tool = job.tool(cut.tool)
@@ -158,7 +163,7 @@ def _emit(setting: Setting, index: int, strokes: Sequence[Stroke]) -> None:
     cut_in_passes(ordered, cut, (job.safe_z, job.retract_z), label, setting.builder)
 
 
-def _slotting(job: Job) -> list[Finding]:
+def slotting(job: Job) -> list[Finding]:
     """Return the warning that the 1986 order deserves."""
     tools = [job.tool(op.cut.tool) for op in job.operations if isinstance(op, ContourOperation) and op.cut.enabled]
     return [Finding(FindingKind.ENGAGEMENT, f"Order 1986: T{tool.number} {tool.label} cuts first and slots full stock, engaged over 100 % "

@@ -31,13 +31,40 @@ def link(levels: Sequence[Level], field: DistanceField, direction: Direction) ->
         levels: rings of the pocket tool, outermost first.
         field: distances from the drawing.
     """
-    rings = [ring for level in levels for ring in level.rings]
-    depth = [k for k, level in enumerate(levels) for _ in level.rings]
-    tree = _Tree(len(rings))
+    tree = _Tree(sum(len(level.rings) for level in levels))
     for bridge in inward_bridges(levels, field):
         tree.add(bridge)
     if levels:
         _join_across(levels[0], tree, field)
+    return _strokes(levels, tree, direction)
+
+
+def link_by_proof(levels: Sequence[Level], field: DistanceField, direction: Direction, spacing: float) -> tuple[Stroke, ...]:
+    """Return few strokes through rings that are no exact levels, such as those of pixels.
+
+    Between such rings no bridge is clear by construction, so every bridge, shortest first, is proven clear step by step.
+
+    Args:
+        levels: rings of the pocket tool, outermost first; bridges keep the outermost one's distance.
+        field: distances from the walls.
+        spacing: between points of rings that bridges may begin at, mm.
+    """
+    rings = [ring for level in levels for ring in level.rings]
+    tree = _Tree(len(rings))
+    too_many = len(rings) - sum(ring.area > 0 for ring in levels[0].rings) if levels else 0
+    for bridge, (a, b) in level_bridges(rings, range(len(rings)), spacing) if too_many > 0 else ():
+        if not tree.joined(bridge) and is_clear(field, a, b, levels[0].distance):
+            tree.add(bridge)
+            too_many -= 1
+            if too_many == 0:
+                break
+    return _strokes(levels, tree, direction)
+
+
+def _strokes(levels: Sequence[Level], tree: _Tree, direction: Direction) -> tuple[Stroke, ...]:
+    """Return the walks through all trees of a forest over the rings of some levels."""
+    rings = [ring for level in levels for ring in level.rings]
+    depth = [k for k, level in enumerate(levels) for _ in level.rings]
     walk = _Walk(rings, depth, tree.neighbours, direction)
     return tuple(walk.stroke(root) for root in _roots(tree, depth))
 

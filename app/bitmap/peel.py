@@ -1,0 +1,94 @@
+"""Shrink an area on the display memory as the text does (steps 301-307): peel by peel, then the circle's correction."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.bitmap.border import borders_of
+from app.bitmap.trace import Chain
+from app.bitmap.walls import Mask
+
+Floats = NDArray[np.float32]
+PeelWatcher = Callable[[int, Mask, tuple[Chain, ...]], None]
+"""Gets how many peels are off, what is left, and the borders that the next one would take."""
+
+
+def peel(area: Mask, count: int, *, keep_ends: bool = False, watcher: PeelWatcher | None = None) -> Mask:
+    """Steps 301-305: take the border pixels off an area, `count` times.
+
+    What is left is exactly what lies farther than `count` from the outside in city blocks (steps along rows and
+    columns), which is why the text corrects it by circles.
+
+    Args:
+        area: (rows, cols).
+        count: peels, >= 0.
+        keep_ends: leave border pixels where the chain turns right back, so that lines of one pixel do not grow shorter:
+            the exception of step 304, which the circle's correction undoes.
+        watcher: is shown every peel.
+    """
+    left = area.copy()
+    for done in range(count):
+        chains = tuple(border.chain for border in borders_of(left))
+        if not chains:
+            break
+        if watcher is not None:
+            watcher(done, left, chains)
+        for chain in chains:
+            pixels = chain.pixels()[:-1][~_turns_back(chain)] if keep_ends else chain.pixels()
+            left[tuple(pixels.T)] = False
+    return left
+
+
+def _turns_back(chain: Chain) -> NDArray[np.bool_]:
+    """Return for each pixel of a chain whether it is left the way it was entered."""
+    into = np.roll(chain.directions, 1)
+    turns: NDArray[np.bool_] = (into.astype(np.int64) + 4) % 8 == chain.directions
+    return turns
+
+
+def frame_pixels(area: Mask) -> Mask:
+    """Return the border pixels of an area: those with a pixel of the outside above, below, left or right (step 303)."""
+    padded = np.pad(area, 1)
+    inner = padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:]
+    frame: Mask = area & ~inner
+    return frame
+
+
+def distance_px(area: Mask, border: Mask | None = None) -> Floats:
+    """Return the exact Euclidean distance of every pixel of an area from the nearest pixel outside, or of its border.
+
+    Between centres, in pixels; 0 outside. What lies beyond the picture is outside.
+
+    Args:
+        border: pixels of the area that count as outside.
+    """
+    import cv2
+
+    inner = area if border is None else area & ~border
+    padded = np.pad(inner, 1).astype(np.uint8)
+    distance = cv2.distanceTransform(padded, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
+    return np.ascontiguousarray(distance[1:-1, 1:-1], np.float32)
+
+
+def correct_by_circles(left: Mask, area: Mask, radius: float) -> Mask:
+    """Steps 306 and 307: take away what the tool's circle sweeps while its centre follows the area's frame.
+
+    Args:
+        left: what the peels have left of the area.
+        area: before the first peel.
+        radius: of the circle, px, >= 0.
+
+    Returns:
+        What lies farther than `radius` from every frame pixel, whatever was peeled.
+    """
+    corrected: Mask = left & (np.rint(distance_px(area, frame_pixels(area)).astype(np.float64) ** 2) > radius * radius)
+    return corrected
+
+
+def shrink(area: Mask, radius: float, watcher: PeelWatcher | None = None) -> Mask:
+    """Return an area shrunk by a radius, px, measured from its frame: steps 301-307."""
+    return correct_by_circles(peel(area, int(radius), watcher=watcher), area, radius)
+

@@ -1,0 +1,249 @@
+"""Compiled joining of fitted lines and circles: tangents where they nearly touch, corners where they cross (step 404).
+
+A carrier is a row of five numbers: of a line a point, its unit direction along the path and 0; of an arc its centre,
+radius, turn (+1 counter-clockwise, -1 clockwise) and 1. Carriers follow one another along the path; `ends` has one
+number more than there are carriers: the indices of the points where segments begin and end.
+"""
+
+from __future__ import annotations
+
+import math
+
+from app.jit import kernel
+
+NEAR = 6
+"""Steps from a joint within which a point is near it."""
+
+FAR = 6.0
+"""Times the tolerance; a crossing farther than this from the points' own joint is no corner of the path."""
+
+
+@kernel("float64(float64[::1], float64, float64)")
+def _side(line, x, y):
+    """Return how far a point lies to the left of a line."""
+    return line[2] * (y - line[1]) - line[3] * (x - line[0])
+
+
+@kernel("UniTuple(float64, 2)(float64[::1], float64, float64)")
+def _foot(carrier, x, y):
+    """Return the carrier's point nearest to a point."""
+    if carrier[4] == 0.0:
+        along = carrier[2] * (x - carrier[0]) + carrier[3] * (y - carrier[1])
+        return carrier[0] + along * carrier[2], carrier[1] + along * carrier[3]
+    dx, dy = x - carrier[0], y - carrier[1]
+    length = math.hypot(dx, dy)
+    if length == 0.0:
+        return carrier[0] + carrier[2], carrier[1]
+    return carrier[0] + dx / length * carrier[2], carrier[1] + dy / length * carrier[2]
+
+
+@kernel("boolean(float64[::1], float64[::1], float64)")
+def _nearly_tangent(line, arc, tolerance):
+    """Tell whether a line touches an arc's circle within tolerance, on the side to which the arc turns away."""
+    return abs(_side(line, arc[0], arc[1]) * arc[3] - arc[2]) <= tolerance
+
+
+@kernel("float64(float64[:, ::1], int64, int64, float64[::1])")
+def _worst(points, a, b, arc):
+    worst = 0.0
+    for k in range(a, b + 1):
+        worst = max(worst, abs(math.hypot(points[k, 0] - arc[0], points[k, 1] - arc[1]) - arc[2]))
+    return worst
+
+
+@kernel("boolean(float64[:, ::1], int64, int64, float64[::1], float64[:, ::1])")
+def _between(points, a, b, arc, lines):
+    """Make an arc tangent to the lines before and after it, by the radius that fits its points best; tell whether it can be."""
+    first, last = lines[0], lines[1]
+    cross = first[2] * last[3] - first[3] * last[2]
+    if abs(cross) < 0.02:
+        return False
+    # the centre lies at turn * r to the left of both: it moves along a line as r grows, c = c0 + r k
+    c0x = c0y = kx = ky = 0.0
+    for r in range(2):
+        s1 = arc[3] * r + first[2] * first[1] - first[3] * first[0]
+        s2 = arc[3] * r + last[2] * last[1] - last[3] * last[0]
+        x, y = (first[2] * s2 - last[2] * s1) / cross, (first[3] * s2 - last[3] * s1) / cross
+        if r == 0:
+            c0x, c0y = x, y
+        else:
+            kx, ky = x - c0x, y - c0y
+    r = arc[2]
+    for _ in range(8):
+        top = bottom = 0.0
+        for k in range(a, b + 1):
+            dx, dy = points[k, 0] - c0x - r * kx, points[k, 1] - c0y - r * ky
+            length = max(math.hypot(dx, dy), 1e-12)
+            slope = -(dx * kx + dy * ky) / length - 1.0
+            top += slope * (length - r)
+            bottom += slope * slope
+        if bottom == 0.0:
+            return False
+        r -= top / bottom
+    if r <= 0.0:
+        return False
+    arc[0], arc[1], arc[2] = c0x + r * kx, c0y + r * ky, r
+    return True
+
+
+@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], uint8[::1], float64)")
+def make_tangent(points, ends, carriers, smooth, tolerance):
+    """Move arcs so that they touch the lines next to them where they nearly do.
+
+    Args:
+        points, ends: what the carriers were fitted to.
+        carriers: (n, 5) of a closed path, changed in place.
+        smooth: (n,) gets 1 where the joint before a carrier is tangent.
+        tolerance: an arc is left alone where its points would be farther off than this.
+    """
+    n = len(carriers)
+    lines = carriers[:2].copy()
+    for k in range(n):
+        arc, before, after = carriers[k], carriers[k - 1], carriers[(k + 1) % n]
+        if arc[4] == 0.0 or n < 3:
+            continue
+        one = before[4] == 0.0 and _nearly_tangent(before, arc, tolerance)
+        two = after[4] == 0.0 and _nearly_tangent(after, arc, tolerance)
+        kept = arc.copy()
+        done = False
+        if one and two:
+            lines[0], lines[1] = before, after
+            done = _between(points, ends[k], ends[k + 1], arc, lines) and _worst(points, ends[k], ends[k + 1], arc) <= tolerance
+            if not done:
+                arc[:] = kept
+                two = False
+        if not done and (one or two):
+            line = before if one else after
+            off = arc[3] * arc[2] - _side(line, arc[0], arc[1])
+            arc[0], arc[1] = arc[0] - off * line[3], arc[1] + off * line[2]
+            if _worst(points, ends[k], ends[k + 1], arc) > 1.5 * tolerance:
+                arc[:] = kept
+                one = two = False
+        smooth[k] |= one
+        smooth[(k + 1) % n] |= two
+
+
+@kernel("UniTuple(float64, 2)(float64[::1], float64[::1], float64, float64, float64)")
+def _crossing(a, b, x, y, far):
+    """Return where two carriers cross, nearest to a point; between the feet of the point where they do not, or far away."""
+    ax, ay = _foot(a, x, y)
+    bx, by = _foot(b, x, y)
+    px, py = (ax + bx) / 2, (ay + by) / 2
+    if a[4] == 0.0 and b[4] == 0.0:
+        cross = a[2] * b[3] - a[3] * b[2]
+        if abs(cross) > 1e-9:
+            t = ((b[0] - a[0]) * b[3] - (b[1] - a[1]) * b[2]) / cross
+            px, py = a[0] + t * a[2], a[1] + t * a[3]
+    else:
+        # the chord that both share: along a line, or across the line between two centres
+        if a[4] == 0.0 or b[4] == 0.0:
+            line, arc = (a, b) if a[4] == 0.0 else (b, a)
+            fx, fy = _foot(line, arc[0], arc[1])
+            ux, uy = line[2], line[3]
+            half = arc[2] * arc[2] - (fx - arc[0]) ** 2 - (fy - arc[1]) ** 2
+        else:
+            vx, vy = b[0] - a[0], b[1] - a[1]
+            d = max(math.hypot(vx, vy), 1e-12)
+            along = (d * d + a[2] * a[2] - b[2] * b[2]) / (2 * d)
+            fx, fy = a[0] + along * vx / d, a[1] + along * vy / d
+            ux, uy = -vy / d, vx / d
+            half = a[2] * a[2] - along * along
+        if half >= 0.0:
+            way = math.copysign(math.sqrt(half), (x - fx) * ux + (y - fy) * uy)
+            px, py = fx + way * ux, fy + way * uy
+    if math.hypot(px - x, py - y) > far:
+        px, py = (ax + bx) / 2, (ay + by) / 2
+    return px, py
+
+
+@kernel("void(float64[:, ::1], float64[:, ::1], uint8[::1], float64, float64[:, ::1])")
+def join(near, carriers, smooth, tolerance, joints):
+    """Find where each carrier of a closed path begins.
+
+    Args:
+        near: (n, 2) the points' own joints; of two crossings the nearer one counts.
+        carriers: (n, 5).
+        smooth: (n,) 1 where the joint before a carrier is tangent.
+        tolerance: see FAR.
+        joints: (n, 2) gets them.
+    """
+    n = len(carriers)
+    for k in range(n):
+        a, b = carriers[k - 1], carriers[k]
+        if smooth[k] == 1 and a[4] != b[4]:
+            line, arc = (a, b) if a[4] == 0.0 else (b, a)
+            joints[k, 0], joints[k, 1] = _foot(line, arc[0], arc[1])
+        else:
+            joints[k, 0], joints[k, 1] = _crossing(a, b, near[k, 0], near[k, 1], FAR * tolerance)
+
+
+@kernel("void(float64[:, ::1], float64[:, ::1], float64[:, ::1])")
+def rows_between(carriers, joints, rows):
+    """Write the lines and arcs of a closed path, from joint to joint, as rows (n, 8) of `app.geometry.primitives`.
+
+    An arc's centre moves onto the bisector of its ends, so that both radii are one number. Arcs may sweep more than pi.
+    """
+    n = len(carriers)
+    for k in range(n):
+        ax, ay, bx, by = joints[k, 0], joints[k, 1], joints[(k + 1) % n, 0], joints[(k + 1) % n, 1]
+        rows[k, 0], rows[k, 1], rows[k, 2], rows[k, 3] = ax, ay, bx, by
+        rows[k, 4] = rows[k, 5] = rows[k, 6] = rows[k, 7] = 0.0
+        dx, dy = bx - ax, by - ay
+        chord = dx * dx + dy * dy
+        if carriers[k, 4] == 0.0 or chord == 0.0:
+            continue
+        along = ((carriers[k, 0] - (ax + bx) / 2) * dx + (carriers[k, 1] - (ay + by) / 2) * dy) / chord
+        cx, cy = carriers[k, 0] - along * dx, carriers[k, 1] - along * dy
+        rows[k, 4], rows[k, 5], rows[k, 6], rows[k, 7] = cx, cy, math.hypot(ax - cx, ay - cy), carriers[k, 3]
+
+
+@kernel("float64(float64[::1], float64, float64)")
+def _distance(row, x, y):
+    """Return the distance of a point from a row, which may sweep up to a full turn."""
+    ends = min(math.hypot(x - row[0], y - row[1]), math.hypot(x - row[2], y - row[3]))
+    if row[7] == 0.0:
+        dx, dy = row[2] - row[0], row[3] - row[1]
+        square = dx * dx + dy * dy
+        t = ((x - row[0]) * dx + (y - row[1]) * dy) / square if square > 0.0 else -1.0
+        return abs((x - row[0]) * dy - (y - row[1]) * dx) / math.sqrt(square) if 0.0 < t < 1.0 else ends
+    start = math.atan2(row[1] - row[5], row[0] - row[4])
+    sweep = (row[7] * (math.atan2(row[3] - row[5], row[2] - row[4]) - start)) % math.tau
+    ahead = (row[7] * (math.atan2(y - row[5], x - row[4]) - start)) % math.tau
+    return abs(math.hypot(x - row[4], y - row[5]) - row[6]) if ahead <= sweep else ends
+
+
+@kernel("boolean(float64[::1], float64[::1], float64, float64)")
+def _runs_back(row, carrier, x, y):
+    """Tell whether a row runs against its carrier; (x, y) is a point in its middle."""
+    if carrier[4] == 0.0:
+        return (row[2] - row[0]) * carrier[2] + (row[3] - row[1]) * carrier[3] <= 0.0
+    return row[7] != 0.0 and _distance(row, x, y) > row[6] / 2
+
+
+@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1])")
+def deviations(points, ends, carriers, rows, worst):
+    """Write for each row the greatest distance of its points from the path, and whether that is too far, as a number.
+
+    A point is measured from its own row and from the ones next to it: near a joint it may belong to either. The number
+    is the greatest distance too, but points near a joint count half, since pixels fill sharp corners, and it is infinite
+    where a row runs the other way round.
+
+    Args:
+        points, ends: what the rows replace.
+        carriers: (n, 5) with the sense in which each row has to run.
+        rows: (n, 8) of a closed path.
+        worst: (n, 2) gets distances and numbers.
+    """
+    n = len(rows)
+    for k in range(n):
+        a, b = ends[k], ends[k + 1]
+        m = (a + b) // 2
+        worst[k, 0] = 0.0
+        worst[k, 1] = math.inf if _runs_back(rows[k], carriers[k], points[m, 0], points[m, 1]) else 0.0
+        for i in range(a, b + 1):
+            x, y = points[i, 0], points[i, 1]
+            off = _distance(rows[k], x, y)
+            if off > worst[k, 0] or off > worst[k, 1]:
+                off = min(off, _distance(rows[k - 1], x, y), _distance(rows[(k + 1) % n], x, y))
+                worst[k, 0] = max(worst[k, 0], off)
+                worst[k, 1] = max(worst[k, 1], off / 2 if i - a < NEAR or b - i < NEAR else off)

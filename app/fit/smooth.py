@@ -1,0 +1,268 @@
+"""Smooth a closed path of points, traced from pixels or finer, into circles, lines and arcs (steps 401-407).
+
+The text's test for circles (its formula II) holds only for circles through the origin, and its five-step averages move
+with the phase of the pixels. So: the longest line or arc within tolerance from each end to the next, lines first; then
+every end is moved to where both sides fit best; corners are where neighbours cross, and arcs that nearly touch a line
+are made to touch it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.errors import ParameterError
+from app.geometry.primitives import R, Rows
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+_LIMIT = 2.0
+"""Times the tolerance; points may be so far from the path once its lines and arcs are joined, near corners twice as far."""
+
+_ROUNDS = 6
+"""How often segments that no joint suits are cut into finer ones."""
+
+
+class PieceKind(IntEnum):
+    """What a piece of a smoothed path is; the value is the step that finds it."""
+
+    CIRCLE = 401
+    LONG_LINE = 403
+    SHORT_LINE = 405
+    ARC = 406
+    SPLINE = 407
+
+
+@dataclass(frozen=True, slots=True)
+class SmoothOptions:
+    """How to smooth. Lengths in the units of the points.
+
+    Attributes:
+        tolerance: points may be so far from the lines and arcs that replace them, > 0.
+        long_line: from this length on a line is a long one: ten times the tool's diameter in the text.
+        pitch: of pixels whose centres the points are: lines and arcs are then moved to the right, out of the traced
+            area, by as much as pixels inside a line lie off it on average; 0 = the points are the path itself.
+    """
+
+    tolerance: float
+    long_line: float = 0.0
+    pitch: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not self.tolerance > 0:
+            raise ParameterError(f"The smoothing tolerance is {self.tolerance:g} mm; it must be greater than 0.")
+
+
+@dataclass(frozen=True)
+class Smoothed:
+    """A closed path as n circles, lines and arcs.
+
+    Attributes:
+        rows: (n, 8) rows of `app.geometry.primitives`, each beginning where the one before ends; arcs up to a full turn.
+        kinds: (n,) PieceKind.
+        ends: (n + 1,) indices of the points between which each row runs, rising; those beyond the last go on from the first.
+        smooth: (n,) whether each row begins in the direction in which the one before ends.
+        deviation: greatest distance of a point from its row.
+        exact: False where nothing but lines from point to point came near enough.
+        carriers: (n, 5) the lines and circles that the rows lie on, see `joint_kernels`.
+    """
+
+    rows: Rows
+    kinds: Ints
+    ends: Ints
+    smooth: NDArray[np.bool_]
+    deviation: float
+    exact: bool
+    carriers: Floats
+
+
+def smooth(points: Floats, options: SmoothOptions) -> Smoothed:
+    """Return a closed path of points as circles, lines and arcs.
+
+    Args:
+        points: (m, 2), m > 0; the last is joined to the first, which is not repeated.
+
+    References:
+        JPH07107645B2, steps 401-407.
+    """
+    from app.fit import smooth_kernels
+
+    count = len(points)
+    if count < 4:
+        return as_it_is(points)
+    twice = np.concatenate([points, points, points[:1]])
+    breaks, kinds = np.empty(count + 2, np.int64), np.empty(count + 1, np.int64)
+    found = smooth_kernels.segment_closed(twice, count, options.tolerance, breaks, kinds)
+    breaks, kinds = breaks[: found + 1].copy(), kinds[:found].copy()
+    for finer in range(_ROUNDS):
+        result, bad = _joined(twice, breaks, kinds, options)
+        if not bad.any():
+            return _without_bias(result, points, options)
+        breaks, kinds = _split(twice, result, bad, options.tolerance / 2 ** (finer + 1))
+    return as_it_is(points)
+
+
+def _split(twice: Floats, path: Smoothed, bad: NDArray[np.bool_], tolerance: float) -> tuple[Ints, Ints]:
+    """Return the ends and kinds of a path's segments, the bad ones in finer pieces."""
+    from app.fit import smooth_kernels
+
+    breaks, kinds = path.ends, path.carriers[:, 4].astype(np.int64)
+    new_breaks, new_kinds = [breaks[:1]], []
+    for k, (a, b) in enumerate(pairwise(breaks.tolist())):
+        if not bad[k]:
+            new_breaks.append(breaks[k + 1 : k + 2])
+            new_kinds.append(kinds[k : k + 1])
+            continue
+        inner, own = np.empty(b - a + 1, np.int64), np.empty(b - a, np.int64)
+        found = smooth_kernels.segment(twice, a, b - a, tolerance, inner, own)
+        new_breaks.append(inner[1 : found + 1])
+        new_kinds.append(own[:found])
+    return np.concatenate(new_breaks), np.concatenate(new_kinds)
+
+
+def _one_circle(points: Floats, carriers: Floats) -> Smoothed:
+    """Step 401: the whole path is one circle."""
+    off = np.hypot(*(points - carriers[0, :2]).T) - carriers[0, 2]
+    return Smoothed(circle_rows(carriers[0]), np.array([PieceKind.CIRCLE]), np.array([0, len(points)]), np.ones(1, np.bool_),
+                    float(np.abs(off).max()), True, carriers)
+
+
+def circle_rows(carrier: Floats) -> Rows:
+    """Return the one row (1, 8) of a full circle that a carrier (5,) is, from angle 0 on."""
+    cx, cy, r, turn = carrier[:4]
+    return np.array([[cx + r, cy, cx + r, cy, cx, cy, r, turn]])
+
+
+def _joined(twice: Floats, breaks: Ints, kinds: Ints, options: SmoothOptions) -> tuple[Smoothed, NDArray[np.bool_]]:
+    """Return the path along segments, tangent where neighbours nearly touch or not at all, and which rows are too far off."""
+    from app.fit import joint_kernels, smooth_kernels
+
+    breaks, kinds, count = breaks.copy(), kinds.copy(), len(kinds)
+    carriers = np.empty((count, 5))
+    smooth_kernels.carriers(twice, breaks, kinds, count, carriers)
+    if count == 1 and kinds[0] == smooth_kernels.ARC:
+        return _one_circle(twice[: len(twice) // 2], carriers), np.zeros(1, np.bool_)
+    if count > 2:
+        count = smooth_kernels.absorb(twice, breaks, kinds, carriers, options.tolerance)
+    ends, fitted = breaks[: count + 1], carriers[:count]
+    tries = []
+    for tangent in (True, False):
+        own, touching, worst = fitted.copy(), np.zeros(count, np.uint8), np.empty((count, 2))
+        if tangent:
+            joint_kernels.make_tangent(twice, ends, own, touching, options.tolerance)
+        rows = _rows(twice, ends, (own, touching), options.tolerance)
+        joint_kernels.deviations(twice, ends, own, rows, worst)
+        made = Smoothed(rows, _kinds(rows, options), ends, touching.astype(np.bool_), float(worst[:, 0].max()), True, own)
+        tries.append((made, worst[:, 1] > _LIMIT * options.tolerance))
+    return min(tries, key=lambda each: int(each[1].sum()))
+
+
+def _rows(twice: Floats, ends: Ints, fitted: tuple[Floats, NDArray[np.uint8]], tolerance: float) -> Rows:
+    from app.fit import joint_kernels
+
+    carriers, touching = fitted
+    joints, rows = np.empty((len(carriers), 2)), np.empty((len(carriers), 8))
+    joint_kernels.join(np.ascontiguousarray(twice[ends[:-1]]), carriers, touching, tolerance, joints)
+    joint_kernels.rows_between(carriers, joints, rows)
+    return rows
+
+
+def _kinds(rows: Rows, options: SmoothOptions) -> Ints:
+    length = np.hypot(rows[:, 2] - rows[:, 0], rows[:, 3] - rows[:, 1])
+    lines = np.where(length >= options.long_line, PieceKind.LONG_LINE, PieceKind.SHORT_LINE)
+    return np.where(rows[:, R] == 0, lines, PieceKind.ARC).astype(np.int64)
+
+
+def _without_bias(path: Smoothed, points: Floats, options: SmoothOptions) -> Smoothed:
+    """Return the path moved out of the traced area by what pixels lie inside it on average."""
+    return moved(path, points, options.pitch / 2 * _slant(path), options.tolerance) if options.pitch else path
+
+
+def _slant(path: Smoothed) -> Floats:
+    """Return for each row the larger coordinate of its unit normal, for arcs the mean along them."""
+    if len(path.rows) == 1:
+        return np.array([2 * np.sqrt(2) / np.pi])
+    lines = np.abs(path.carriers[:, 2:4]).max(axis=1)
+    angles = np.linspace(0, 1, 33)
+    rows = path.rows
+    start = np.arctan2(rows[:, 1] - rows[:, 5], rows[:, 0] - rows[:, 4])
+    sweep = (rows[:, 7] * (np.arctan2(rows[:, 3] - rows[:, 5], rows[:, 2] - rows[:, 4]) - start)) % (2 * np.pi) * rows[:, 7]
+    along = start[:, None] + sweep[:, None] * angles
+    arcs = np.maximum(np.abs(np.cos(along)), np.abs(np.sin(along))).mean(axis=1)
+    slant: Floats = np.where(rows[:, 7] == 0, lines, arcs)
+    return slant
+
+
+def moved(path: Smoothed, points: Floats, right: Floats, tolerance: float) -> Smoothed:
+    """Return a path whose lines and circles are moved to the right of travel and joined again.
+
+    Args:
+        points: that the path was made from.
+        right: (n,) how far each row moves; negative to the left. Rows that touch one another go on doing so only where
+            they are moved alike.
+        tolerance: that the path was made with.
+    """
+    carriers = _moved(path.carriers, right)
+    if not path.exact:
+        return path
+    if len(carriers) == 1:
+        return replace(path, rows=circle_rows(carriers[0]), carriers=carriers)
+    twice = np.concatenate([points, points, points[:1]])
+    alike = path.smooth & (right == np.roll(right, 1))
+    rows = _rows(twice, path.ends, (carriers, alike.astype(np.uint8)), tolerance + float(np.abs(right).max()))
+    return replace(path, rows=rows, carriers=carriers)
+
+
+def astray(path: Smoothed, points: Floats, limit: float) -> NDArray[np.bool_]:
+    """Return which rows (n,) run back, have no radius left, or are farther than a limit from the points they replace."""
+    if not path.exact or len(path.rows) == 1:
+        return path.carriers[:, 2] * path.carriers[:, 4] < 0
+    from app.fit import joint_kernels
+
+    worst = np.empty((len(path.rows), 2))
+    joint_kernels.deviations(np.concatenate([points, points, points[:1]]), path.ends, path.carriers, path.rows, worst)
+    shrunk: NDArray[np.bool_] = (path.carriers[:, 4] == 1) & (path.carriers[:, 2] <= 0)
+    return shrunk | (worst[:, 1] > limit)
+
+
+def without(path: Smoothed, dropped: NDArray[np.bool_]) -> Smoothed | None:
+    """Return the path without some of its rows, whose neighbours are still to be joined by `moved`; None where too few stay.
+
+    Args:
+        dropped: (n,) the rows to leave out; their points go to their neighbours.
+    """
+    kept = np.flatnonzero(~dropped)
+    if len(kept) < 3:
+        return None
+    count = int(path.ends[-1] - path.ends[0])
+    before = np.roll(kept, 1)
+    end_before = path.ends[before + 1] - np.where(before > kept, count, 0)
+    starts = (end_before + path.ends[kept]) // 2
+    starts += count if starts[0] < 0 else 0
+    next_to = (before + 1) % len(dropped) == kept
+    return replace(path, rows=path.rows[kept], kinds=path.kinds[kept], ends=np.append(starts, starts[0] + count),
+                   smooth=path.smooth[kept] & next_to, carriers=path.carriers[kept])
+
+
+def _moved(carriers: Floats, right: Floats) -> Floats:
+    """Return lines moved to their right and circles made larger or smaller, whichever is to the right of travel."""
+    result = carriers.copy()
+    line = carriers[:, 4] == 0
+    result[line, 0] += right[line] * carriers[line, 3]
+    result[line, 1] -= right[line] * carriers[line, 2]
+    result[~line, 2] += right[~line] * carriers[~line, 3]
+    return result
+
+
+def as_it_is(points: Floats) -> Smoothed:
+    """Return the path as lines from point to point."""
+    rows = np.zeros((len(points), 8))
+    rows[:, :2], rows[:, 2:4] = points, np.roll(points, -1, axis=0)
+    count = len(points)
+    kinds, smooth = np.full(count, PieceKind.SPLINE), np.zeros(count, np.bool_)
+    return Smoothed(rows, kinds, np.arange(count + 1), smooth, 0.0, False, np.zeros((count, 5)))

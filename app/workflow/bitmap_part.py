@@ -1,0 +1,120 @@
+"""A part on the display memory: which pixels a cutter may be in, whatever it was drawn or scanned as."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.bitmap.codes import Plane
+from app.bitmap.draw import draw
+from app.bitmap.frame import POINTS, Frame
+from app.bitmap.walls import Mask, free_pixels, wall_rows
+from app.errors import ParameterError
+from app.geometry import kernels
+from app.geometry.distance import DistanceField
+from app.geometry.primitives import boxes, contour_rows, pack
+from app.model.part import Region
+
+MARGIN_PX = 2
+"""Empty pixels round a drawing on its bitmap."""
+
+LARGEST_SIDE = 8192
+"""Pixels; a larger bitmap is refused before it is made."""
+
+
+@dataclass(frozen=True)
+class BitmapSize:
+    """How finely a drawing is seen.
+
+    Attributes:
+        points: rows and columns, 16 ... 8192; with a pitch, the least.
+        pitch: size of a pixel, mm, > 0; None = as large as the drawing allows.
+    """
+
+    points: int = POINTS
+    pitch: float | None = None
+
+    def __post_init__(self) -> None:
+        if not 16 <= self.points <= LARGEST_SIDE:
+            raise ParameterError(f"The bitmap is {self.points} px wide; use 16 to {LARGEST_SIDE} px.")
+        if self.pitch is not None and not 0 < self.pitch < 1e5:
+            raise ParameterError(f"The pitch is {self.pitch:g} mm; it must be greater than 0 and less than 100000 mm.")
+
+    def frame(self, extent: tuple[float, float, float, float]) -> Frame:
+        """Return a frame round an extent x0, y0, x1, y1, mm; its corner lies on a whole multiple of the pitch where one was given.
+
+        Raises:
+            ParameterError: at this pitch the drawing is larger than the largest bitmap.
+        """
+        if self.pitch is None:
+            return Frame.around(extent, self.points, MARGIN_PX)
+        x0, y0 = (int(np.floor(low / self.pitch)) - MARGIN_PX for low in extent[:2])
+        need = max(int(np.ceil(high / self.pitch)) + MARGIN_PX - low for high, low in zip(extent[2:], (x0, y0), strict=True))
+        if need > LARGEST_SIDE:
+            raise ParameterError(f"At a pitch of {self.pitch:g} mm the drawing is {need} px wide; {LARGEST_SIDE} px are the most, "
+                                 "so use a larger pitch.")
+        side = max(need, self.points)
+        return Frame(side, side, self.pitch, x0 * self.pitch, y0 * self.pitch)
+
+
+@dataclass(frozen=True)
+class BitmapPart:
+    """A part as pixels.
+
+    Attributes:
+        frame: where they lie.
+        regions: what they show, as the verdict sees it: the drawing, or the edges of a picture's pixels.
+        drawn: contour pixels as codes (step 110).
+        free: (rows, cols) pixels whose whole square a cutter may clear.
+        label: (rows, cols) number of the region that a free pixel lies in, else 0.
+        squares: distances from the squares of all other pixels.
+    """
+
+    frame: Frame
+    regions: tuple[Region, ...]
+    drawn: Plane
+    free: Mask
+    label: NDArray[np.int32]
+    squares: DistanceField
+
+
+def part_of_regions(regions: Sequence[Region], size: BitmapSize) -> BitmapPart:
+    """Draw regions on a bitmap that holds them all (step 110).
+
+    Args:
+        regions: at least one.
+
+    Raises:
+        ParameterError: the bitmap would be too large, or nothing of the drawing is as wide as a pixel.
+    """
+    rows = pack(regions).rows
+    around = boxes(rows)
+    low, high = around[:, :2].min(axis=0), around[:, 2:].max(axis=0)
+    frame = size.frame((float(low[0]), float(low[1]), float(high[0]), float(high[1])))
+    free = free_pixels(frame, rows)
+    if not free.any():
+        raise ParameterError(f"Nothing of the drawing is as wide as a pixel of {frame.pitch:.3g} mm; "
+                             "use a larger bitmap or a smaller pitch.")
+    squares = DistanceField.of(wall_rows(frame, free))
+    return BitmapPart(frame, tuple(regions), draw(frame, rows)[0], free, _labels(frame, free, regions), squares)
+
+
+def _labels(frame: Frame, free: Mask, regions: Sequence[Region]) -> NDArray[np.int32]:
+    """Return the region that each free pixel lies in, found once for each connected area."""
+    import cv2
+
+    count, areas = cv2.connectedComponents(free.astype(np.uint8), connectivity=4)
+    _, first = np.unique(areas.ravel(), return_index=True)
+    rows, cols = np.unravel_index(first, areas.shape)
+    centres = frame.to_mm(np.stack([cols + 0.5, rows + 0.5], axis=1))
+    number = np.zeros(count, np.int32)
+    inside = np.empty(count, np.bool_)
+    for region in regions:
+        kernels.inside_many(np.concatenate([contour_rows(contour) for contour in region.contours]), centres, inside)
+        number[inside & (number == 0)] = region.number
+    number[0] = 0
+    labels: NDArray[np.int32] = number[areas]
+    return labels

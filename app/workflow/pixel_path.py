@@ -1,0 +1,153 @@
+"""From a chain of pixels to a path that a machine follows: smoothed, moved out as far as the walls allow, proven clear."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.bitmap.frame import Frame
+from app.bitmap.trace import Chain
+from app.fit.smooth import Smoothed, SmoothOptions, as_it_is, astray, moved, smooth, without
+from app.geometry.distance import DistanceField
+from app.geometry.primitives import R, Rows, lengths, points_at
+
+Floats = NDArray[np.float64]
+
+TOLERANCE_PX = 1.0
+"""Pixels that smoothing may move a path off its pixels: half a pixel for the path's, and as much for the walls' pixels."""
+
+_STEP_PX = 0.25
+"""Pixels between the places at which a path's clearance is measured."""
+
+_REACH_PX = 4.0
+"""Pixels that a path may be moved out by at most."""
+
+_EXACT = 1e-7
+"""Of a pixel: what a path may fall short of its distance, by rounding."""
+
+_AIM_PX = 0.01
+"""Pixels beyond its level that a path is aimed at."""
+
+_TRIES = 10
+"""How often a path is moved before it stays where it was last clear."""
+
+
+def chain_points(frame: Frame, chain: Chain) -> Floats:
+    """Return the centres (n, 2), mm, of a chain's pixels, each step's pixel once."""
+    pixels = chain.pixels()[: max(len(chain.directions), 1)]
+    return np.ascontiguousarray(frame.to_mm(pixels[:, ::-1].astype(np.float64) + 0.5))
+
+
+def clearance(rows: Rows, field: DistanceField, step: float, limit: float) -> Floats:
+    """Return for each row (n,) a distance that it keeps from a field's lines along its whole length.
+
+    Between two measured places, a chord c apart, a point that is at least D from both keeps sqrt(D^2 - c^2 / 4) from a
+    point on its chord, and an arc's sagitta less from the arc.
+
+    Args:
+        step: between places, mm, > 0.
+        limit: distances above it do not matter, mm.
+    """
+    size = lengths(rows)
+    counts = np.maximum(np.ceil(size / step), 1).astype(np.int64)
+    owner = np.repeat(np.arange(len(rows)), counts + 1)
+    place = np.arange(len(owner)) - np.repeat(np.cumsum(counts + 1) - counts - 1, counts + 1)
+    distance, _ = field.nearest(points_at(rows[owner], place / counts[owner]), limit)
+    least = np.full(len(rows), np.inf)
+    np.minimum.at(least, owner, distance)
+    chord = size / counts
+    sagitta = np.where(rows[:, R] > 0, chord**2 / (8 * np.maximum(rows[:, R], 1e-12)), 0.0)
+    return np.sqrt(np.maximum(least**2 - chord**2 / 4, 0.0)) - sagitta
+
+
+@dataclass(frozen=True)
+class Keep:
+    """What a path has to keep from the walls' squares.
+
+    Attributes:
+        level: the distance that it is meant to have, mm.
+        least: the distance below which it must not come, mm, <= level.
+        field: distances from the squares.
+        pitch: of the pixels, mm.
+    """
+
+    level: float
+    least: float
+    field: DistanceField
+    pitch: float
+
+    def spare(self, rows: Rows) -> Floats:
+        """Return how much farther than meant each row (n,) is from the squares, mm; no more than _REACH_PX tells."""
+        return clearance(rows, self.field, _STEP_PX * self.pitch, self.level + _REACH_PX * self.pitch) - self.level
+
+    def holds(self, rows: Rows) -> bool:
+        """Tell whether rows keep the least distance."""
+        return bool(self.spare(rows).min() >= self.least - self.level - _EXACT * self.pitch)
+
+
+def pixel_path(points: Floats, keep: Keep, options: SmoothOptions) -> Smoothed:
+    """Return the path along a chain's points, as near to its level as pixels allow (steps 401-407).
+
+    Where no smoothed path keeps the least distance, it stays a line from pixel to pixel, which does.
+
+    Args:
+        points: (n, 2) centres of pixels that keep clear of the walls, mm.
+        keep: what to keep from the walls.
+        options: tolerance and long lines, mm.
+    """
+    path = smooth(points, options)
+    if len(points) == 1:
+        return _spot(path, keep.pitch)
+    if path.exact:
+        out = _moved_out(path, points, keep, options.tolerance)
+        if out is not None:
+            return out
+    return as_it_is(points)
+
+
+def _moved_out(path: Smoothed, points: Floats, keep: Keep, tolerance: float) -> Smoothed | None:
+    """Return the path moved to its level, rows that touch all alike; None where nothing keeps the least distance.
+
+    Rows that come too near go back and then stay, so that neighbours in a corner do not take turns. Rows that vanish on
+    the way, as small arcs round an island do, are left out.
+    """
+    right, stays, best = np.zeros(len(path.rows)), np.zeros(len(path.rows), np.bool_), None
+    tried, aim = path, _AIM_PX * keep.pitch
+    for turn in range(_TRIES):
+        spare = _per_group(keep.spare(tried.rows), path.smooth)
+        if keep.holds(tried.rows):
+            best = tried
+        back = spare.min() if turn == _TRIES - 2 else (1 + turn / 4) * spare
+        change = np.where(spare < 0, back - 2 * aim, np.where(stays, 0.0, spare - aim))
+        if np.abs(change).max() < 2 * aim:
+            break
+        stays |= spare < 0
+        right = np.minimum(right + change, _REACH_PX * keep.pitch)
+        tried = moved(path, points, right, tolerance)
+        while (lost := astray(tried, points, 2 * tolerance + _REACH_PX * keep.pitch)).any():
+            fewer = without(path, lost)
+            if fewer is None:
+                return best
+            path, right, stays = fewer, right[~lost], stays[~lost]
+            tried = moved(path, points, right, tolerance)
+    return best
+
+
+def _per_group(values: Floats, smooth: NDArray[np.bool_]) -> Floats:
+    """Return for each row the least value of all rows that it is joined to without a corner."""
+    corners = max(int(np.sum(~smooth)), 1)
+    groups = np.cumsum(~smooth) % corners
+    least = np.full(corners, np.inf)
+    np.minimum.at(least, groups, values)
+    shared: Floats = least[groups]
+    return shared
+
+
+def _spot(path: Smoothed, pitch: float) -> Smoothed:
+    """Return a path of one pixel as a line a quarter of a pixel long, there and back, so that there is something to cut."""
+    x, y = path.rows[0, :2]
+    rows = np.zeros((2, 8))
+    rows[0, :4], rows[1, :4] = (x, y, x + pitch / 4, y), (x + pitch / 4, y, x, y)
+    return Smoothed(rows, np.repeat(path.kinds, 2), np.array([0, 0, 1]), np.zeros(2, np.bool_), 0.0, False, np.zeros((2, 5)))
