@@ -38,7 +38,7 @@ _FITS = 2e-3
 """mm by which a gap may be narrower than a tool that still counts as fitting: chords make it so by up to 1 um a side."""
 
 _DEPTH = 1e-6
-"""mm by which a move may miss the floor and still count as on it."""
+"""mm by which a computed move may miss the floor and still count as on it."""
 
 
 _RUN = 64
@@ -88,13 +88,14 @@ class Coverage:
     floor_mm: float = 0.0
 
 
-def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Coverage:
+def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: float = _DEPTH) -> Coverage:
     """Measure what the moves of a program leave on the floor.
 
     Args:
         program: moves and the regions they machine.
         job: tools and operations that the moves belong to.
         progress: steps once a tool.
+        miss: by which a move may miss the floor and still counts as on it, mm; more than nothing for moves that were read back.
 
     Raises:
         Cancelled: the job was asked to stop.
@@ -103,7 +104,7 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Cov
     areas = areas_of(program.regions, job)
     if areas is None:
         return Coverage()
-    left = _left(areas.wanted, program.moves, (job, areas.depth), progress)
+    left = _left(areas.wanted, program.moves, (job, areas.depth - miss), progress)
     corners = _solid(shapely.difference(areas.floor, areas.reach))
     return _coverage(areas.floor.area, areas.depth, _places(left, True), _places(corners, False))
 
@@ -174,9 +175,9 @@ def _beyond_band(regions: NDArray[np.object_], operations: list[Operation], job:
 
 
 def _left(wanted: Shape, moves: Moves, where: tuple[Job, float], progress: Progress) -> Shape:
-    """Return what of a wanted area no move at the floor has cut."""
-    job, floor = where
-    deep = np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -floor + _DEPTH
+    """Return what of a wanted area no move has cut that is as deep as the floor, or deeper."""
+    job, depth = where
+    deep = np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -depth
     chosen = deep & (moves.kind != MoveKind.RAPID)
     numbers = [int(number) for number in np.unique(moves.tool[chosen])]
     paths = [_Path(np.flatnonzero(chosen & (moves.tool == number)), moves, job.tool(number).radius) for number in numbers]

@@ -46,7 +46,7 @@ def exact_of(part: FlatPart, courses: Sequence[Course], progress: Progress = NO_
     progress.step(0.0, "Checking clearance")
     depths = gouge_depths(program, part.job)
     flat = _flat(moves, part.job)
-    coverage = measure(program, part.job, progress.part(0.2, 1.0)) if flat else None
+    coverage = measure(program, part.job, progress.part(0.2, 1.0), part.tolerance) if flat else None
     return Exact(replace(depths, move=motion[depths.move]), coverage)
 
 
