@@ -21,7 +21,7 @@ KNOWS = {
     "bitmap": {"model", "geometry"},
     "toolpath": {"model", "geometry", "fit", "bitmap"},
     "nc": {"model", "geometry", "fit"},
-    "dexel": {"model"},
+    "dexel": {"model", "fit"},
     "files": {"model", "geometry", "fit"},
     "edit": {"model", "geometry", "fit", "files"},
     "workflow": {"model", "geometry", "fit", "bitmap", "toolpath", "dexel", "nc", "files"},

@@ -1,9 +1,9 @@
 """A path in the pieces that the engine sweeps: straight ones, and level arcs of at most a quarter turn.
 
-Level arcs of the XY plane stay arcs. Helices, arcs of the other planes and splines become chords that keep within
-`CHORD` of them, point by point: between its ends a curve leaves its chord, run at even parameter, by at most
-max |second derivative| / 8, which for an arc of radius A, turn w and change of radius g in n chords is (A w² + 2 g w) / (8 n²).
-A cut height is then off by at most CHORD (1 + slope of the surface).
+Level arcs of the XY plane stay arcs. Helices and arcs of the other planes become chords that keep within `CHORD` of them, point
+by point: between its ends a curve leaves its chord, run at even parameter, by at most max |second derivative| / 8, which for an
+arc of radius A, turn w and change of radius g in n chords is (A w² + 2 g w) / (8 n²). Splines become chords within `CHORD` of
+the hulls of their Bézier pieces (`app.fit.nurbs`). A cut height is then off by at most CHORD (1 + slope of the surface).
 """
 
 from __future__ import annotations
@@ -14,8 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.model.motion import Floats, MotionKind, Motions, Nurbs
-from app.model.motion_path import ArcPaths, arc_paths, spline_points
+from app.fit.nurbs import flattened_all
+from app.model.motion import Floats, MotionKind, Motions
+from app.model.motion_path import ArcPaths, along_xyz, arc_paths
 
 CHORD = 1e-6
 """mm."""
@@ -46,51 +47,90 @@ class Pieces:
         return len(self.motion)
 
 
+@dataclass(frozen=True, eq=False)
+class Window:
+    """Where pieces matter.
+
+    Attributes:
+        box: low x, low y, high x, high y, mm.
+        radius: (n,) of what goes along each motion, mm; negative infinite where nothing does.
+    """
+
+    box: tuple[float, float, float, float]
+    radius: Floats
+
+    def misses(self, rows: NDArray[np.intp], low: Floats, high: Floats) -> NDArray[np.bool_]:
+        """Return which motions surely stay off; low and high (m, 3) are the corners of their boxes."""
+        radius = self.radius[rows] + CHORD
+        x0, y0, x1, y1 = self.box
+        beside = (low[:, 0] - radius > x1) | (low[:, 1] - radius > y1) | (high[:, 0] + radius < x0)
+        return np.asarray(beside | (high[:, 1] + radius < y0))
+
+
 class Splitter:
     """The pieces of motions, any part of them at a time."""
 
-    def __init__(self, motions: Motions, arcs_stay: bool = True) -> None:
-        """Prepare to split; with `arcs_stay` False level arcs become chords too."""
+    def __init__(self, motions: Motions, arcs_stay: bool = True, window: Window | None = None) -> None:
+        """Prepare to split.
+
+        Args:
+            motions: n motions.
+            arcs_stay: False: level arcs become chords too.
+            window: of curves off it that fall into chords only the first and the last chord are made: neighbours need no more.
+        """
         self._motions = motions
         self._arcs = arc_paths(motions)
         self._level = _is_level(motions, self._arcs) & arcs_stay
-        self._turns = _arc_counts(self._arcs, self._level)
-        self.counts = np.ones(len(motions), np.int64)
+        self._arc = np.full(len(motions), -1)
+        self._arc[self._arcs.rows] = np.arange(len(self._arcs))
+        self._splines = dict(zip(motions.splines, flattened_all(list(motions.splines.values()), CHORD), strict=True))
+        self._whole = np.ones(len(motions), np.int64)
+        self._whole[self._arcs.rows] = _arc_counts(self._arcs, self._level)
+        for row, points in self._splines.items():
+            self._whole[row] = len(points) - 1
+        self.counts = self._whole.copy()
         """How many pieces each motion has."""
-        self.counts[self._arcs.rows] = self._turns
-        for row, spline in motions.splines.items():
-            self.counts[row] = spline_chords(spline)
+        if window is not None:
+            for rows, low, high in (self._reach_of_chords(), self._reach_of_splines()):
+                off = rows[window.misses(rows, low, high)]
+                self.counts[off] = np.minimum(self._whole[off], 2)
+
+    def _reach_of_chords(self) -> tuple[NDArray[np.intp], Floats, Floats]:
+        """Return the rows of arcs in chords, and the lowest and highest coordinates (m, 3) that they can have, mm."""
+        arcs = self._arcs
+        size = np.maximum(arcs.start_radius, arcs.end_radius)[:, None]
+        ends = np.stack([arcs.height, arcs.height + arcs.rise], axis=1)
+        low, high = (along_xyz(np.column_stack([arcs.centre + sign * size, side(ends, axis=1)]), arcs.axes)
+                     for sign, side in ((-1.0, np.min), (1.0, np.max)))  # fmt: skip
+        return arcs.rows[~self._level], low[~self._level], high[~self._level]
+
+    def _reach_of_splines(self) -> tuple[NDArray[np.intp], Floats, Floats]:
+        """Return the rows of splines, and the lowest and highest coordinates (m, 3) of their chords, mm."""
+        low, high = (np.array([side(points, axis=0) for points in self._splines.values()]).reshape(-1, 3) for side in (np.min, np.max))
+        return np.array(list(self._splines), np.intp), low, high
 
     def pieces(self, first: int, last: int) -> Pieces:
         """Return the pieces of the motions first … last - 1."""
         motions, counts = self._motions, self.counts[first:last]
-        start, end = motions.start[first:last], motions.end[first:last]
         rows = np.arange(first, last, dtype=np.int32)
-        curved = np.flatnonzero(motions.kind[first:last] >= MotionKind.ARC_CW)
-        if not len(curved):
-            return Pieces(start, end, rows, np.full(last - first, -1, np.int32), np.zeros((0, 7)))
-        at = np.cumsum(counts) - counts
-        start, end, rows = np.repeat(start, counts, axis=0), np.repeat(end, counts, axis=0), np.repeat(rows, counts)
-        mine = slice(*np.searchsorted(self._arcs.rows, [first, last]))
-        level = np.flatnonzero(self._level[mine]) + mine.start
-        arc, own = np.full(len(rows), -1, np.int32), self._arcs.rows[level] - first
-        places = np.repeat(at[own], counts[own]) + _counted(counts[own])
-        start[places], end[places], table = _level_arcs(self._arcs, np.repeat(level, counts[own]), counts[own])
-        arc[places] = np.arange(len(places))
-        for row in np.setdiff1d(curved, own):
-            part = slice(int(at[row]), int(at[row] + counts[row]))
-            points = self._points(first + int(row), int(counts[row]))
-            start[part], end[part] = points[:-1], points[1:]
+        if not np.any(motions.kind[first:last] >= MotionKind.ARC_CW):
+            return Pieces(motions.start[first:last], motions.end[first:last], rows, np.full(len(rows), -1, np.int32), np.zeros((0, 7)))
+        rows, step = np.repeat(rows, counts), _counted(counts)
+        step = np.where((step == 1) & (self.counts[rows] < self._whole[rows]), self._whole[rows] - 1, step)
+        start, end, arc, k = motions.start[rows], motions.end[rows], np.full(len(rows), -1, np.int32), self._arc[rows]
+        round_ = np.flatnonzero(k >= 0)
+        level, chords = round_[self._level[k[round_]]], round_[~self._level[k[round_]]]
+        arc[level] = np.arange(len(level))
+        start[level], end[level], table = _level_arcs(self._arcs, k[level], step[level], self._whole[rows[level]])
+        inner, ahead = chords[step[chords] > 0], chords[step[chords] + 1 < self._whole[rows[chords]]]
+        start[inner] = _places(self._arcs, k[inner], step[inner] / self._whole[rows[inner]])
+        end[ahead] = start[ahead + 1]
+        ahead = ahead[step[ahead + 1] != step[ahead] + 1]
+        end[ahead] = _places(self._arcs, k[ahead], (step[ahead] + 1) / self._whole[rows[ahead]])
+        for row in [row for row in self._splines if first <= row < last]:
+            part = slice(*np.searchsorted(rows, [row, row + 1]))
+            start[part], end[part] = self._splines[row][step[part]], self._splines[row][step[part] + 1]
         return Pieces(start, end, rows, arc, table)
-
-    def _points(self, row: int, count: int) -> Floats:
-        """Return the ends of the chords of a motion that is no level arc."""
-        motions = self._motions
-        if row in motions.splines:
-            return spline_points(motions.splines[row], count + 1)
-        points = _places(self._arcs, int(np.searchsorted(self._arcs.rows, row)), np.linspace(0.0, 1.0, count + 1))
-        points[0], points[-1] = motions.start[row], motions.end[row]
-        return points
 
 
 def _counted(sizes: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -122,24 +162,21 @@ def _arc_counts(arcs: ArcPaths, level: NDArray[np.bool_]) -> NDArray[np.int64]:
     return np.where(level, _level_counts(arcs), _chord_counts(arcs))
 
 
-def _places(arcs: ArcPaths, k: int, fractions: Floats) -> Floats:
-    """Return (n, 3) places of arc k."""
+def _places(arcs: ArcPaths, k: NDArray[np.int64], fractions: Floats) -> Floats:
+    """Return (n, 3) places of the arcs k (n,) at fractions (n,)."""
     angle = arcs.angle[k] + arcs.sweep[k] * fractions
     radius = arcs.start_radius[k] + (arcs.end_radius[k] - arcs.start_radius[k]) * fractions
-    places = np.empty((len(fractions), 3))
-    places[:, arcs.axes[k]] = np.column_stack([
+    return along_xyz(np.column_stack([
         arcs.centre[k, 0] + radius * np.cos(angle), arcs.centre[k, 1] + radius * np.sin(angle), arcs.height[k] + arcs.rise[k] * fractions,
-    ])  # fmt: skip
-    return places
+    ]), arcs.axes[k])  # fmt: skip
 
 
-def _level_arcs(arcs: ArcPaths, k: NDArray[np.int64], sizes: NDArray[np.int64]) -> tuple[Floats, Floats, Floats]:
+def _level_arcs(arcs: ArcPaths, k: NDArray[np.int64], at: NDArray[np.int64], count: NDArray[np.int64]) -> tuple[Floats, Floats, Floats]:
     """Return starts, ends and rows of the n level arcs that some arcs fall into.
 
     Args:
-        k: (n,) the arc that each belongs to, those of one arc one after the other. sizes: how many each arc falls into.
+        k: (n,) the arc that each belongs to. at: which of its parts each is. count: how many these are.
     """
-    count, at = np.repeat(sizes, sizes), _counted(sizes)
     angles = [arcs.angle[k] + arcs.sweep[k] * (each / count) for each in (at, at + 1)]
     radius = arcs.start_radius[k] + (arcs.end_radius[k] - arcs.start_radius[k]) * ((at + 0.5) / count)
     cx, cy, height = arcs.centre[k, 0], arcs.centre[k, 1], arcs.height[k]
@@ -152,19 +189,3 @@ def _level_arcs(arcs: ArcPaths, k: NDArray[np.int64], sizes: NDArray[np.int64]) 
     rows = np.column_stack([cx, cy, radius, *box])
     ccw = (arcs.sweep[k] > 0)[:, None]
     return np.where(ccw, ends[0], ends[1]), np.where(ccw, ends[1], ends[0]), rows
-
-
-def spline_chords(spline: Nurbs) -> int:
-    """Return in how many chords, even in the parameter, a spline falls.
-
-    Doubled until no middle of a parameter step is farther than a quarter of CHORD from its chord's; the error falls
-    by four with each doubling, so this is met well, though it is measured and not proven.
-    """
-    count = 2 * len(spline.knots)
-    while count < 1 << 20:
-        places = spline_points(spline, 2 * count + 1)
-        off = places[1::2] - (places[:-1:2] + places[2::2]) / 2
-        if np.max(np.einsum("ij,ij->i", off, off)) <= (CHORD / 4) ** 2:
-            break
-        count *= 2
-    return count

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.dexel.cutter import Cutter
-from app.dexel.pieces import Pieces, Splitter
+from app.dexel.pieces import Pieces, Splitter, Window
 from app.dexel.workpiece import Grid, Heights, Workpiece, ensure_memory
 from app.errors import Cancelled, ParameterError
 from app.model.motion import Floats, MotionKind, Motions
@@ -172,7 +172,8 @@ class _Job:
 
     def batches(self) -> Iterator[tuple[_Batch, tuple[float, float]]]:
         """Yield parts of the course that fit into memory, and which part of the whole they are."""
-        splitter = Splitter(self.motions)
+        radius = np.where(self.does > 0, self.shapes[self.cutter, 0], -math.inf)
+        splitter = Splitter(self.motions, window=Window(self.grid.box, radius))
         ends = np.cumsum(splitter.counts)
         first, total = 0, len(self.motions)
         before = self.workpiece.heights
