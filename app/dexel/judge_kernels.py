@@ -89,3 +89,12 @@ def farthest(heights, wanted, before, where, sign, first, last):
             if math.sqrt(max(gap, 0.0) ** 2 + where[1] ** 2) > worst:
                 worst = max(worst, apart(wanted, y, x, height, where, sign))
     return worst
+
+
+@kernel(f"void({_FIELD}, {_FIELD}, int64[::1], UniTuple(float64, 2), float64[::1])")
+def ways_out(wanted, heights, cells, where, out):
+    """Write how far the metal's end in some cells, row * cols + col each, is from the part's surface above it; see `apart`."""
+    cols = wanted.shape[1]
+    for k in range(len(cells)):
+        row, col = cells[k] // cols, cells[k] % cols
+        out[k] = apart(wanted, row, col, heights[row, col], where, 1)

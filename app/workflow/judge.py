@@ -33,6 +33,10 @@ APART = 1.0
 
 MOST_GOUGES = 100
 
+LIKELY, MOST_ASKED = 0.8, 16
+"""Of the cells of a gouge those as deep as this share of the deepest one, as the cells around tell, are asked of the solid itself;
+so many of them."""
+
 
 @dataclass(frozen=True, eq=False)
 class Wanted:
@@ -120,13 +124,11 @@ def judge(judging: Judging, certificate: Certificate | None) -> Judgement:
 
 
 def _gouges(judging: Judging, deviation: NDArray[np.float32]) -> Iterator[Spot]:
-    """Yield the gouges, the deepest first: by closed forms, and those that only the cells show."""
+    """Yield the gouges, the deepest first: by closed forms, or where these know of none, those that the cells show."""
     part = judging.part
     exact = tuple(_exact_gouges(judging))
-    own = (_gouge_of_cells(judging, place) for place in places_of(deviation < -part.tolerance, -deviation, judging.grid))
-    near = 2 * judging.grid.pitch + APART + (max(tool.radius for tool in part.job.tools) if isinstance(part, FlatPart) else 0.0)
-    others = (spot for spot in own if spot.depth_mm > part.tolerance
-              and not any(np.hypot(spot.x - known.x, spot.y - known.y) <= near for known in exact))  # fmt: skip
+    cells = () if exact else places_of(deviation < -part.tolerance, -deviation, judging.grid)
+    others = (spot for place in cells if (spot := _gouge_of_cells(judging, place)).depth_mm > part.tolerance)
     yield from sorted((*exact, *others), key=lambda spot: -spot.depth_mm)
 
 
@@ -147,24 +149,27 @@ def _exact_gouges(judging: Judging) -> Iterator[Spot]:
 
 def _gouge_of_cells(judging: Judging, place: CellPlace) -> Spot:
     """Return a gouge as the cells show it; its depth is the way out of the part, not straight up."""
-    depth, (row, col) = max((_way_out(judging, cell), cell) for cell in (place.cell, place.middle))
-    x, y = judging.grid.place(row * judging.grid.cols + col)
+    from app.dexel.judge_kernels import ways_out
+
+    target, grid, depths = judging.wanted.target, judging.grid, np.zeros(len(place.cells))
+    ways_out(_frozen(target.wanted), _frozen(judging.cut.heights), place.cells, (grid.pitch, 0.0), depths)
+    worst = int(np.argmax(depths))
+    depth = float(depths[worst])
+    if isinstance(judging.part, SolidPart) and not judging.part.leave:
+        likely = np.flatnonzero(depths > LIKELY * depth)
+        asked = likely[:: 1 + len(likely) // MOST_ASKED].tolist()
+        depth, worst = max((_exact_depth(judging, judging.part, int(place.cells[k])), k) for k in asked)
+    row, col = divmod(int(place.cells[worst]), grid.cols)
+    x, y = grid.place(int(place.cells[worst]))
     line, motion = judging.line_at(row, col)
     return Spot(SpotKind.GOUGE, x, y, float(judging.cut.heights[row, col]), depth, place.area_mm2, place.disc_mm, line, motion)
 
 
-def _way_out(judging: Judging, cell: tuple[int, int]) -> float:
-    """Return how far the end of the metal in a cell is from the part's surface, mm: exactly for a solid, else by the cells around."""
-    from app.dexel.judge_kernels import apart
-
-    row, col = cell
-    target, height = judging.wanted.target, float(judging.cut.heights[row, col])
-    rough = float(apart(_frozen(target.wanted), row, col, height, (judging.grid.pitch, 0.0), 1))
-    if not isinstance(judging.part, SolidPart) or judging.part.leave:
-        return rough
-    solid = judging.part.solid
-    low, high = max(height, float(solid.triangles[..., 2].min())), float(target.wanted[row, col])
-    return depth_in_solid(solid, judging.grid.place(row * judging.grid.cols + col), low, high)
+def _exact_depth(judging: Judging, part: SolidPart, cell: int) -> float:
+    """Return how deep in the solid metal was cut over a cell's centre, mm."""
+    row, col = divmod(cell, judging.grid.cols)
+    low = max(float(judging.cut.heights[row, col]), float(part.solid.triangles[..., 2].min()))
+    return depth_in_solid(part.solid, judging.grid.place(cell), low, float(judging.wanted.target.wanted[row, col]))
 
 
 def _frozen(field: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -208,6 +213,8 @@ def _measured(judging: Judging, place: Place) -> Spot:
     around = (slice(max(row - 1, 0), row + 2), slice(max(col - 1, 0), col + 2))
     over = float(np.max(judging.cut.heights[around] - judging.wanted.target.wanted[around], initial=0.0))
     wanted = float(judging.wanted.target.wanted[around].min())
+    if over <= judging.part.tolerance:  # narrower than the cells: as high as the stock was
+        over = max(float(judging.cut.before.heights[around].max()) - wanted, 0.0)
     return Spot(kind, x, y, wanted + over, over, place.area_mm2, place.disc_mm, *judging.line_at(row, col))
 
 

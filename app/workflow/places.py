@@ -14,18 +14,23 @@ MOST = 100
 """Places that are listed, the worst ones."""
 
 
-@dataclass(frozen=True, slots=True)
+ASKED = 5000
+"""Cells of a place that are looked at one by one, evenly spread, where it has more."""
+
+
+@dataclass(frozen=True, eq=False)
 class CellPlace:
     """Cells that hang together, by edges or corners.
 
     Attributes:
-        cell: row and column of the worst one. worst: its value. middle: row and column of the one farthest from the rim.
+        cells: row * cols + col of them, not more than ASKED.
+        cell: the worst one, row and column. worst: its value.
         area_mm2: of all. disc_mm: diameter of the largest disc that fits, mm, to about a cell.
     """
 
+    cells: NDArray[np.int64]
     cell: tuple[int, int]
     worst: float
-    middle: tuple[int, int]
     area_mm2: float
     disc_mm: float
 
@@ -42,13 +47,15 @@ def places_of(mask: NDArray[np.bool_], value: NDArray[np.float32], grid: Grid) -
     cells = np.flatnonzero(labels)
     label, worth = labels.ravel()[cells], value.ravel()[cells]
     order = np.lexsort((worth, label))
-    last = np.flatnonzero(np.concatenate([label[order][1:] != label[order][:-1], [True]]))
-    worst = order[last]  # of label 1, 2, …
-    inner = cv2.distanceTransform(mask.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE).ravel()[cells]
-    deepest = np.lexsort((inner, label))[last]
+    ends = np.searchsorted(label[order], np.arange(1, count + 1))  # where each label begins, and where the last one ends
+    framed = np.pad(mask, 1).astype(np.uint8)  # what lies beyond the grid is no place
+    inner = cv2.distanceTransform(framed, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)[1:-1, 1:-1].ravel()
+    worst = worth[order[ends[1:] - 1]]
     found = []
-    for k in np.argsort(-worth[worst], kind="stable")[:MOST].tolist():
-        one, middle = (divmod(int(cells[which[k]]), grid.cols) for which in (worst, deepest))
+    for k in np.argsort(-worst, kind="stable")[:MOST].tolist():
+        mine = cells[order[ends[k] : ends[k + 1]]]
         area = float(stats[k + 1, cv2.CC_STAT_AREA]) * grid.pitch**2
-        found.append(CellPlace(one, float(worth[worst[k]]), middle, area, (2 * float(inner[deepest[k]]) - 1) * grid.pitch))
+        disc = (2 * float(inner[mine].max()) - 1) * grid.pitch
+        spread = np.ascontiguousarray(mine[:: 1 + len(mine) // ASKED])
+        found.append(CellPlace(spread, divmod(int(mine[-1]), grid.cols), float(worst[k]), area, disc))
     return tuple(found)
