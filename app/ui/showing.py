@@ -135,6 +135,9 @@ class Showing(QObject):
         missing = self._missing()
         self._empty_action = missing.action
         self._window.views.show_missing(missing.sentence, missing.button, made is not None)
+        beside_cut = self.view is View.CUT and self._window.cut_panel.shown is not None
+        self._window.panel.setVisible(not beside_cut)
+        self._window.cut_panel.setVisible(beside_cut)
 
     def _missing(self) -> Missing:
         if self._has_something():

@@ -35,6 +35,8 @@ QSplitter::handle { background: $hairline; }
 QLabel { color: $ink; background: transparent; }
 QLabel[role="muted"] { color: $muted; }
 QLabel[role="error"] { color: $error; }
+QLabel[role="ok"] { color: $ok; }
+QLabel[role="warning"] { color: $warning; }
 QLabel[role="prompt"] { color: $accent_text; font-weight: 600; }
 """
 

@@ -64,6 +64,11 @@ def finding_level(finding: Finding) -> Level:
     return Level.BAD if finding.kind in _RED else Level.REMARK
 
 
+def name_of(kind: FindingKind) -> str:
+    """Return the words for a kind of finding."""
+    return _NAMES[kind]
+
+
 def short(finding: Finding) -> str:
     """Return what was found and where, without the sentence: "gouge 0.120 mm at (41.2, 8.0)"."""
     amount = ""

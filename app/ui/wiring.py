@@ -54,6 +54,7 @@ class Wiring(QObject):
         self.cutting.shown.connect(self.showing.show_missing)
         self.cutting.failed.connect(self._say_error)
         window.views.cut.cell_picked.connect(lambda x, y, z, motion: self._go_to_motion(motion))
+        window.cut_panel.line_wanted.connect(self._go_to_motion)
         self.files = Files(window, self.showing, self.log, self.nc.open)
         self.tools = ToolExchange(window, self.log)
         self.cut_saving = CutSaving(window, self.log)

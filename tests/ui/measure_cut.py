@@ -16,6 +16,7 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 import numpy as np
 from PySide6.QtWidgets import QApplication
 
+from app.ui.cut.colouring import prepare
 from app.ui.cut.cut_view import CutView
 from app.ui.cut.painting import REST_MS
 from app.ui.theme import DARK
@@ -30,14 +31,14 @@ class Felt:
     """What was measured, ms; medians but for `piece_ms`, the longest.
 
     Attributes:
-        new_ms: from `show_cut` until the heights are on the screen, their relief made before, as the worker does.
-        relief_ms: making it. turn_ms: one picture while turning, composition included. budget: squares of it.
+        new_ms: from `show_cut` until the heights are on the screen, prepared before, as the worker does.
+        prepare_ms: that. turn_ms: one picture while turning, composition included. budget: squares of it.
         fine_ms: from the last movement until the fine picture is shown. piece_ms: the window's longest pause meanwhile.
     """
 
     surface: str
     new_ms: float
-    relief_ms: float
+    prepare_ms: float
     turn_ms: float
     budget: int
     fine_ms: float
@@ -56,10 +57,10 @@ def shown_view() -> CutView:
 
 
 def new_heights(view: CutView) -> tuple[float, float]:
-    """Return how long other heights take to the screen, and how long their relief took, ms."""
-    picture = replace(view.picture, heights=view.picture.heights * np.float32(0.9))
+    """Return how long other heights take to the screen, and how long preparing them took, ms."""
+    picture = replace(view.picture, heights=view.picture.heights * np.float32(0.9), values={})
     begun = time.perf_counter()
-    _ = picture.relief
+    prepare(picture, view.colour)
     made = time.perf_counter()
     view.show_cut(picture)
     while view.painting.due:

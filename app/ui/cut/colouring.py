@@ -22,7 +22,10 @@ CYCLE = 8
 """Colours of things that are told apart by number."""
 
 _FINE, _COARSE = 1.0, 10.0
-_STOP_PLACES = np.array([0.0, 0.24, 0.47, 0.53, 0.76, 1.0])
+FINE_PLACES = (0.47, 0.53)
+"""Between which the scale of deviation shows what is within tolerance."""
+
+_STOP_PLACES = np.array([0.0, 0.24, *FINE_PLACES, 0.76, 1.0])
 _LEAST_SPAN = 1e-6
 
 

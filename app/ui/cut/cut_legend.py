@@ -16,9 +16,9 @@ from app.ui.panels.section import hairline, heading
 from app.ui.samples import Sample
 from app.ui.theme import LIGHT, Theme, text_font
 
-WIDTH = 204
+WIDTH = 228
 _BAR_PX, _SCALE_PX, _ROW_PX, _PAD_PX = 10, 148, 22, 8
-_SLIDES = 1000
+_SLIDES, _CHOICE_PX = 1000, 102
 
 
 class Side(Enum):
@@ -101,6 +101,7 @@ class CutLegend(QFrame):
         self.setFixedWidth(WIDTH)
         self.title, self.key = heading(CutColour.METAL.value), Key()
         self.colour = ListField("Colour by", [(colour, colour.value) for colour in CutColour])
+        self.colour.box.setFixedWidth(_CHOICE_PX)
         self.side = ChoiceField("Section", [(side, side.value) for side in Side], 60)
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.rows = {sample: LegendRow(sample) for sample in (Sample.POCKET, Sample.CONTOUR, Sample.PLUNGE, Sample.RAPID)}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from PySide6.QtCore import QEasingCurve, QEvent, QPointF, Qt, QVariantAnimation, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent, QWheelEvent
@@ -15,7 +17,8 @@ from app.ui.cut.colours import Colours
 from app.ui.cut.cut_legend import CutLegend, Side
 from app.ui.cut.hands import KEYS, Hands
 from app.ui.cut.inks import look_of
-from app.ui.cut.overlay import CutOverlay, Line, Probe, facts_of, place_of
+from app.ui.cut.overlay import CutOverlay, Line, Pin, Probe
+from app.ui.cut.overlay_words import facts_of, place_of
 from app.ui.cut.painting import Painting
 from app.ui.cut.picking import Hit, Section, pick_finest
 from app.ui.cut.picture import CutPicture
@@ -28,6 +31,7 @@ from app.ui.theme import Theme
 
 _NOTCH = 1.2
 _EDGE_PX = 16
+_STEEP, _MOST_OF_STOCK = np.radians(55.0), 0.5
 _LOOKS = {Sample.RAPID: Look.RAPID, Sample.POCKET: Look.CUT, Sample.PLUNGE: Look.PLUNGE, Sample.CONTOUR: Look.CONTOUR}
 
 
@@ -96,6 +100,7 @@ class CutView(QWidget):
         """Show another cut; the view stays unless the stock is another one."""
         before, self.picture, self.detail = self.picture, picture, None
         self.overlay.show_probe(None)
+        self.overlay.show_pin(None)
         self.show_line(None)
         self.hit = None
         self.overlay.setVisible(picture is not None)
@@ -158,6 +163,21 @@ class CutView(QWidget):
         if self.picture is not None:
             self.glide_to(self._fitted_camera(self.camera.seen_from(view)))
             self._fitted = True
+
+    def go_to(self, pin: Pin, field: float) -> None:
+        """Glide to a place, steeply enough to look into the metal, and point at it.
+
+        Args:
+            pin: the place. field: about how much round it should be seen, mm.
+        """
+        if self.picture is None:
+            return
+        self.overlay.show_pin(pin)
+        width, height = pixel_size(self)
+        field = min(field, _MOST_OF_STOCK * float(np.max((self.picture.high - self.picture.low)[:2])))
+        towards = replace(self.camera, target=pin.place, pitch=max(self.camera.pitch, _STEEP), scale=min(width, height) / field)
+        self._fitted = False
+        self.glide_to(towards.panned(-self._covered() / 2, 0.0))
 
     def look_now(self, camera: Camera) -> None:
         """Look this way at once."""
@@ -271,11 +291,15 @@ class CutView(QWidget):
         if self.picture is None:
             return self.camera
         width, height = pixel_size(self)
-        covered = (self.legend.width() + _EDGE_PX) * self.devicePixelRatioF()
-        free = width - covered if covered < 0.45 * width else width
+        free = width - self._covered()
         below = HEIGHT * self.devicePixelRatioF() if self.profile.isVisible() and height > 2 * HEIGHT else 0.0
         fitted = (camera or self.camera).fitted(self.picture.low, self.picture.high, (free, height - below))
         return fitted.panned((free - width) / 2, -below / 2)
+
+    def _covered(self) -> float:
+        """Return how much of the width the legend covers, px; none where the view is too narrow to keep clear of it."""
+        covered = (self.legend.width() + _EDGE_PX) * self.devicePixelRatioF()
+        return covered if covered < 0.45 * pixel_size(self)[0] else 0.0
 
     def _look(self, camera: Camera) -> None:
         self.camera = camera

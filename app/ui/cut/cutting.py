@@ -8,7 +8,11 @@ from PySide6.QtCore import QObject, Signal
 
 from app.progress import Progress
 from app.ui.computation import State
-from app.ui.cut.colouring import CutColour
+from app.ui.cut.colouring import CutColour, key_of
+from app.ui.cut.cut_panel import colour_of
+from app.ui.cut.entries import Entry, EntryColour
+from app.ui.cut.inks import inks_of
+from app.ui.cut.overlay import Pin
 from app.ui.cut.shown_cut import ProgramFile, ShownCut, shown_cut
 from app.ui.cut.zooming import Zooming
 from app.ui.main_window import MainWindow
@@ -58,6 +62,9 @@ class Cutting(QObject):
         for worker in (self.worker, self.zooming.worker, self._view.colours.worker):
             window.closed.connect(worker.finish)
         self._computation.changed.connect(self._follow)
+        self._view.colours.known.connect(self._show_key)
+        self._panel = window.cut_panel
+        self._panel.picked.connect(self._go_to)
 
     def _follow(self) -> None:
         made = self._computation.made
@@ -74,7 +81,24 @@ class Cutting(QObject):
         self.cut = cut
         self._view.show_cut(cut.picture if cut is not None else None)
         self.zooming.follow(cut.cut if cut is not None else None)
+        self._panel.show_cut(cut)
+        self._show_key()
         self.shown.emit()
+
+    def _show_key(self) -> None:
+        """The histogram has the colours of the deviation, whatever the metal's tell."""
+        if self.cut is not None and self.cut.histogram is not None:
+            picture = self.cut.picture
+            self._panel.show_key(key_of(picture, CutColour.DEVIATION, inks_of(self._view.colours.theme), picture.span))
+
+    def _go_to(self, entry: Entry) -> None:
+        """Glide to a place; gouges and metal left are seen best by their deviation."""
+        if entry.place is None:
+            return
+        if entry.colour is not EntryColour.ACCIDENT and self._view.picture is not None and self._view.picture.deviation is not None:
+            self._view.set_colour(CutColour.DEVIATION)
+        theme = self._view.colours.theme
+        self._view.go_to(Pin(entry.place, entry.title, entry.words, colour_of(entry.colour, theme)), entry.field)
 
     def _on_done(self, answer: Answer) -> None:
         if answer.job_id == self._job_id and isinstance(answer.value, ShownCut):

@@ -80,12 +80,14 @@ class Hands:
             view.cell_picked.emit(*view.hit.place, view.hit.move)
 
     def key(self, event: QKeyEvent) -> bool:
-        """F fits, 1 to 4 are the standard views, arrows turn, Escape ends the profile; return whether it was one of these."""
+        """F fits, 1 to 4 are the standard views, arrows turn, Escape ends the profile and unpins; return whether it was one of these."""
         view, key = self._view, Qt.Key(event.key())
         if event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier:
             return False
         if key == Qt.Key.Key_Escape and view.overlay.line is not None:
             view.show_line(None)
+        elif key == Qt.Key.Key_Escape and view.overlay.pin is not None:
+            view.overlay.show_pin(None)
         elif key == Qt.Key.Key_F:
             view.fit()
         elif key in KEYS:

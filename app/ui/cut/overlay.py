@@ -10,10 +10,11 @@ from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
 from app.ui.cut.camera import Camera
-from app.ui.cut.picking import Hit
+from app.ui.cut.overlay_words import pitch_words
 from app.ui.theme import LIGHT, Theme, text_font
 
 _AXIS_PX, _AXES_EDGE_PX, _NAME_PX = 30.0, 52.0, 11.0
+_RING_PX, _LEADER_PX = 9.0, 34.0
 _CARD_GAP_PX, _PAD_PX, _ROW_PX, _CROSS_PX = 18.0, 10.0, 18.0, 9.0
 
 
@@ -30,34 +31,14 @@ class Probe:
     facts: str
 
 
-def number(value: float) -> str:
-    """Return a length in mm with three decimals and a true minus."""
-    return f"{round(value, 3) + 0.0:.3f}".replace("-", "\u2212")
+@dataclass(frozen=True, slots=True)
+class Pin:
+    """A place that is pointed at: where, mm, two lines of words, and the colour of the first."""
 
-
-def pitch_words(pitch: float) -> str:
-    """Return the width of a cell: "98 µm", "2.4 µm"."""
-    microns = 1000 * pitch
-    return f"{microns:.0f} µm" if microns >= 9.95 else f"{microns:.1f} µm"
-
-
-def facts_of(hit: Hit) -> str:
-    """Return what there is to say about a cell: depth, tool and line that cut it, deviation."""
-    picture, move = hit.picture, hit.move
-    depth = picture.top - hit.height
-    facts = [f"{number(depth)} deep" if depth > 5e-4 else "not cut"]
-    if move >= 0 and picture.moves is not None and move < len(picture.moves.line):
-        facts += [f"T{picture.moves.tool[move]}", f"line {picture.moves.line[move]}"]
-    if picture.deviation is not None:
-        off = float(picture.deviation[hit.row, hit.column])
-        if abs(off) > picture.tolerance:
-            facts.append(f"{number(abs(off))} {'left' if off > 0 else 'too deep'}")
-    return " · ".join(facts)
-
-
-def place_of(hit: Hit) -> str:
-    """Return the coordinates of a hit."""
-    return "   ".join(f"{axis} {number(value)}" for axis, value in zip("XYZ", hit.place, strict=True))
+    place: tuple[float, float, float]
+    title: str
+    facts: str
+    colour: QColor
 
 
 class CutOverlay(QWidget):
@@ -69,6 +50,7 @@ class CutOverlay(QWidget):
         self._theme, self._camera = LIGHT, Camera()
         self.probe: Probe | None = None
         self.line: Line | None = None
+        self.pin: Pin | None = None
         self._pitch, self._finer = "", False
 
     def set_theme(self, theme: Theme) -> None:
@@ -80,12 +62,17 @@ class CutOverlay(QWidget):
         """Turn the axes, and keep the line where it is."""
         turned = camera.axes.tolist() != self._camera.axes.tolist()
         self._camera = camera
-        if turned or self.line is not None:
+        if turned or self.line is not None or self.pin is not None:
             self.update()
 
     def show_line(self, line: Line | None) -> None:
         """Show a line over the metal, or none."""
         self.line = line
+        self.update()
+
+    def show_pin(self, pin: Pin | None) -> None:
+        """Point at a place, or at none."""
+        self.pin = pin
         self.update()
 
     def show_pitch(self, pitch: float, finer: bool) -> None:
@@ -107,6 +94,8 @@ class CutOverlay(QWidget):
         self._paint_pitch(painter)
         if self.line is not None:
             self._paint_line(painter, self.line)
+        if self.pin is not None:
+            self._paint_pin(painter, self.pin)
         if self.probe is not None:
             self._paint_cross(painter, self.probe.at)
             self._paint_card(painter, self.probe)
@@ -132,10 +121,37 @@ class CutOverlay(QWidget):
         row = QRectF(2 * _AXES_EDGE_PX + 8, self.height() - _AXES_EDGE_PX + 10, 160, 18)
         painter.drawText(row, Qt.AlignmentFlag.AlignVCenter, self._pitch)
 
-    def _paint_line(self, painter: QPainter, line: Line) -> None:
+    def _on_screen(self, place: tuple[float, float, float]) -> QPointF:
         ratio = self.devicePixelRatioF()
-        places = self._camera.project(np.array(line), (self.width() * ratio, self.height() * ratio))[:, :2] / ratio
-        ends = [QPointF(x, y) for x, y in places.tolist()]
+        x, y, _ = self._camera.project(np.array([place]), (self.width() * ratio, self.height() * ratio))[0] / ratio
+        return QPointF(x, y)
+
+    def _paint_pin(self, painter: QPainter, pin: Pin) -> None:
+        """Paint a ring round the place, and a line from it to the words."""
+        at = self._on_screen(pin.place)
+        if not self.rect().contains(at.toPoint()):
+            return
+        ground = QColor(pin.colour)
+        ground.setAlphaF(0.25)
+        painter.setBrush(ground)
+        painter.setPen(QPen(pin.colour, 1.6))
+        painter.drawEllipse(at, _RING_PX, _RING_PX)
+        knee = at + QPointF(_LEADER_PX, _LEADER_PX)
+        painter.drawLine(at + QPointF(0.7, 0.7) * _RING_PX, knee)
+        painter.drawLine(knee, knee + QPointF(10, 0))
+        rows = ((pin.title, text_font(13, semibold=True), pin.colour), (pin.facts, text_font(12), self._theme.ink))
+        wide = max(QFontMetricsF(font).horizontalAdvance(text) for text, font, _ in rows) + 2 * _PAD_PX
+        sheet = QColor(self._theme.canvas)
+        sheet.setAlphaF(0.85)
+        row = QRectF(knee.x() + 12, knee.y() - _ROW_PX, wide, _ROW_PX)
+        painter.fillRect(row.united(row.translated(0, _ROW_PX)).adjusted(0, -2, 0, 2), sheet)
+        for k, (text, font, colour) in enumerate(rows):
+            painter.setFont(font)
+            painter.setPen(colour)
+            painter.drawText(row.translated(_PAD_PX / 2, k * _ROW_PX), Qt.AlignmentFlag.AlignVCenter, text)
+
+    def _paint_line(self, painter: QPainter, line: Line) -> None:
+        ends = [self._on_screen(place) for place in line]
         for colour, width in ((self._theme.canvas, 4.0), (self._theme.accent, 1.8)):
             painter.setPen(QPen(colour, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
             painter.drawLine(ends[0], ends[1])

@@ -158,6 +158,12 @@ class CutPicture:
         """Return (rows, columns) which cells no move has cut."""
         return self.move < 0 if self.move is not None else self.heights >= np.float32(self.top - TOUCHED)
 
+    def height_at(self, x: float, y: float) -> float:
+        """Return the height of the cell that a place, mm, lies in; beside the stock that of the nearest one."""
+        column, row = (int(np.clip((at - low) / self.pitch, 0, count - 1))
+                       for at, low, count in ((x, self.x0, self.columns), (y, self.y0, self.rows)))
+        return float(self.heights[row, column])
+
     def move_at(self, row: int, column: int) -> int:
         """Return the move that cut a cell last; -1 = none, or nobody knows."""
         return int(self.move[row, column]) if self.move is not None else -1

@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QVBoxLayout, QWidget
 
-from app.ui.cut.overlay import number
+from app.ui.cut.overlay_words import number
 from app.ui.cut.profile import Profile
 from app.ui.icons import IconButton
 from app.ui.labels import muted

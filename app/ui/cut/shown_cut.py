@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from app.model.finding import Finding
 from app.progress import NO_PROGRESS, Progress
 from app.ui.cut.colouring import CutColour, prepare
+from app.ui.cut.histogram import Histogram, histogram_of
 from app.ui.cut.picture import CutMoves, CutPaths, CutPicture, Floats
 from app.ui.cut.relief import Bytes
 from app.ui.nc.program_text import ProgramText
@@ -38,7 +40,8 @@ class ShownCut:
     Attributes:
         cut: the program, cut. picture: what is left, prepared for painting.
         names, texts: of its files, in the order of cutting. first: (files + 1,) where the motions of each file begin.
-        foreign: it is not the job's.
+        foreign: it is not the job's. assumed: what nobody has told, and was taken to be so.
+        histogram: how much of the area is how far from the part; None = there is no part.
     """
 
     cut: CutProgram
@@ -47,6 +50,8 @@ class ShownCut:
     texts: tuple[ProgramText, ...]
     first: tuple[int, ...]
     foreign: bool = False
+    assumed: tuple[Finding, ...] = ()
+    histogram: Histogram | None = None
 
     def file_of(self, motion: int) -> int:
         """Return the index of the file of a motion."""
@@ -56,16 +61,26 @@ class ShownCut:
         """Return the row of a motion among those of its own file."""
         return motion - self.first[self.file_of(motion)]
 
+    def motion_of_line(self, line: int, place: tuple[float, float, float] | None) -> int:
+        """Return the motion of an NC line that ends nearest to a place; -1 = there is none.
 
-def shown_cut(cut: CutProgram, files: tuple[ProgramFile, ...], colour: CutColour, progress: Progress = NO_PROGRESS,
-              foreign: bool = False) -> ShownCut:  # fmt: skip
-    """Prepare a program that was cut.
+        Args:
+            line: 1-based, in any of the files; 0 = none. place: mm; None = the first motion will do.
+        """
+        rows = np.flatnonzero(self.picture.moves.line == line) if line and self.picture.moves is not None else np.zeros(0, np.int64)
+        if not len(rows) or place is None:
+            return int(rows[0]) if len(rows) else -1
+        ends = np.concatenate([program.motions.end for program in self.cut.setup.programs])[rows]
+        return int(rows[np.argmin(np.hypot(ends[:, 0] - place[0], ends[:, 1] - place[1]))])
+
+
+def shown_cut(cut: CutProgram, files: tuple[ProgramFile, ...], colour: CutColour, progress: Progress = NO_PROGRESS) -> ShownCut:
+    """Prepare a program that was cut; the job's, as long as nobody says otherwise.
 
     Args:
         cut: the program. files: of it, in the order of cutting.
         colour: what the colours tell at first.
         progress: of this part.
-        foreign: it is not the job's.
 
     Raises:
         Cancelled: the job was asked to stop.
@@ -83,7 +98,7 @@ def shown_cut(cut: CutProgram, files: tuple[ProgramFile, ...], colour: CutColour
     prepare(picture, colour)
     counts = np.cumsum([0, *(len(program.motions) for program in setup.programs)])
     return ShownCut(cut, picture, tuple(file.name for file in files), tuple(program_text(file.data) for file in files),
-                    tuple(counts.tolist()), foreign)
+                    tuple(counts.tolist()), histogram=histogram_of(picture, cut.judgement) if cut.judgement is not None else None)
 
 
 def picture_of(cut: CutProgram, moves: CutMoves, paths: CutPaths | None = None) -> CutPicture:

@@ -68,7 +68,14 @@ class Row(QWidget):
     stepped = Signal(int)
     moved = Signal(int)
 
-    def __init__(self, *widgets: QWidget, stretch_after: int = 0) -> None:
+    def __init__(self, *widgets: QWidget, stretch_after: int = 0, wide: int = -1) -> None:
+        """Make a row.
+
+        Args:
+            widgets: from the left.
+            stretch_after: index of the one behind which room is left.
+            wide: index of the one that takes all the room there is; -1 = none.
+        """
         super().__init__()
         self.setProperty("row", "true")
         self.setProperty("chosen", "false")
@@ -79,7 +86,7 @@ class Row(QWidget):
         line.setContentsMargins(EDGE, 0, EDGE, 0)
         line.setSpacing(8)
         for at, widget in enumerate(widgets):
-            line.addWidget(widget)
+            line.addWidget(widget, 1 if at == wide else 0)
             if at == stretch_after:
                 line.addStretch(1)
 

@@ -1,0 +1,67 @@
+"""The panel beside the cut, in the real window: a click on a place leads there."""
+
+import pytest
+from PySide6.QtCore import Qt
+
+from app.ui.cut.colouring import CutColour
+from app.ui.cut.entries import EntryColour
+from app.ui.views import View
+from tests.ui.cut.real_cut import real_shown
+
+WAIT_MS = 20_000
+
+
+@pytest.fixture
+def beside(qtbot, wiring):
+    wiring.showing.show_view(View.CUT)
+    wiring.cutting._show(real_shown())
+    qtbot.waitUntil(lambda: wiring.window_.views.cut.painting.fine, timeout=WAIT_MS)
+    return wiring
+
+
+def test_the_panel_stands_in_the_job_panels_place_while_there_is_a_cut(beside):
+    window = beside.window_
+    assert window.cut_panel.isVisible() and not window.panel.isVisible()
+    assert window.cut_panel.histogram.isVisible()
+    assert "mm²" in window.cut_panel.histogram.sums.text()
+    beside.showing.show_view(View.DRAW)
+    assert window.panel.isVisible() and not window.cut_panel.isVisible()
+
+
+def test_a_place_is_gone_to_and_its_line_is_shown(qtbot, beside):
+    panel, view = beside.window_.cut_panel, beside.window_.views.cut
+    at = next(k for k, entry in enumerate(panel.entries) if entry.colour is EntryColour.GOUGE and entry.line == 13)
+    qtbot.mouseClick(panel.rows[at], Qt.MouseButton.LeftButton)
+    assert panel.rows[at].property("chosen") == "true"
+    assert panel.text.isVisible() and panel.text.current == 12
+    assert view.colour is CutColour.DEVIATION
+    place = panel.entries[at].place
+    qtbot.waitUntil(lambda: _near_the_middle(view, place), timeout=WAIT_MS)
+    assert view.overlay.pin.place == place
+    qtbot.keyClick(panel.rows[at], Qt.Key.Key_Down)
+    assert panel.chosen is panel.entries[at + 1]
+    view.setFocus()
+    qtbot.keyClick(view, Qt.Key.Key_Escape)
+    assert view.overlay.pin is None
+
+
+def _near_the_middle(view, place):
+    x, y, _ = view.camera.project([place], (view.width(), view.height()))[0]
+    return abs(y - view.height() / 2) < 5 and 0 < x < view.width() - view.legend.width()
+
+
+def test_what_is_said_of_a_place_fits_into_a_small_window(qtbot, beside):
+    window = beside.window_
+    window.resize(1100, 700)
+    qtbot.mouseClick(window.cut_panel.rows[0], Qt.MouseButton.LeftButton)
+    assert not window.cut_panel.histogram.isVisible()
+    assert window.cut_panel.go.isVisible()
+    window.resize(1100, 1000)
+    qtbot.waitUntil(window.cut_panel.histogram.isVisible, timeout=WAIT_MS)
+
+
+def test_the_metal_that_is_pointed_at_shows_its_line_beside_it(beside):
+    panel, view = beside.window_.cut_panel, beside.window_.views.cut
+    motion = int(view.picture.move.max())
+    panel.show_line(motion)
+    assert panel.text.current + 1 == view.picture.moves.line[motion]
