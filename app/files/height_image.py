@@ -33,6 +33,9 @@ _SEEN = 3
 
 _HATCH = 7
 
+_FLOOR = 1e-4
+"""mm over the floor up to which a mean of cells without metal can lie by rounding."""
+
 
 @dataclass(frozen=True, eq=False)
 class HeightImage:
@@ -85,7 +88,7 @@ def _colours(heights: Shades, image: HeightImage) -> Pixels:
     place = np.clip((image.top - heights) * np.float32(255.0 / depth), 0, 255).astype(np.uint8)
     table = np.stack([np.interp(np.linspace(0, len(RAMP) - 1, 256), range(len(RAMP)), [c[k] for c in RAMP]) for k in range(3)], axis=1)
     colours = np.asarray(cv2.LUT(cv2.merge([place] * 3), table.round().astype(np.uint8)[None]), np.uint8)
-    colours[heights <= np.float32(image.floor)] = NOTHING
+    colours[heights <= np.float32(image.floor + _FLOOR)] = NOTHING
     return colours
 
 
