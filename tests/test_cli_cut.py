@@ -131,6 +131,8 @@ def test_heights_are_as_they_are_told_and_can_be_cut_again(slot: Path, tmp_path:
     second.write_text(SLOT.replace("Z-2", "Z-3"))
     again = report_of(tmp_path, second, "--stock", out, "--tool=1=flat:6", "--grid", "500")
     assert again["removed_mm3"] == pytest.approx((LENGTH * 6 + 9 * math.pi) * 1.0, rel=3e-3)
+    part = report_of(tmp_path, second, "--stock", out, "--tool=1=flat:6", "--window", "20,0,30,20", "--grid", "400")
+    assert part["removed_mm3"] == pytest.approx(10 * 6 * 1.0, rel=1e-2)
     assert read_heights("h", out.read_bytes(), (tmp_path / "h.json").read_bytes()).workpiece.floor == -10
 
 

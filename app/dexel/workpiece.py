@@ -160,7 +160,7 @@ class HeightStock:
         ensure_memory(grid, 4)
         cols = np.floor((grid.xs() - old.x0) / old.pitch).astype(np.int64)
         rows = np.floor((grid.ys() - old.y0) / old.pitch).astype(np.int64)
-        heights = self.workpiece.heights[np.clip(rows, 0, old.rows - 1)][:, np.clip(cols, 0, old.cols - 1)]
+        heights = self.workpiece.heights[np.clip(rows, 0, old.rows - 1)[:, None], np.clip(cols, 0, old.cols - 1)]
         heights[(rows < 0) | (rows >= old.rows)] = self.workpiece.floor
         heights[:, (cols < 0) | (cols >= old.cols)] = self.workpiece.floor
         return Workpiece(grid, heights, self.workpiece.floor)
