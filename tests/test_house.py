@@ -121,7 +121,7 @@ def test_every_kernel_file_is_warmed() -> None:
 def test_a_kernel_that_calls_a_changed_kernel_of_another_file_is_compiled_again(tmp_path: Path) -> None:
     room = tmp_path / "app" / "room"
     room.mkdir(parents=True)
-    for path in ("__init__.py", "jit.py"):
+    for path in ("__init__.py", "jit.py", "errors.py"):
         shutil.copy(ROOT / "app" / path, tmp_path / "app")
     inner, outer = room / "inner_kernels.py", room / "outer_kernels.py"
     header = "from app.jit import kernel\n"
