@@ -148,6 +148,31 @@ def test_a_window_is_cut_as_finely(slot: Path, tmp_path: Path) -> None:
     assert data["removed_mm3"] == pytest.approx(2 * (5 * 6 + 4.5 * math.pi), rel=5e-3)
 
 
+def test_tools_of_a_job_file(slot: Path, tmp_path: Path) -> None:
+    job = tmp_path / "j.toml"
+    job.write_text('[[tool]]\nnumber = 1\ndiameter = 6\nkind = "v"\ntip_angle = 90\n[[operation]]\nkind = "pocket"\ntool = 1\n')
+    data = report_of(tmp_path, slot, STOCK, "--job", job)
+    assert data["removed_mm3"] == pytest.approx(4 * LENGTH + math.pi * 8 / 3, rel=3e-3)
+    assert (data["tools"][0]["from"], data["tools"][0]["tip_angle_deg"]) == ("the job file", pytest.approx(90))
+    assert report_of(tmp_path, slot, STOCK, "--job", job, "--tool=1=flat:6")["tools"][0]["from"] == "--tool"
+    job.write_text("[stock]\nthickness = 5\n")
+    assert cut(slot, STOCK, "--job", job) == 2
+
+
+def test_tools_and_their_lengths_of_a_tool_table(slot: Path, tmp_path: Path) -> None:
+    table, library = tmp_path / "t.tbl", tmp_path / "t.toml"
+    table.write_text("T1 P1 Z0.5 D0.25\nT2 P2 Z1\n")
+    slot.write_text(SLOT.replace("G0 Z5\nX10", "G43\nG0 Z5\nX10"))
+    data = report_of(tmp_path, slot, STOCK, "--tools", table, "--tool-units", "in")
+    assert (data["tools"][0]["from"], data["tools"][0]["diameter_mm"]) == ("t.tbl", pytest.approx(6.35))
+    assert data["removed_mm3"] == pytest.approx(2 * (LENGTH * 6.35 + math.pi * 6.35**2 / 4), rel=3e-3)
+    assert data["assumed"] == ["T1: t.tbl tells no shapes, so it is taken to be flat, 6.35 mm; --tool says otherwise."]
+    assert report_of(tmp_path, slot, STOCK, "--tools", table, "--tool-units", "in", "--tool=1=ball:6")["assumed"] == []
+    library.write_text("format = 1\n[[tool]]\nnumber = 1\ndiameter = 6.0\nkind = \"ball\"\n")
+    made = report_of(tmp_path, slot, STOCK, "--tools", library)
+    assert (made["tools"][0]["kind"], made["tools"][0]["from"], made["assumed"]) == ("ball", "t.toml", [])
+
+
 def test_the_picture_is_one(slot: Path, tmp_path: Path) -> None:
     assert cut(slot, STOCK, "--tool=1=flat:6", "--image", tmp_path / "o.png", "--quiet") == 0
     picture = cv2.imread(str(tmp_path / "o.png"))

@@ -143,7 +143,7 @@ def _judged(done: CutProgram, motions: _Motions) -> Json:
             "bands": [{"low_mm": _finite(band.low), "high_mm": _finite(band.high), "area_mm2": band.area_mm2} for band in judged.bands],
             "certificate": asdict(judged.certificate) if judged.certificate is not None else None,
         }  # fmt: skip
-    rapids = [{"x": hit.x, "y": hit.y, "z": float(min(motions.start[hit.motion], motions.end[hit.motion])), **motions.where(hit.motion),
+    rapids = [{"x": hit.x, "y": hit.y, "z": hit.z, **motions.where(hit.motion),
                "depth_mm": hit.depth, "cells": hit.cells} for hit in done.cut.rapids]  # fmt: skip
     return {"removed_mm3": done.cut.removed_volume, **told, "rapids_in_material": rapids}
 

@@ -77,8 +77,8 @@ def test_cusps_of_a_ball_are_seen() -> None:
 @pytest.mark.parametrize("cells", [128, 1024, 3000])
 def test_what_is_wrong_is_seen_however_small(cells: int) -> None:
     heights, deviation, beyond = flat(cells, cells, -2.0), flat(cells, cells), np.zeros((cells, cells), bool)
-    deviation[cells // 4, cells // 4] = -0.02
-    deviation[cells // 2, cells // 2] = 0.02
+    deviation[cells // 4 + 1, cells // 4 + 1] = -0.02
+    deviation[cells // 2 + 1, cells // 2 + 1] = 0.02
     deviation[3 * cells // 4 : 3 * cells // 4 + cells // 16, 3 * cells // 4 : 3 * cells // 4 + cells // 16] = 2.0
     beyond[deviation > 1] = True
     shown = metal(HeightImage(heights, 0.1, 0.0, -10.0, "p", deviation, beyond, 0.01))
