@@ -116,7 +116,7 @@ def _lengths(text: str, count: int, form: str) -> Corners:
         if len(values) == count:
             return [length(value) for value in values]
     except CommandError as error:
-        raise InputError(f"'{text}': {error.reason}") from error
+        raise InputError(f"'{text}': {error.reason.rstrip('.')}") from error
     raise InputError(f"'{text}' has {_counted(values)}; write {count}: {form}")
 
 

@@ -21,6 +21,7 @@ from app.workflow.judgement import Judgement, Spot
 from app.workflow.parts import SolidPart
 from app.workflow.report import TIME_METHOD
 from app.workflow.setup import Ready
+from app.workflow.setup_stock import cut_box
 from app.workflow.setup_tools import KnownTool
 
 Json = dict[str, Any]
@@ -185,11 +186,12 @@ def _said(findings: tuple[Finding, ...]) -> Json:
 
 def _about(done: CutProgram, ready: Ready, motions: _Motions) -> Json:
     """Return what was cut out of what, with what, how finely."""
-    grid, box = done.cut.before.grid, done.setup.stock.box
+    grid, box, ends = done.cut.before.grid, done.setup.stock.box, zip(("low", "high"), cut_box(ready.programs).tolist(), strict=True)
     return {
         "engine": ENGINE, "tolerance": _tolerance(done),
         "grid": {"x0": grid.x0, "y0": grid.y0, "pitch_mm": grid.pitch, "rows": grid.rows, "cols": grid.cols},
         "window": done.options.window, "coordinates": COORDINATES,
+        "extent_mm": {end: [_finite(value) for value in corner] for end, corner in ends},
         "stock": {"low": [*box[:2], done.floor], "high": [*box[2:], done.top], "from": ready.stock.source},
         "tools": [_tool(number, known, done, motions, ready) for number, known in ready.tools.items()],
         "programs": [_program(each) for each in ready.programs],
@@ -240,9 +242,16 @@ def _summary(data: Json) -> Iterator[str]:
     if certificate is not None:
         yield (f"  between the cells, {certificate['pitch_mm']:.4g} mm wide, too: no point deeper than {certificate['gouge_mm']:.4f} mm "
                "inside the part was cut")
+    if not data["removed_mm3"]:
+        yield f"  nothing was removed: the motions at feed rate reach {_words(data['extent_mm'])}, and the stock {_words(data['stock'])}"
     for tool in data["tools"]:
         yield (f"  T{tool['number']} {tool['kind']} {tool['diameter_mm']:g} mm ({tool['from']}): {tool['removed_mm3']:.1f} mm3, "
                f"{_clock(tool['time_s'])} min")
+
+
+def _words(box: Json) -> str:
+    sides = zip("XYZ", box["low"], box["high"], strict=True)
+    return ", ".join(f"{axis} {low:.3f} to {high:.3f}" for axis, low, high in sides if low is not None) + " mm"
 
 
 def _counted(count: int, what: str) -> str:

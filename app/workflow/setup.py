@@ -15,7 +15,7 @@ from app.files.job_toml import JobFile
 from app.model.finding import Finding
 from app.model.job import Job, OriginXY, OriginZ
 from app.model.job import Stock as JobStock
-from app.model.motion import MotionKind
+from app.model.motion import Floats, MotionKind
 from app.model.operation import ContourOperation, Cut, Operation, PocketOperation
 from app.model.part import Part as DrawnPart
 from app.model.part import Region, Units
@@ -123,7 +123,16 @@ def _stock(programs: tuple[Examined, ...], tools: dict[int, KnownTool], part: Pa
         box, (x, y, z) = stock_box(part.job, part.regions), part.origin
         moved = replace(box, x0=box.x0 - x, y0=box.y0 - y, z0=box.z0 - z, x1=box.x1 - x, y1=box.y1 - y, z1=box.z1 - z)
         return KnownStock(BoxStock(moved), "the job file, round the drawing")
-    return told_stock(programs, max(each.tool.radius for each in tools.values()))
+    return told_stock(programs, max(each.tool.radius for each in tools.values()), None if part is None else _part_box(part))
+
+
+def _part_box(part: Part) -> Floats:
+    """Return (2, 3) lower and upper corner of a part, program coordinates: of a drawing from its floor to its top."""
+    if isinstance(part, SolidPart):
+        corners = part.solid.triangles.reshape(-1, 3)
+        return np.array([corners.min(axis=0), corners.max(axis=0)])
+    box, depth = stock_box(replace(part.job, stock=JobStock()), part.regions), max(each.cut.depth for each in part.job.operations)
+    return np.array([[box.x0, box.y0, -depth], [box.x1, box.y1, 0.0]]) - part.origin
 
 
 def _part(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> tuple[Part, tuple[Finding, ...]]:

@@ -72,40 +72,44 @@ def cut_box(programs: tuple[Examined, ...]) -> Floats:
     return np.array([np.fmin.reduce(low), np.fmax.reduce(high)])
 
 
-def told_stock(programs: tuple[Examined, ...], radius: float) -> KnownStock:
-    """Return the stock that comments tell of, or else a box round the cuts.
+def told_stock(programs: tuple[Examined, ...], radius: float, part: Floats | None = None) -> KnownStock:
+    """Return the stock that comments tell of, or else a box round the cuts, and round the part.
 
     Args:
         programs: in the order of cutting; the first one that tells is believed.
         radius: of the largest cutter, mm.
+        part: (2, 3) lower and upper corner of what is to come out; None = nobody has said.
 
     Raises:
         InputError: neither gives a box.
     """
     cuts = cut_box(programs)
+    around = _round(cuts, radius) if part is None else _with_part(_round(cuts, radius), part)
     for examined in programs:
         note = examined.program.stock
         if note is not None:
-            return _noted(note, examined, programs, radius)
-    return _assumed(_round(programs[0].name, cuts, radius))
+            return _noted(note, examined.name, cuts, around)
+    if not np.all(around[1] > around[0]):
+        raise _nothing(programs[0].name)
+    what = "the cuts" if part is None else "the cuts and the part"
+    text = f"The stock is not told; a box round {what} is assumed, {_words(*around)}; {HINT}."
+    return KnownStock(BoxStock(_box(*around)), f"round {what}", Finding(FindingKind.ASSUMED, text, counts=False))
 
 
-def _noted(note: StockNote, examined: Examined, programs: tuple[Examined, ...], radius: float) -> KnownStock:
+def _noted(note: StockNote, name: str, cuts: Floats, around: Floats) -> KnownStock:
     """Return the box of a comment; what it leaves open is as the cuts suggest."""
     source = f"the comment in line {note.line}"
     low, high, size = (np.array(values) for values in (note.low, note.high, note.size))
     if np.isfinite([low, high]).all():
         return KnownStock(BoxStock(_box(low, high)), source)
-    cuts = cut_box(programs)
     sized = np.isnan(low) & np.isfinite(size)
     low, words = _placed(low, size, cuts, sized)
     high = np.where(sized, low + size, high)
     if np.isnan([low, high]).any():
-        around = _round(examined.name, cuts, radius)
         low, high = np.where(np.isnan(low), around[0], low), np.where(np.isnan(high), around[1], high)
         words.append("where it tells nothing, round the cuts")
     if not np.all(high > low):
-        raise _nothing(examined.name)
+        raise _nothing(name)
     text = f"The {source.removeprefix('the ')} tells the stock but not where it lies: {', '.join(words)}, so {_words(low, high)}; {HINT}."
     return KnownStock(BoxStock(_box(low, high)), source, Finding(FindingKind.ASSUMED, text, counts=False))
 
@@ -130,19 +134,18 @@ def _beyond(low: Floats, size: Floats, cuts: Floats, axes: list[int]) -> float:
     return float(np.nansum((np.fmax(low - cuts[0], 0.0) + np.fmax(cuts[1] - low - size, 0.0))[axes]))
 
 
-def _round(name: str, cuts: Floats, radius: float) -> Floats:
+def _round(cuts: Floats, radius: float) -> Floats:
     """Return the box round the cuts, wider by a radius; its top is Z 0 where the cuts go below it, else the highest of them."""
     wide = np.array([radius, radius, 0.0])
     box = np.array([cuts[0] - wide, cuts[1] + wide])
     box[1, 2] = 0.0 if box[0, 2] < 0 else box[1, 2]
-    if not np.all(box[1] > box[0]):
-        raise _nothing(name)
     return box
 
 
-def _assumed(box: Floats) -> KnownStock:
-    text = f"The stock is not told; a box round the cuts is assumed, {_words(*box)}; {HINT}."
-    return KnownStock(BoxStock(_box(*box)), "round the cuts", Finding(FindingKind.ASSUMED, text, counts=False))
+def _with_part(box: Floats, part: Floats) -> Floats:
+    """Return the box that holds another one and a part; its top is the part's."""
+    low, high = np.fmin(box[0], part[0]), np.fmax(box[1], part[1])
+    return np.array([low, [high[0], high[1], part[1, 2]]])
 
 
 def _nothing(name: str) -> InputError:

@@ -165,6 +165,14 @@ def test_a_box_round_the_cuts_is_said_with_all_its_numbers() -> None:
     assert (above.setup.stock.solid.z0, above.setup.stock.solid.z1) == (1, 5)
 
 
+def test_a_box_that_is_assumed_holds_the_part(samples: Path) -> None:
+    against = ("fig2.dxf", (samples / "fig2.dxf").read_bytes())
+    made = ready(f"(T1 flat 6 mm)\nT1 M6\n{CUT.replace('X40', 'X99')}", wishes=Wishes(against=against, depth=4.0))
+    assert isinstance(made.setup.stock, BoxStock)
+    assert made.setup.stock.solid == StockBox(6, 6, -4, 102, 96, 0)
+    assert "a box round the cuts and the part is assumed, X 6.000 to 102.000" in made.findings[0].text
+
+
 @pytest.mark.parametrize(("text", "words"), [
     ("(T1 flat 6 mm)\nT1 M6\nG0 Z5\nG0 X1 Y1\n", r"p1\.ngc: nothing is cut; the program has no motion at feed rate"),
     ("(T1 flat 6 mm)\nT1 M6\nG0 Z5 X0 Y0\nG1 X5 Y5 F100\n", r"no box can be laid round its cuts, as they do not go down; give it: --stock"),
