@@ -14,7 +14,7 @@ from app.cli_signals import stoppable
 from app.errors import Cancelled, HitofudeError
 
 DONE, WITH_FINDINGS, BAD_INPUT, CANCELLED = 0, 1, 2, 130
-LATER = ("stages", "smooth", "surface")
+LATER = ("smooth", "surface")
 HELP = """\
 Hitofude: from a line drawing to tool paths that can be trusted on a real machine.
 
@@ -22,6 +22,7 @@ Hitofude: from a line drawing to tool paths that can be trusted on a real machin
   hitofude make DRAWING -o OUT.ngc    a drawing into contour and pocket tool paths, as NC (make --help tells all)
   hitofude cut PROGRAM.ngc            any NC program cut out of its stock: what is left, gouges, rapids in metal (cut --help)
   hitofude check PROGRAM.ngc          any NC program: what is wrong, how far it reaches, how long it takes (check --help)
+  hitofude stages DRAWING -o DIR      the bitmap way of 1986, step by step, as pictures and codes (stages --help)
   hitofude --version                  this version
   hitofude --help                     this text
 
@@ -73,10 +74,14 @@ def _command(argv: list[str], stopped: threading.Event) -> int:
         from app.cli_check import check_command
 
         return check_command(rest, stopped)
+    if name == "stages":
+        from app.cli_stages import stages_command
+
+        return stages_command(rest, stopped)
     if name in LATER:
-        _say(f"the command '{name}' is not part of this version yet; 'make', 'cut' and 'check' are, see hitofude --help")
+        _say(f"the command '{name}' is not part of this version yet; 'make', 'cut', 'check' and 'stages' are, see hitofude --help")
         return BAD_INPUT
-    _say(f"there is no command '{name}'; use 'make', 'cut', 'check' or 'open', see hitofude --help")
+    _say(f"there is no command '{name}'; use 'make', 'cut', 'check', 'stages' or 'open', see hitofude --help")
     return BAD_INPUT
 
 

@@ -85,17 +85,18 @@ def number(what: str, *, least: float | None = None, unit: str = "mm") -> Callab
     return read
 
 
-def _stepover(text: str) -> Stepover:
+def stepover(text: str) -> Stepover:
+    """Return a distance between rings, in mm or per cent of the diameter, for argparse."""
     percent = text.strip().endswith("%")
     try:
-        stepover = Stepover(float(text.strip()[:-1]) if percent else length(text), percent)
+        asked = Stepover(float(text.strip()[:-1]) if percent else length(text), percent)
     except (InputError, ValueError) as error:
         raise argparse.ArgumentTypeError(f"is wrong: '{text}' is neither a length nor per cent; write one such as 1.5mm or 40%") from error
     least, unit = (LEAST_PER_CENT, "%") if percent else (LEAST_LENGTH, "mm")
-    if not least <= stepover.value < (100 if percent else 1e5):
-        raise argparse.ArgumentTypeError(f"is {stepover.value:g} {unit}; it must be {least:g} {unit} or more and less than "
+    if not least <= asked.value < (100 if percent else 1e5):
+        raise argparse.ArgumentTypeError(f"is {asked.value:g} {unit}; it must be {least:g} {unit} or more and less than "
                                          "the tool's diameter (100 %)")
-    return stepover
+    return asked
 
 
 def join_tolerance(text: str) -> float:
@@ -154,7 +155,7 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
 def _tool_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--contour-tool", metavar="D", type=number("diameter"), help="diameter of the tool that follows the walls")
     group.add_argument("--pocket-tool", metavar="D", type=number("diameter"), help="diameter of the tool that clears the area")
-    group.add_argument("--stepover", metavar="MM|%", type=_stepover, help="distance between rings, from 1%% or 0.001 mm (default 50%%)")
+    group.add_argument("--stepover", metavar="MM|%", type=stepover, help="distance between rings, from 1%% or 0.001 mm (default 50%%)")
     group.add_argument("--overlap", metavar="MM", type=number("overlap"), help="the same as diameter - stepover")
     group.add_argument("--depth", metavar="Z", type=number("depth", least=LEAST_LENGTH),
                        help="depth of the floor, 0.001 mm or more (default 2)")

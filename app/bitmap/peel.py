@@ -2,43 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.bitmap.border import borders_of
+from app.bitmap.border import Border, borders_of
 from app.bitmap.trace import Chain
 from app.bitmap.walls import Mask
 
 Floats = NDArray[np.float32]
-PeelWatcher = Callable[[int, Mask, tuple[Chain, ...]], None]
-"""Gets how many peels are off, what is left, and the borders that the next one would take."""
+def peels(area: Mask, count: int, *, keep_ends: bool = False) -> Iterator[tuple[Mask, tuple[Border, ...]]]:
+    """Steps 301-305: take the border pixels off an area, `count` times at most; yield what is left, and what was taken.
 
-
-def peel(area: Mask, count: int, *, keep_ends: bool = False, watcher: PeelWatcher | None = None) -> Mask:
-    """Steps 301-305: take the border pixels off an area, `count` times.
-
-    What is left is exactly what lies farther than `count` from the outside in city blocks (steps along rows and
-    columns), which is why the text corrects it by circles.
+    What is left is exactly what lies farther than the number of peels from the outside in city blocks (steps along rows
+    and columns), which is why the text corrects it by circles.
 
     Args:
         area: (rows, cols).
         count: peels, >= 0.
         keep_ends: leave border pixels where the chain turns right back, so that lines of one pixel do not grow shorter:
             the exception of step 304, which the circle's correction undoes.
-        watcher: is shown every peel.
     """
-    left = area.copy()
-    for done in range(count):
-        chains = tuple(border.chain for border in borders_of(left))
-        if not chains:
-            break
-        if watcher is not None:
-            watcher(done, left, chains)
-        for chain in chains:
+    left = area
+    for _ in range(count):
+        borders = borders_of(left)
+        if not borders:
+            return
+        left = left.copy()
+        for border in borders:
+            chain = border.chain
             pixels = chain.pixels()[:-1][~_turns_back(chain)] if keep_ends else chain.pixels()
             left[tuple(pixels.T)] = False
+        yield left, borders
+
+
+def peeled(area: Mask, count: int) -> Mask:
+    """Return what is left of an area after some peels; see `peels`."""
+    left = area
+    for after, _ in peels(area, count):
+        left = after
     return left
 
 
@@ -88,7 +91,6 @@ def correct_by_circles(left: Mask, area: Mask, radius: float) -> Mask:
     return corrected
 
 
-def shrink(area: Mask, radius: float, watcher: PeelWatcher | None = None) -> Mask:
+def shrink(area: Mask, radius: float) -> Mask:
     """Return an area shrunk by a radius, px, measured from its frame: steps 301-307."""
-    return correct_by_circles(peel(area, int(radius), watcher=watcher), area, radius)
-
+    return correct_by_circles(peeled(area, int(radius)), area, radius)

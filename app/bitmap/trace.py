@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.bitmap.codes import PixelCode, Plane
+from app.bitmap.frame import Frame
+from app.geometry.primitives import Rows
 
 STEPS = np.array([(0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0), (1, 1)])
 """(row, column) step of directions 0 ... 7: 0 to the right, then counter-clockwise by 45 degrees."""
@@ -32,6 +35,17 @@ class Chain:
     def text(self) -> str:
         """Return the chain as one line: row, column, directions, end mark."""
         return f"{self.start[0]} {self.start[1]}: {''.join(map(str, self.directions))}."
+
+
+def chain_rows(frame: Frame, chains: Sequence[Chain]) -> Rows:
+    """Return closed lines (n, 8), mm, through the centres of some chains' pixels; a pixel alone is a line without length."""
+    rows = [np.zeros((0, 8))]
+    for chain in chains:
+        centres = frame.to_mm(chain.pixels()[:, ::-1].astype(np.float64) + 0.5)
+        own = np.zeros((max(len(chain.directions), 1), 8))
+        own[:, :2], own[:, 2:4] = centres[: len(own)], centres[-len(own) :]
+        rows.append(own)
+    return np.concatenate(rows)
 
 
 def trace(plane: Plane) -> tuple[tuple[Chain, ...], Plane]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from app.bitmap.draw import image_rows, rows_of
 from app.bitmap.frame import Frame
 from app.geometry.primitives import TURN, Rows
+from app.geometry.region import polygon_contour
 from app.model.part import Contour
 
 Mask = NDArray[np.bool_]
@@ -68,3 +69,32 @@ def wall_rows(frame: Frame, free: Mask) -> Rows:
     rows = np.zeros((len(sides), 8))
     rows[:, :2], rows[:, 2:4] = frame.to_mm(sides[:, :2]), frame.to_mm(sides[:, 2:])
     return rows
+
+
+def free_contours(frame: Frame, free: Mask) -> tuple[Contour, ...]:
+    """Return the closed contours of free areas along the pixels' edges, mm; areas that meet at a corner stay apart.
+
+    The free side lies on the left: outer contours run counter-clockwise, those of islands clockwise.
+    """
+    sides = outline_px(free)
+    from_corner: dict[tuple[int, int], list[int]] = {}
+    for k, (u, v) in enumerate(sides[:, :2].tolist()):
+        from_corner.setdefault((u, v), []).append(k)
+    contours = []
+    for first in range(len(sides)):
+        chain, k = [], first
+        while (left := from_corner.get((int(sides[k, 0]), int(sides[k, 1])), [])) and k in left:
+            left.remove(k)
+            chain.append(k)
+            k = _next_side(sides, k, from_corner.get((int(sides[k, 2]), int(sides[k, 3])), []))
+        if chain:
+            points = frame.to_mm(sides[chain, :2].astype(np.float64))
+            contours.append(polygon_contour([(x, y) for x, y in points.tolist()]))
+    return tuple(contours)
+
+
+def _next_side(sides: NDArray[np.int64], k: int, waiting: list[int]) -> int:
+    """Return which of the sides that begin where side k ends goes on with the same pixel: the one that turns left."""
+    along = sides[k, 2:] - sides[k, :2]
+    turns = [(int(along[0] * -(sides[j, 3] - sides[j, 1]) + along[1] * (sides[j, 2] - sides[j, 0])), j) for j in waiting]
+    return max(turns)[1] if turns else k

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from app.bitmap.codes import Plane
 from app.bitmap.draw import draw
 from app.bitmap.frame import POINTS, Frame
+from app.bitmap.peel import frame_pixels
 from app.bitmap.walls import Mask, free_pixels, wall_rows
 from app.errors import ParameterError
 from app.geometry import kernels
@@ -98,8 +99,23 @@ def part_of_regions(regions: Sequence[Region], size: BitmapSize) -> BitmapPart:
     if not free.any():
         raise ParameterError(f"Nothing of the drawing is as wide as a pixel of {frame.pitch:.3g} mm; "
                              "use a larger bitmap or a smaller pitch.")
-    squares = DistanceField.of(wall_rows(frame, free))
-    return BitmapPart(frame, tuple(regions), draw(frame, rows)[0], free, _labels(frame, free, regions), squares)
+    return BitmapPart(frame, tuple(regions), draw(frame, rows)[0], free, _labels(frame, free, regions), _squares(frame, free))
+
+
+def part_of_mask(frame: Frame, free: Mask, regions: Sequence[Region], ink: Mask | None = None) -> BitmapPart:
+    """Return the part that a picture shows.
+
+    Args:
+        free: pixels that a cutter may clear, some at least.
+        regions: the same along the pixels' edges.
+        ink: what is shown as its contours; None = the free pixels' own border.
+    """
+    drawn = (frame_pixels(free) if ink is None else ink).astype(np.uint8)
+    return BitmapPart(frame, tuple(regions), drawn, free, _labels(frame, free, regions), _squares(frame, free))
+
+
+def _squares(frame: Frame, free: Mask) -> DistanceField:
+    return DistanceField.of(wall_rows(frame, free))
 
 
 def _labels(frame: Frame, free: Mask, regions: Sequence[Region]) -> NDArray[np.int32]:

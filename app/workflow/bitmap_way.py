@@ -8,11 +8,11 @@ is metal along the walls: how much is measured too.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from app.bitmap.border import Border, borders_of
+from app.bitmap.border import Border, Index, borders_of
 from app.bitmap.levels import SAFE_PX, RingSteps, frame_distance, offset_area, ring_index
 from app.bitmap.trace import Chain
 from app.bitmap.walls import Mask
@@ -86,6 +86,8 @@ class OperationPaths:
         area: (rows, cols) pixels of A' (step 120).
         levels: paths by level, outermost first.
         distances: of the levels from the walls, mm.
+        pixels: (rows, cols) how many of the levels each pixel lies inside of.
+        steps: where a pocket's levels lie, from the frame of A'.
     """
 
     index: int
@@ -93,6 +95,8 @@ class OperationPaths:
     area: Mask
     levels: tuple[tuple[PixelPath, ...], ...]
     distances: tuple[float, ...]
+    pixels: Index
+    steps: RingSteps = field(default_factory=lambda: RingSteps(0.0, 1.0))
 
 
 @dataclass(frozen=True)
@@ -163,7 +167,7 @@ def _contour_paths(part: BitmapPart, index: int, cutter: tuple[Tool, Cut], progr
     wall = tool.radius + cut.stock_to_leave
     area = offset_area(part.free, wall / part.frame.pitch, TOLERANCE_PX)
     paths = _smoothed(part, (borders_of(area),), ((wall,), tool), progress)
-    return OperationPaths(index, wall, area, paths, (wall,))
+    return OperationPaths(index, wall, area, paths, (wall,), area.astype(np.uint16))
 
 
 def _pocket_paths(job: Job, part: BitmapPart, index: int, progress: Progress) -> OperationPaths:
@@ -182,7 +186,7 @@ def _pocket_paths(job: Job, part: BitmapPart, index: int, progress: Progress) ->
         by_level[border.level - 1].append(border)
     distances = tuple(wall + tool.radius + k * step for k in range(count))
     paths = _smoothed(part, by_level, (distances, tool), progress)
-    return OperationPaths(index, wall, area, paths, distances)
+    return OperationPaths(index, wall, area, paths, distances, index_plane, steps)
 
 
 def _stepover(operation: PocketOperation, tool: Tool, pitch: float) -> float:

@@ -109,12 +109,12 @@ def make_report(measured: Measured) -> Report:
         "extent_mm": {"cut": _box(written.box(cuts=True)), "all": _box(written.box(cuts=False)), "coordinates": "of the program"},
         "check": _check(written),
         "cut": _cut(measured.cut),
-        "skipped": [_finding(each) for each in _of(measured, FindingKind.REGION_TOO_SMALL, FindingKind.LEFT_OUT, FindingKind.TINY_ENTITY)],
-        "open_contours": [_finding(each) for each in _of(measured, FindingKind.OPEN_CONTOUR)],
+        "skipped": [as_values(each) for each in _of(measured, FindingKind.REGION_TOO_SMALL, FindingKind.LEFT_OUT, FindingKind.TINY_ENTITY)],
+        "open_contours": [as_values(each) for each in _of(measured, FindingKind.OPEN_CONTOUR)],
         "engine": "; ".join([ENGINE, *([rings_in_words(program.polyline_rings)] if program.polyline_rings else [])]),
         "polyline_rings": program.polyline_rings,
         "tolerance": _tolerance(measured),
-        "findings": [_finding(each) for each in measured.findings],
+        "findings": [as_values(each) for each in measured.findings],
         "regions": _regions(program),
         "area_check_mm2": {"exact": program.exact_area_mm2, "bitmap": program.bitmap_area_mm2, "pitch_mm": program.pitch_mm},
         "tools": [{"number": t.number, "kind": t.kind.value, "diameter_mm": t.diameter, "spindle_rpm": t.spindle_speed,
@@ -185,7 +185,8 @@ def _place(place: Place) -> Json:
     return {"x": place.x, "y": place.y, "area_mm2": place.area_mm2, "disc_mm": place.disc_mm, "reachable": place.reachable}
 
 
-def _finding(finding: Finding) -> Json:
+def as_values(finding: Finding) -> Json:
+    """Return a finding as a report lists it."""
     return {"kind": finding.kind.value, "text": finding.text, "x": finding.x, "y": finding.y, "counts": finding.counts,
             "amount": finding.amount}
 

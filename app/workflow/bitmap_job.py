@@ -1,0 +1,143 @@
+"""From the bytes of a drawing or a picture to a job and its part on the display memory."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+from pathlib import PurePath
+
+import numpy as np
+
+from app.bitmap.faces import Ambiguity, ambiguities, inner_faces, shows
+from app.bitmap.frame import Frame
+from app.bitmap.picture import Picture, PictureOptions, Shows, read_picture
+from app.bitmap.walls import Mask, free_contours
+from app.errors import GeometryError
+from app.files.drawing import read_drawing
+from app.geometry.region import nest
+from app.model.finding import Finding, FindingKind
+from app.model.job import Job
+from app.model.part import Entity, Part, Region
+from app.toolpath.compute import regions_of
+from app.workflow.bitmap_part import BitmapPart, BitmapSize, part_of_mask, part_of_regions
+from app.workflow.options import MakeOptions, job_with_options
+
+PICTURES = (".png", ".jpg", ".jpeg", ".bmp")
+"""Suffixes of pictures that can be read, in lower case."""
+
+_TOLD = 20
+"""Doubtful places of one kind that are findings of their own."""
+
+
+@dataclass(frozen=True)
+class BitmapOptions:
+    """How a drawing or a picture gets onto the display memory.
+
+    Attributes:
+        size: of the bitmap, for drawings; a picture has its own.
+        picture: how to read one.
+    """
+
+    size: BitmapSize = field(default_factory=BitmapSize)
+    picture: PictureOptions = field(default_factory=PictureOptions)
+
+
+@dataclass(frozen=True)
+class BitmapJob:
+    """A job whose part is pixels.
+
+    Attributes:
+        job: with the drawing, or the edges of the picture's pixels, as its part.
+        part: the pixels.
+        findings: of reading and chaining the drawing, or of what the picture leaves open.
+    """
+
+    job: Job
+    part: BitmapPart
+    findings: tuple[Finding, ...] = ()
+
+
+def is_picture(name: str) -> bool:
+    """Tell whether a file is a picture, by its suffix."""
+    return PurePath(name).suffix.lower() in PICTURES
+
+
+def bitmap_job(name: str, data: bytes, options: MakeOptions, bitmap: BitmapOptions) -> BitmapJob:
+    """Return the job for the bytes of a drawing or a picture.
+
+    Args:
+        name: file name; its suffix tells the format.
+
+    Raises:
+        HitofudeError: it cannot be used, or an option is out of its range.
+    """
+    if is_picture(name):
+        return picture_job(read_picture(name, data, bitmap.picture), options, bitmap.picture, PurePath(name).stem)
+    layers = options.layers or (options.job.layer_names if options.job else ())
+    drawing = read_drawing(name, data, options.units, layers)
+    job = job_with_options(drawing.part, options)
+    return drawn_job(job, bitmap.size, drawing.findings)
+
+
+def drawn_job(job: Job, size: BitmapSize, findings: tuple[Finding, ...] = ()) -> BitmapJob:
+    """Return a job with its drawing drawn on a bitmap.
+
+    Args:
+        findings: of reading the drawing.
+
+    Raises:
+        GeometryError: nothing in it is closed.
+        ParameterError: the bitmap cannot hold it.
+    """
+    regions, own = regions_of(job)
+    if not regions:
+        raise GeometryError(f"{job.part.name}: there is no closed contour to machine; draw one, or choose other layers.")
+    return BitmapJob(job, part_of_regions(regions, size), (*own, *findings))
+
+
+def picture_job(picture: Picture, options: MakeOptions, read: PictureOptions, name: str) -> BitmapJob:
+    """Return the job for a picture: its ink's areas, or what its lines enclose, one pixel of the picture one of the bitmap.
+
+    Raises:
+        GeometryError: nothing in it is to be machined.
+    """
+    kind = shows(picture.ink, read.shows)
+    free = picture.ink if kind is Shows.AREAS else inner_faces(picture.ink)
+    free = np.pad(free, 1)
+    frame = Frame(free.shape[0], free.shape[1], picture.pitch, -picture.pitch, -picture.pitch)
+    if not free.any():
+        what = "is inked" if kind is Shows.AREAS else "is enclosed by lines"
+        raise GeometryError(f"{name}: nothing in the picture {what}; change the threshold, invert it, or say whether its ink is lines "
+                            "or areas.")
+    regions = nest(free_contours(frame, free))
+    part = part_of_mask(frame, free, regions, np.pad(picture.ink, 1) if kind is Shows.LINES else None)
+    job = job_with_options(_as_part(regions, name), options)
+    return BitmapJob(job, part, tuple(_doubts(picture.ink, frame, kind)))
+
+
+def _as_part(regions: tuple[Region, ...], name: str) -> Part:
+    """Return the edges of a picture's pixels as a drawing."""
+    curves = [curve for region in regions for contour in region.contours for curve in contour.primitives]
+    return Part(name=name).with_entities(tuple(Entity(number, curve) for number, curve in enumerate(curves, 1)))
+
+
+def _doubts(ink: Mask, frame: Frame, kind: Shows) -> list[Finding]:
+    """Return the places that can be read in two ways, as findings; areas of ink leave none open."""
+    places = ambiguities(ink) if kind is Shows.LINES else ()
+    counts = Counter(place.doubt for place in places)
+    told: Counter[object] = Counter()
+    found = []
+    for place in places:
+        told[place.doubt] += 1
+        if told[place.doubt] <= _TOLD:
+            found.append(_doubt(place, frame, counts[place.doubt] - _TOLD if told[place.doubt] == _TOLD else 0))
+    return found
+
+
+def _doubt(place: Ambiguity, frame: Frame, more: int) -> Finding:
+    x, y = frame.to_mm(np.array([[place.col + 1, place.row + 1]]))[0].tolist()
+    others = f" ({more} more like it)" if more > 0 else ""
+    text = (f"At pixel {int(place.col)}, {int(place.row)} (column, row), ({x:.3f}, {y:.3f}), {place.doubt.value}{others}; "
+            "look at what will be machined there, and draw it clearer if it is wrong.")
+    return Finding(FindingKind.AMBIGUOUS, text, x, y, counts=False)
+
