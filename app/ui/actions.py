@@ -117,6 +117,7 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         Spec("nc_difference_before", "Previous difference", "Shift+F7"),
         Spec("nc_compare_end", "&End comparing"),
         SEPARATOR,
+        Spec("nc_cut", "Show the c&ut", "Ctrl+K"),
         Spec("nc_restart", "&Restart from this line…", "Ctrl+R"),
         Spec("nc_frame", "Show the fra&me of the job"),
         SEPARATOR,

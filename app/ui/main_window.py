@@ -17,6 +17,7 @@ from app.ui.canvas.canvas import Canvas
 from app.ui.command_line import CommandLine
 from app.ui.computation import Computation
 from app.ui.cut.cut_panel import CutPanel
+from app.ui.cut.setup_form import SetupForm
 from app.ui.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
 from app.ui.notice import Notice
 from app.ui.opening import SUFFIXES
@@ -51,6 +52,7 @@ class MainWindow(QMainWindow):
         self.actions_ = Actions(self)
         self.canvas = Canvas(document, self.theme)
         self.views, self.panel, self.cut_panel = Views(self.canvas), SidePanel(document), CutPanel()
+        self.cut_form = SetupForm()
         self.notice, self.command_line, self.status = Notice(), CommandLine(), StatusBar()
         self.top_bar, self.tool_strip = TopBar(self.actions_), ToolStrip(self.actions_)
         self.findings_list = FindingsList(self)
@@ -73,8 +75,9 @@ class MainWindow(QMainWindow):
         middle.addWidget(self.tool_strip)
         middle.addLayout(centre, 1)
         middle.addWidget(self.panel)
-        middle.addWidget(self.cut_panel)
-        self.cut_panel.hide()
+        for widget in (self.cut_panel, self.cut_form):
+            middle.addWidget(widget)
+            widget.hide()
         root = QWidget()
         root.setObjectName("root")
         column = QVBoxLayout(root)

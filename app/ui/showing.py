@@ -135,9 +135,15 @@ class Showing(QObject):
         missing = self._missing()
         self._empty_action = missing.action
         self._window.views.show_missing(missing.sentence, missing.button, made is not None)
-        beside_cut = self.view is View.CUT and self._window.cut_panel.shown is not None
-        self._window.panel.setVisible(not beside_cut)
-        self._window.cut_panel.setVisible(beside_cut)
+        self._show_side()
+
+    def _show_side(self) -> None:
+        """Have what belongs to the view at its right: the job, or what is known of the cut, or what is asked of it."""
+        window, beside_cut = self._window, self.view is View.CUT
+        asks, tells = beside_cut and window.cut_form.asked is not None, beside_cut and window.cut_panel.shown is not None
+        window.cut_form.setVisible(asks)
+        window.cut_panel.setVisible(tells and not asks)
+        window.panel.setVisible(not (asks or tells))
 
     def _missing(self) -> Missing:
         if self._has_something():
@@ -154,7 +160,7 @@ class Showing(QObject):
         """Return whether the view at the front shows something besides the drawing."""
         views = self._window.views
         if self.view is View.CUT:
-            return views.cut.picture is not None or bool(views.cut.failure)
+            return views.cut.picture is not None or bool(views.cut.sentence.text())
         return self._computation.made is not None or (self.view is View.NC and len(views.nc.pane.text.text) > 0)
 
     def show_hovered(self, text: str) -> None:

@@ -22,6 +22,7 @@ from app.ui.log import Log
 from app.ui.main_window import MainWindow
 from app.ui.memory import choose_theme
 from app.ui.nc.control import NcControl
+from app.ui.nc.reading import Shown
 from app.ui.nc.wiring import NcWiring
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.tool_exchange import ToolExchange
@@ -52,6 +53,7 @@ class Wiring(QObject):
         self.nc = NcControl(window, self.log)
         self.cutting = Cutting(window)
         self.cutting.shown.connect(self.showing.show_missing)
+        self.nc.cut_wanted.connect(self._show_cut)
         self.cutting.failed.connect(self._say_error)
         window.views.cut.cell_picked.connect(lambda x, y, z, motion: self._go_to_motion(motion))
         window.cut_panel.line_wanted.connect(self._go_to_motion)
@@ -170,12 +172,25 @@ class Wiring(QObject):
         if self.showing.view is View.DRAW:
             self.showing.show_view(View.PATHS)
 
+    def _show_cut(self, shown: Shown | None) -> None:
+        """Show the cut of another program, or the job's own."""
+        self.showing.show_view(View.CUT)
+        if shown is None:
+            self.cutting.back()
+        else:
+            self.cutting.show_program(shown)
+
     def _go_to_motion(self, motion: int) -> None:
-        """Show the line of the motion that cut the metal; of a program in one file, the others are not shown at once."""
-        made = self.computation.made
-        if motion >= 0 and made is not None and len(made.files) == 1 and not self.nc.foreign:
+        """Show the line of a motion of the cut program, if that is the one which the NC view shows, or can."""
+        cut, nc = self.cutting.cut, self.nc
+        if cut is None or motion < 0:
+            return
+        name = cut.names[cut.file_of(motion)]
+        if cut.given is None and nc.foreign:
+            nc.back()
+        if cut.given is None or (nc.source is not None and nc.source.name == name):
             self.showing.show_view(View.NC)
-            self.window_.views.nc.pick_motion(motion)
+            nc.pick_motion(cut.file_of(motion), cut.row_in_file(motion))
 
     def cancel(self) -> None:
         """Leave the running job."""

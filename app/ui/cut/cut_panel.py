@@ -60,6 +60,7 @@ class CutPanel(QWidget):
 
     Signals:
         picked(Entry): the user wants to see this place. line_wanted(motion): and its line in the NC view.
+        form_wanted(): tools and stock shall be others. left(): the job's own cut shall be shown.
 
     Attributes:
         shown: what it tells of; None = nothing. entries: the places. chosen: the one that was picked last.
@@ -67,6 +68,8 @@ class CutPanel(QWidget):
 
     picked = Signal(Entry)
     line_wanted = Signal(int)
+    form_wanted = Signal()
+    left = Signal()
 
     def __init__(self) -> None:
         super().__init__()
@@ -83,8 +86,11 @@ class CutPanel(QWidget):
         self.text, self.histogram = NcTextView(), HistogramPlot()
         self.inner, self.list, self.details = QWidget(), QScrollArea(), QWidget()
         self._rows = QVBoxLayout(self.inner)
+        self.foreign, self.form, self.back = QWidget(), QPushButton("Tools and stock…"), QPushButton("Back to the job's cut")
         self._lay_out()
         self.go.clicked.connect(self._want_line)
+        self.form.clicked.connect(self.form_wanted)
+        self.back.clicked.connect(self.left)
 
     def _lay_out(self) -> None:
         for label in (self.verdict, self.sentence):
@@ -115,6 +121,13 @@ class CutPanel(QWidget):
         column.addLayout(_indented(head))
         for widget in (self.verdict, self.cells):
             column.addLayout(_indented(widget))
+        row = QHBoxLayout(self.foreign)
+        row.setContentsMargins(EDGE - 4, 0, EDGE, 0)
+        for button in (self.form, self.back):
+            button.setProperty("role", "link")
+            row.addWidget(button)
+        row.addStretch(1)
+        column.addWidget(self.foreign)
         column.addWidget(hairline())
         column.addLayout(_indented(self.counted))
         column.addWidget(self.list, 1)
@@ -133,6 +146,7 @@ class CutPanel(QWidget):
             return
         grid = shown.cut.cut.before.grid
         self.name.setText(", ".join(shown.names))
+        self.foreign.setVisible(shown.given is not None)
         self.title.setText(title_of(shown))
         self.verdict.setText(sentences_of(shown))
         self.cells.setText(f"{grid.cols} {TIMES} {grid.rows} cells of {pitch_words(grid.pitch)}")

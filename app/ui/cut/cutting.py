@@ -1,7 +1,8 @@
-"""Shows the cut of the job's program as soon as it is computed."""
+"""Shows the cut of the job's program as soon as it is computed, and of any other program when that is asked for."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
@@ -11,11 +12,14 @@ from app.ui.computation import State
 from app.ui.cut.colouring import CutColour, key_of
 from app.ui.cut.cut_panel import colour_of
 from app.ui.cut.entries import Entry, EntryColour
+from app.ui.cut.foreign import Asked, Foreign, foreign_shown
+from app.ui.cut.given import Given
 from app.ui.cut.inks import inks_of
 from app.ui.cut.overlay import Pin
 from app.ui.cut.shown_cut import ProgramFile, ShownCut, shown_cut
 from app.ui.cut.zooming import Zooming
 from app.ui.main_window import MainWindow
+from app.ui.nc.reading import Shown
 from app.ui.worker import Answer, Worker
 
 if TYPE_CHECKING:
@@ -35,10 +39,12 @@ def job_shown(made: Made, name: str, colour: CutColour, progress: Progress) -> S
 
 
 class Cutting(QObject):
-    """Follows the computation; its own worker, so that it never holds up computing.
+    """Follows the computation, and shows the cut of another program when it is asked to.
+
+    Its own worker, so that it never holds up computing.
 
     Signals:
-        shown(): the view shows another cut, or none. failed(sentence).
+        shown(): the view shows another cut, or none, or something is asked for. failed(sentence).
 
     Attributes:
         cut: what is shown; None = nothing.
@@ -50,21 +56,51 @@ class Cutting(QObject):
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
         self._window, self._view, self._computation = window, window.views.cut, window.computation
+        self._panel, self._form = window.cut_panel, window.cut_form
         self.cut: ShownCut | None = None
+        self._own: ShownCut | None = None
+        self._foreign: Foreign | None = None
+        self._shown_foreign: Foreign | None = None
         self._made: object = None
-        self._job_id: int | None = None
-        self.worker = Worker(self)
-        self.worker.done.connect(self._on_done)
-        self.worker.failed.connect(self._on_failed)
+        self.worker, self.foreign_worker = Worker(self), Worker(self)
         self.zooming = Zooming(self._view, self)
-        self.zooming.failed.connect(self.failed)
-        window.status.cancelled.connect(self.worker.cancel)
-        for worker in (self.worker, self.zooming.worker, self._view.colours.worker):
+        self._connect()
+
+    def _connect(self) -> None:
+        window = self._window
+        for worker in (self.worker, self.foreign_worker):
+            worker.done.connect(self._on_done)
+            worker.failed.connect(self._on_failed)
+            window.status.cancelled.connect(worker.cancel)
+        self.foreign_worker.progress.connect(window.status.show_progress)
+        self.foreign_worker.busy_changed.connect(self._on_busy)
+        for worker in (self.worker, self.foreign_worker, self.zooming.worker, self._view.colours.worker):
             window.closed.connect(worker.finish)
+        self.zooming.failed.connect(self.failed)
         self._computation.changed.connect(self._follow)
         self._view.colours.known.connect(self._show_key)
-        self._panel = window.cut_panel
         self._panel.picked.connect(self._go_to)
+        self._panel.form_wanted.connect(self._open_form)
+        self._panel.left.connect(self.back)
+        self._form.accepted.connect(self._cut_as)
+        self._form.left.connect(self._leave_form)
+
+    def show_program(self, program: Shown) -> None:
+        """Cut a program that is none of the job's; what was there stays until it is cut."""
+        before = self._foreign
+        given = before.given if before is not None and before.source.bytes() == program.source.bytes() else Given()
+        made, job = self._computation.made, self._window.document.job
+        part = made.cut.setup.part if made is not None and made.cut is not None else None
+        self._foreign = Foreign(program.source, program.dialect, given, {tool.number: tool for tool in job.tools}, part)
+        self._cut_foreign()
+
+    def back(self) -> None:
+        """Show the job's own cut again."""
+        self.foreign_worker.cancel()
+        self._form.ask(None)
+        if self._foreign is not None or self.cut is not self._own:
+            self._foreign = self._shown_foreign = None
+            self._show(self._own)
 
     def _follow(self) -> None:
         made = self._computation.made
@@ -72,10 +108,38 @@ class Cutting(QObject):
             return
         self._made = made
         if made is None or made.cut is None:
-            self._show(None)
+            self._show_own(None)
             return
         name, colour = made.job.part.name, self._view.colour
-        self._job_id = self.worker.start(lambda progress: job_shown(made, name, colour, progress), 0)
+        self.worker.start(lambda progress: job_shown(made, name, colour, progress), 0)
+
+    def _cut_foreign(self) -> None:
+        foreign, colour = self._foreign, self._view.colour
+        if foreign is not None:
+            self.foreign_worker.start(lambda progress: foreign_shown(foreign, colour, progress), 0)
+
+    def _cut_as(self, given: Given) -> None:
+        """Cut the foreign program with other tools and stock."""
+        if self._foreign is not None:
+            self._foreign = replace(self._foreign, given=given)
+            self._cut_foreign()
+
+    def _open_form(self) -> None:
+        """Let the user say other tools and another stock."""
+        if self._foreign is not None and self.cut is not None and self.cut.given is not None:
+            self._form.ask(Asked("Other tools, or another stock, give another cut.", self._foreign, self.cut.given))
+            self.shown.emit()
+
+    def _leave_form(self) -> None:
+        self._form.ask(None)
+        if self.cut is None or self.cut.given is None:
+            self.back()
+        self.shown.emit()
+
+    def _show_own(self, cut: ShownCut | None) -> None:
+        self._own = cut
+        if self._foreign is None:
+            self._show(cut)
 
     def _show(self, cut: ShownCut | None) -> None:
         self.cut = cut
@@ -101,9 +165,22 @@ class Cutting(QObject):
         self._view.go_to(Pin(entry.place, entry.title, entry.words, colour_of(entry.colour, theme)), entry.field)
 
     def _on_done(self, answer: Answer) -> None:
-        if answer.job_id == self._job_id and isinstance(answer.value, ShownCut):
-            self._show(answer.value)
+        result = answer.value
+        if isinstance(result, Asked):
+            self._form.ask(result)
+            self.shown.emit()
+        elif isinstance(result, ShownCut) and result.given is not None:
+            self._form.ask(None)
+            self._shown_foreign = self._foreign
+            self._show(result)
+        elif isinstance(result, ShownCut):
+            self._show_own(result)
 
     def _on_failed(self, answer: Answer) -> None:
-        if answer.job_id == self._job_id:
-            self.failed.emit(answer.error or "")
+        self.failed.emit(answer.error or "")
+        if self._form.asked is None:
+            self._foreign = self._shown_foreign
+
+    def _on_busy(self, busy: bool) -> None:
+        if busy or not self._window.worker.busy:
+            self._window.status.show_progress(0.0 if busy else None)

@@ -10,6 +10,7 @@ import numpy as np
 from app.model.finding import Finding
 from app.progress import NO_PROGRESS, Progress
 from app.ui.cut.colouring import CutColour, prepare
+from app.ui.cut.given import Given
 from app.ui.cut.histogram import Histogram, histogram_of
 from app.ui.cut.picture import CutMoves, CutPaths, CutPicture, Floats
 from app.ui.cut.relief import Bytes
@@ -40,7 +41,8 @@ class ShownCut:
     Attributes:
         cut: the program, cut. picture: what is left, prepared for painting.
         names, texts: of its files, in the order of cutting. first: (files + 1,) where the motions of each file begin.
-        foreign: it is not the job's. assumed: what nobody has told, and was taken to be so.
+        given: with which tools and stock a program was cut that is not the job's; None = the job's own.
+        assumed: what nobody has told, and was taken to be so.
         histogram: how much of the area is how far from the part; None = there is no part.
     """
 
@@ -49,7 +51,7 @@ class ShownCut:
     names: tuple[str, ...]
     texts: tuple[ProgramText, ...]
     first: tuple[int, ...]
-    foreign: bool = False
+    given: Given | None = None
     assumed: tuple[Finding, ...] = ()
     histogram: Histogram | None = None
 

@@ -34,10 +34,12 @@ class NcControl(QObject):
     """Decides what the NC view shows; the drawing and its job are never touched from here.
 
     Signals:
-        changed(): another program, or none, is shown. failed(sentence).
+        changed(): another program, or none, is shown. failed(sentence). cut_wanted(Shown | None): the cut of another program
+            than the job's shall be shown; None = the job's.
     """
 
     changed = Signal()
+    cut_wanted = Signal(object)
     failed = Signal(str)
 
     def __init__(self, window: MainWindow, log: Log) -> None:
@@ -48,6 +50,7 @@ class NcControl(QObject):
         self._own_at = 0
         self._foreign: Source | None = None
         self._made: object = None
+        self._picked: int | None = None
         self.reading = Reading(self)
         self.reading.failed.connect(self.failed)
         self.reading.progress.connect(window.status.show_progress)
@@ -88,6 +91,13 @@ class NcControl(QObject):
             self._window.status.show_message("Pick the line to start from first.")
         else:
             self.reading.start(partial(restarted, shown, row + 1, self._view.side), partial(self._on_foreign, False))
+
+    def show_cut(self) -> None:
+        """Have what the shown program leaves of its stock shown."""
+        if self._foreign is not None and self._view.shown is not None:
+            self.cut_wanted.emit(self._view.shown)
+        else:
+            self.cut_wanted.emit(None)
 
     def show_frame(self) -> None:
         """Show the program that goes round the job's cuts at clearance height."""
@@ -212,6 +222,23 @@ class NcControl(QObject):
         self._own_at = index
         self._show_own()
 
+    def pick_motion(self, file: int, motion: int) -> None:
+        """Mark the line of a motion, once its program is read.
+
+        Args:
+            file: of the job's files; 0 for another program. motion: its row in that file.
+        """
+        self._picked = motion
+        if self._foreign is None and self._own_at != file:
+            self._show_file(file)
+        elif self._view.shown is not None:
+            self._pick()
+
+    def _pick(self) -> None:
+        motion, self._picked = self._picked, None
+        if motion is not None:
+            self._view.pick_motion(motion)
+
     def _show_own(self) -> None:
         source = self.source
         self._view.show_text(source.name if source is not None else "", program_text(source.bytes() if source is not None else b""))
@@ -223,6 +250,7 @@ class NcControl(QObject):
     def _on_own(self, shown: Shown) -> None:
         if self._foreign is None:
             self._view.show_program(shown)
+            self._pick()
             self.changed.emit()
 
     def _show_heads(self, guessed: Dialect | None = None) -> None:

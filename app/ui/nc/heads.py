@@ -131,10 +131,11 @@ class PathHead(QWidget):
     """Sides and colours of the path.
 
     Signals:
-        side_chosen(Side). colour_chosen(PathColour). fit_asked(): show everything.
+        side_chosen(Side). colour_chosen(PathColour). fit_asked(): show everything. cut_asked(): show what the program leaves.
     """
 
     fit_asked = Signal()
+    cut_asked = Signal()
     side_chosen = Signal(Side)
     colour_chosen = Signal(PathColour)
 
@@ -158,8 +159,15 @@ class PathHead(QWidget):
         row.addWidget(self.colour)
         self.fit = IconButton("fit", "Fit (F)")
         self.fit.clicked.connect(self.fit_asked)
+        self.cut = QPushButton("Show the cut")
+        self.cut.setProperty("role", "link")
+        self.cut.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.cut.setToolTip("Cut this program out of its stock and show what is left (Ctrl+K)")
+        self.cut.clicked.connect(self.cut_asked)
         row.addSpacing(4)
         row.addWidget(self.fit)
+        row.addSpacing(4)
+        row.addWidget(self.cut)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Leave out what explains itself where there is no room for it."""

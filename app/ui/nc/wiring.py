@@ -14,7 +14,7 @@ from app.ui.nc.motion_shapes import Side
 from app.ui.showing import Showing
 from app.ui.views import View
 
-_CONTEXT = ("nc_restart", "", "nc_find", "nc_line", "", "nc_compare", "nc_save", "nc_back")
+_CONTEXT = ("nc_cut", "nc_restart", "", "nc_find", "nc_line", "", "nc_compare", "nc_save", "nc_back")
 _SIDES = {"nc_xy": Side.XY, "nc_xz": Side.XZ, "nc_yz": Side.YZ}
 
 
@@ -35,6 +35,8 @@ class NcWiring(QObject):
         self._in_view("nc_problem", lambda: view.active.panel.step(1))
         self._in_view("nc_problem_before", lambda: view.active.panel.step(-1))
         self._on("nc_frame", control.show_frame)
+        self._on("nc_cut", control.show_cut)
+        view.path_head.cut_asked.connect(window.actions_["nc_cut"].trigger)
         self._in_view("nc_restart", control.restart_here)
         self._on("nc_compare", control.choose_to_compare)
         self._on("nc_compare_end", control.stop_comparing)
@@ -74,8 +76,9 @@ class NcWiring(QObject):
         comparing = self._view.compared is not None
         for name in ("nc_difference", "nc_difference_before", "nc_compare_end"):
             actions[name].setEnabled(comparing)
-        for name in ("nc_compare", "nc_restart"):
+        for name in ("nc_compare", "nc_restart", "nc_cut"):
             actions[name].setEnabled(self._view.shown is not None)
+        self._view.path_head.cut.setEnabled(self._view.shown is not None)
         for name in ("nc_problem", "nc_problem_before"):
             actions[name].setEnabled(bool(self._view.pane.problems or (comparing and self._view.other.problems)))
         self._showing.show_missing()
