@@ -178,64 +178,71 @@ def taper_run(line, first, blocks, where, move):
 
 @kernel("float32(float32, float32, float32, float32)")
 def _nearer(y, c, wide, deep):
-    """Return the next guess of Newton's method for `bull_contacts`."""
+    """Return the next guess of Newton's method for `bull_contact`."""
     w = _ONE / np.sqrt(_ONE + y * y)
     bend = wide * w
     return y + (c - (bend + deep) * y) / (bend * w * w + deep)
 
 
-@kernel("void(float32[::1], float32, float32, float32, float32)", counts=False)
-def bull_contacts(bends, c0, dc, wide, deep):
-    """Write y of the places where a fillet round a flat touches, for sixteen cells.
+@kernel("UniTuple(float32, 2)(float64, float64, float64)")
+def _tangent(y, wide, deep):
+    """Return the tangent at y to what `bull_contact` solves, as y of it = first * c + second."""
+    w = 1.0 / math.sqrt(1.0 + y * y)
+    rise = wide * w * w * w + deep
+    return _F(1.0 / rise), _F(y - (wide * w + deep) * y / rise)
 
-    With the tilt of the surface, tan(tilt) cos(phi) = s and (flat + fillet sin(tilt)) sin(phi) = |c|, phi being the bearing of
+
+@kernel("UniTuple(float32, 12)(float64, float64)")
+def bull_guesses(wide, deep):
+    """Return six straight lines that lie below what `bull_contact` solves: its tangents at 0, at infinity and between."""
+    return (_tangent(0.0, wide, deep) + (_F(1.0 / deep), _F(-wide / deep))
+            + _tangent(1.5, wide, deep) + _tangent(4.0, wide, deep) + _tangent(12.0, wide, deep) + _tangent(50.0, wide, deep))  # fmt: skip
+
+
+@kernel("float32(float32, float32, float32, UniTuple(float32, 12))")
+def bull_contact(c, wide, deep, lines):
+    """Return y of the place where a fillet round a flat touches.
+
+    With the tilt of the surface, tan(tilt) cos(phi) = s and (flat + fillet sin(tilt)) sin(phi) = c, phi being the bearing of
     the place from the move's direction. For y = sqrt((sin(tilt) sqrt(1 + s²) / s)² - 1) this is
-    flat sqrt(1 + s²) y / sqrt(1 + y²) + fillet s y = |c|: concave and rising, so Newton's steps from below stay below and
-    converge. The first guess is the best of the two asymptotes and four tangents, all of them below; after four steps z is less than
-    1e-10 (1 + s) of the radius too high, for fillets from a thousandth of the flat on (the error of z is the square of v's).
+    flat sqrt(1 + s²) y / sqrt(1 + y²) + fillet s y = c: concave and rising, so Newton's steps from below stay below and
+    converge. After four steps z is less than 1e-10 (1 + s) of the radius too high, for fillets from a thousandth of the flat on
+    (the error of z is the square of v's).
 
     Args:
-        bends: y of the cells.
-        c0, dc: distance of the first cell from the move's line, and its change from cell to cell, mm.
+        c: distance from the move's line, mm, >= 0.
         wide: flat * sqrt(1 + s²).
         deep: fillet * s, s > 0 being the rise of the move.
+        lines: `bull_guesses`, all of them below the curve; the highest one is the first guess.
     """
-    for k in range(LANES):
-        c = abs(c0 + dc * _F(k))
-        bends[k] = max(max(c / (wide + deep), (c - wide) / deep), max(_nearer(_F(1.5), c, wide, deep), _nearer(_F(4.0), c, wide, deep)))
-    for k in range(LANES):
-        c = abs(c0 + dc * _F(k))
-        bends[k] = max(bends[k], max(_nearer(_F(12.0), c, wide, deep), _nearer(_F(50.0), c, wide, deep)))
-    for _ in range(4):
-        for k in range(LANES):
-            bends[k] = _nearer(bends[k], abs(c0 + dc * _F(k)), wide, deep)
+    y = max(max(lines[0] * c, lines[2] * c + lines[3]), max(lines[4] * c + lines[5], lines[6] * c + lines[7]))
+    y = max(y, max(lines[8] * c + lines[9], lines[10] * c + lines[11]))
+    y = _nearer(_nearer(y, c, wide, deep), c, wide, deep)
+    return _nearer(_nearer(y, c, wide, deep), c, wide, deep)
 
 
-@kernel(_LINE.format(12))
+@kernel(_LINE.format(12), counts=False)
 def bull_run(line, first, blocks, where, move):
     """Lower a run under a bull-nose end on a slope. move: shape, s, z of both ends, r², flat * sqrt(1 + s²), fillet * s."""
     a0, b0, c0, da, dc = where
     shape, s, low, high = move[:6], move[6], move[7], move[8]
     r2, wide, deep = move[9], move[10], move[11]
-    stretch = _ONE + s * s
-    bends = np.empty(LANES, _F)
+    stretch, lines = _ONE + s * s, bull_guesses(wide, deep)
     for _ in range(blocks):
-        bull_contacts(bends, c0, dc, wide, deep)
+        part = line[first : first + LANES]
         for k in range(LANES):
             x = _F(k)
             a, b, c = a0 + da * x, b0 + da * x, c0 + dc * x
-            under = r2 - c * c
+            y = bull_contact(abs(c), wide, deep, lines)
+            c2, y2 = c * c, y * y
+            under, left = r2 - c2, _ONE - s * s * y2
             q = np.sqrt(under if under > _ZERO else _ZERO)
-            y2 = bends[k] * bends[k]
-            left = _ONE - s * s * y2
             v = (shape[1] + deep * np.sqrt((_ONE + y2) / stretch)) * np.sqrt((left if left > _ZERO else _ZERO) / (_ONE + y2))
             v = v if v < q else q
             before, after = a < v, b > v
             reach = a if before else (b if after else v)
-            bends[k] = (low if before else (high if after else low + s * (a - v))) + profile(c * c + reach * reach, shape)
-        part = line[first : first + LANES]
-        for k in range(LANES):
-            part[k] = bends[k] if bends[k] < part[k] else part[k]
+            z = (low if before else (high if after else low + s * (a - v))) + profile(c2 + reach * reach, shape)
+            part[k] = z if z < part[k] else part[k]
         first += LANES
         a0, b0, c0 = a0 + _STEP * da, b0 + _STEP * da, c0 + _STEP * dc
 

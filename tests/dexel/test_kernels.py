@@ -13,7 +13,7 @@ import numba
 from app.dexel import run_kernels, trace_kernels
 if not {"avx2", "+avx2"} & set(re.split(r"[, ]", numba.core.codegen.get_host_cpu_features())):
     print("no vectors here")
-runs = [getattr(run_kernels, name) for name in dir(run_kernels) if name.endswith(("_run", "_contacts"))]
+runs = [getattr(run_kernels, name) for name in dir(run_kernels) if name.endswith("_run")]
 for run in (*runs, trace_kernels.ball_trace):
     name, code = run.__name__, next(iter(run.inspect_asm().values()))
     own = code.split("cpython")[0]
