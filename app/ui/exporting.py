@@ -1,4 +1,4 @@
-"""Export NC: what is written is what was computed and measured; a finding is shown before the file is kept."""
+"""Export NC: what is written is what was computed, read back and cut; the verdict is shown before the file is kept."""
 
 from __future__ import annotations
 
@@ -12,9 +12,8 @@ from app.atomic import write_together
 from app.errors import HitofudeError
 from app.nc.posts import load_post
 from app.ui.computation import Computation, State
-from app.ui.figures import counted
 from app.ui.notice import Notice
-from app.ui.verdict import short, worst_first
+from app.ui.proof import proof, warning
 
 if TYPE_CHECKING:
     from app.workflow.make import Made
@@ -82,12 +81,11 @@ class Exporting(QObject):
         made = self._made()
         if made is None:
             return
-        counting = [f for f in worst_first(made.findings) if f.counts]
-        if not counting:
+        if made.clean:
+            self._notice.ask(proof(made))
             self._write()
             return
-        sentence = f"{counted(len(counting), 'finding')}; the worst: {short(counting[0])}. Look at it before the file is written."
-        self._notice.ask(sentence, [("Show findings", self.show_findings.emit), ("Write anyway", self._write)], error=True)
+        self._notice.ask(warning(made.findings), [("Show", self.show_findings.emit), ("Write anyway", self._write)], error=True)
 
     def _write(self) -> None:
         made = self._computation.made

@@ -45,7 +45,6 @@ class Files(QObject):
         self.opening.read.connect(lambda opened: showing.know_size(opened.job.part, opened.size))
         self.opening.opened.connect(self._on_opened)
         self.exporting.written.connect(self._on_written)
-        self.exporting.show_findings.connect(showing.open_findings)
 
     @property
     def _would_lose(self) -> bool:

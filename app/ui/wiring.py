@@ -84,6 +84,7 @@ class Wiring(QObject):
         self._on("quit", self.window_.close)
         files.opening.failed.connect(self._say_error)
         files.exporting.failed.connect(self._say_error)
+        files.exporting.show_findings.connect(self._show_worst)
 
     def _connect_edit(self) -> None:
         self._on("undo", self.document.undo)
@@ -171,6 +172,16 @@ class Wiring(QObject):
         self.computation.start()
         if self.showing.view is View.DRAW:
             self.showing.show_view(View.PATHS)
+
+    def _show_worst(self) -> None:
+        """Show the worst place of the job's cut where it is; what has none there is listed."""
+        self.cutting.back()
+        worst = next((entry for entry in self.window_.cut_panel.entries if entry.counts and entry.place is not None), None)
+        if worst is None:
+            self.showing.open_findings()
+            return
+        self.showing.show_view(View.CUT)
+        self.window_.cut_panel.choose(worst)
 
     def _show_cut(self, shown: Shown | None) -> None:
         """Show the cut of another program, or the job's own."""

@@ -2,7 +2,9 @@
 
 from dataclasses import replace
 
+from app.model.operation import Cut, PocketOperation
 from app.ui.computation import State
+from app.ui.views import View
 from tests.ui.conftest import WAIT_MS
 
 
@@ -36,3 +38,34 @@ def test_the_frame_is_computed_and_written(qtbot, computed, tmp_path):
     assert text == computed.computation.made.frame()
     assert "Z7.5000" in text
     assert "M3" not in text
+
+
+def test_what_was_proven_is_said_before_the_file_is_asked_for(qtbot, computed, tmp_path):
+    said = []
+    notice = computed.window_.notice
+    computed.files.exporting.choose_file = lambda ending: said.append((notice.isVisible(), notice.text.text())) or tmp_path / "part"
+    with qtbot.waitSignal(computed.files.exporting.written, timeout=WAIT_MS):
+        computed.files.exporting.start()
+    shown, sentence = said[0]
+    made = computed.computation.made
+    assert shown and "no gouge" in sentence and "nothing left within reach" in sentence
+    assert f"{made.cut.judgement.certificate.gouge_mm:.3f} mm into the part" in sentence
+    assert notice.property("error") == "false" and not notice.buttons
+
+
+def test_metal_left_is_shown_in_the_cut_before_anything_is_written(qtbot, computed, tmp_path):
+    document, exporting, window = computed.document, computed.files.exporting, computed.window_
+    asked = []
+    exporting.choose_file = lambda ending: asked.append(ending)
+    document.change_job("wide", replace(document.job, operations=(PocketOperation(Cut(1), stepover=5.9),)))
+    exporting.start()
+    notice = window.notice
+    qtbot.waitUntil(lambda: [button.text() for button in notice.buttons] == ["Show", "Write anyway"], timeout=WAIT_MS)
+    assert notice.text.text().startswith("1 finding: material left 200 mm² at (55.5, 36.0).")
+    assert not asked
+    made = computed.computation.made
+    qtbot.waitUntil(lambda: computed.cutting.cut is not None and computed.cutting.cut.cut is made.cut, timeout=WAIT_MS)
+    notice.buttons[0].click()
+    assert computed.showing.view is View.CUT
+    assert window.cut_panel.chosen.title.startswith("Left ") and window.views.cut.overlay.pin.place == window.cut_panel.chosen.place
+    assert not asked
