@@ -139,7 +139,7 @@ def _paint(colours: Pixels, mask: NDArray[np.bool_], colour: Rgb, hatched: bool)
     """Put a colour over the metal, its light and shadow shining through; hatched in stripes from lower left to upper right."""
     if hatched:
         rows, cols = np.ogrid[: mask.shape[0], : mask.shape[1]]
-        mask = mask & ((rows - cols) % _HATCH < _HATCH - 3)
+        mask = mask & ((rows - cols) % _HATCH < _HATCH - 2)
     light = colours[mask].mean(axis=1, keepdims=True) / 160.0
     colours[mask] = np.clip(np.array(colour) * np.clip(light, 0.55, 1.15), 0, 255).astype(np.uint8)
 
