@@ -33,46 +33,61 @@ SLACK = 1e-4
 _SHAPE = "UniTuple(float64, 7)"
 """Of a cutter: radius, flat, fillet, span of the fillet, slope of the cone (0 = none), lift over the tip, kind of runs."""
 
+_COURSE = "UniTuple(float64, 5)"
+"""Of a move: its horizontal length, direction (2) and rise, and the cosine of its pitch."""
+
 SHORT = 1e-7
 """mm; a move that goes no farther to the side goes straight up or down."""
 
 
-@kernel(f"float64({_SHAPE}, float64)")
-def lead(shape, s):
-    """Return how far ahead (or behind, s < 0) of its axis a cutter touches at most on a move with the rise s, mm."""
-    if s == 0.0:
+@kernel(f"{_COURSE}(UniTuple(float64, 3))")
+def course_of(way):
+    """Return the course of a way; its length is 0 where it goes straight up or down."""
+    x, y, z = way
+    size = math.sqrt(x * x + y * y)
+    if size <= SHORT:
+        return 0.0, 1.0, 0.0, 0.0, 1.0
+    share = 1.0 / size
+    s = z * share
+    return size, x * share, y * share, s, 1.0 / math.sqrt(1.0 + s * s)
+
+
+@kernel(f"float64({_SHAPE}, {_COURSE})")
+def lead(shape, course):
+    """Return how far ahead (or behind, where it falls) of its axis a cutter touches at most on a move, mm."""
+    size = abs(course[3])
+    if size == 0.0:
         return 0.0
-    size = abs(s)
-    ahead = shape[1] + shape[2] * size / math.sqrt(1.0 + s * s)
+    ahead = shape[1] + shape[2] * size * course[4]
     if shape[4] > 0.0:
         ahead = max(ahead, shape[0] * min(size / shape[4], 1.0))
     return min(ahead, shape[0])
 
 
-@kernel("float64(float64, float64, float64)")
-def normal_bound(s, s_next, cos_turn):
+@kernel(f"float64({_COURSE}, {_COURSE}, float64)")
+def normal_bound(course, onward, cos_turn):
     """Return the most that a normal of a corner's wedge leans along the first move's horizontal direction."""
-    cos_a, cos_b = 1.0 / math.sqrt(1.0 + s * s), 1.0 / math.sqrt(1.0 + s_next * s_next)
+    s, cos_a = course[3], course[4]
     sin_a = s * cos_a
-    cos_th = (cos_turn + s * s_next) * cos_a * cos_b
+    cos_th = (cos_turn + s * onward[3]) * cos_a * onward[4]
     sin_th = math.sqrt(max(0.0, 1.0 - cos_th * cos_th)) + SLACK
     if s < 0.0:
         return min(1.0, sin_th / cos_a) if cos_th > 0.0 else 1.0
     return min(1.0, sin_a * cos_th + cos_a * sin_th) if cos_a * cos_th - sin_a * sin_th > 0.0 else 1.0
 
 
-@kernel(f"float64({_SHAPE}, float64, float64, float64)")
-def corner(shape, s, s_next, cos_turn):
+@kernel(f"float64({_SHAPE}, {_COURSE}, {_COURSE})")
+def corner(shape, course, onward):
     """Return how far beyond a move's end the wedge of its corner with the next move reaches, mm.
 
     Args:
         shape: of the cutter.
-        s, s_next: rises of both moves.
-        cos_turn: cosine of the angle between their horizontal directions.
+        course, onward: of both moves.
     """
+    s_next, cos_turn = onward[3], course[1] * onward[1] + course[2] * onward[2]
     sin_turn = math.sqrt(max(0.0, 1.0 - cos_turn * cos_turn)) + SLACK
     aside = min(1.0, sin_turn) if cos_turn > 0.0 else 1.0
-    beyond = shape[1] * (1.0 if s_next > 0.0 else aside) + shape[2] * normal_bound(s, s_next, cos_turn)
+    beyond = shape[1] * (1.0 if s_next > 0.0 else aside) + shape[2] * normal_bound(course, onward, cos_turn)
     if s_next <= 0.0:
         return shape[0] * aside if shape[4] > 0.0 else min(beyond, shape[0] * aside)
     if shape[4] > 0.0:
@@ -83,22 +98,20 @@ def corner(shape, s, s_next, cos_turn):
     return min(beyond, shape[0])
 
 
-@kernel(f"UniTuple(float64, 2)({_SHAPE}, UniTuple(float64, 4), UniTuple(float64, 4), boolean, boolean)")
+@kernel(f"UniTuple(float64, 2)({_SHAPE}, {_COURSE}, {_COURSE}, boolean, boolean)")
 def reach(shape, course, onward, joins, goes_on):
     """Return from where to where along a straight move cells must be evaluated, mm from its start.
 
     Args:
         shape: of the cutter.
-        course: length, horizontal direction and rise of the move. onward: those of the next one.
+        course, onward: of the move and of the next one.
         joins: whether it begins where a straight move with the same cutter has ended. goes_on: whether such a one follows.
     """
-    length, ux, uy, s = course
-    radius = shape[0]
-    ahead = lead(shape, s)
+    length, s, radius = course[0], course[3], shape[0]
+    ahead = lead(shape, course)
     low, high = -radius, length + radius
     if joins:
         low = max(low, (-ahead if s < 0.0 else 0.0) - SLACK * radius)
     if goes_on:
-        beyond = corner(shape, s, onward[3], ux * onward[1] + uy * onward[2])
-        high = min(high, length + max(beyond, ahead if s > 0.0 else 0.0) + SLACK * radius)
+        high = min(high, length + max(corner(shape, course, onward), ahead if s > 0.0 else 0.0) + SLACK * radius)
     return low, high

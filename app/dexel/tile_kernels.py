@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from app.dexel.reach_kernels import SHORT, reach
+from app.dexel.reach_kernels import SHORT, course_of, reach
 from app.dexel.run_kernels import LANES
 from app.dexel.sweep_kernels import STRIDE, TILE, cut_straight, sweep_arc, trace_straight
 from app.dexel.trace_kernels import NOTES
@@ -17,35 +17,14 @@ NOTHING, CUTS, ASKS = range(3)
 
 _PLACES, _BEFORE, _SHAPE = "Array(float64, 2, 'C', True)", "Array(float32, 2, 'C', True)", "UniTuple(float64, 7)"
 _TABLES = "uint8[::1], int32[::1], int32[::1], float64[:, ::1], float64[:, ::1]"
-_COURSE = "UniTuple(float64, 4)"
+_COURSE = "UniTuple(float64, 5)"
 _BOX = "UniTuple(float64, 4)"
-
-
-@kernel(f"{_COURSE}(UniTuple(float64, 3))")
-def course_of(way):
-    """Return length, horizontal direction and rise of a way; the length is 0 where it goes straight up or down."""
-    x, y, z = way
-    size = math.sqrt(x * x + y * y)
-    if size <= SHORT:
-        return 0.0, 1.0, 0.0, 0.0
-    return size, x / size, y / size, z / size
-
-
-@kernel("boolean(UniTuple(int64, 3), UniTuple(int64, 3), UniTuple(float64, 3), UniTuple(float64, 3))")
-def goes_on(one, two, end, start):
-    """Return whether a piece begins where another ends, both straight and cut with one cutter.
-
-    Args:
-        one, two: what they do, their cutters and arcs. end: of the first. start: of the second.
-    """
-    alike = one[0] == CUTS and two[0] == CUTS and one[1] == two[1] and one[2] < 0 and two[2] < 0
-    return alike and end[0] == start[0] and end[1] == start[1] and end[2] == start[2]
 
 
 @kernel(f"{_BOX}(UniTuple(float64, 2), UniTuple(float64, 2), {_COURSE}, float64)")
 def box_of(span, place, course, radius):
     """Return the box of the cells at which a straight piece is evaluated: low x, low y, high x, high y."""
-    size, ux, uy, _ = course
+    size, ux, uy, _, _ = course
     if size == 0.0:
         return place[0] - radius, place[1] - radius, place[0] + radius, place[1] + radius
     half, middle = 0.5 * (span[1] - span[0]), 0.5 * (span[0] + span[1])
@@ -54,61 +33,14 @@ def box_of(span, place, course, radius):
     return x - wide, y - tall, x + wide, y + tall
 
 
-@kernel(f"void({_PLACES}, {_PLACES}, {_TABLES}, int64, int64, boolean, {_BOX}, float64[:, ::1])")
-def survey(start, end, does, cutter, arc, shapes, arcs, first, last, reduced, window, spans):
-    """Write between which places along them straight pieces must be evaluated, and the boxes of those cells.
-
-    Args:
-        start, end: of all n pieces.
-        does: NOTHING, CUTS or ASKS. cutter: row of the cutter. arc: row of the arc, -1: it is straight.
-        shapes: rows of cutters, as `reach_kernels` says.
-        arcs: rows of arcs: centre, radius, box.
-        first, last: the pieces to do are first … last - 1.
-        reduced: pieces that go on are evaluated without what the next one cuts as deep; what the one before has cut is always left out.
-        window: low x, low y, high x, high y; pieces outside it get a box outside it.
-        spans: (n, 6) from and to along straight pieces, mm (to < from: upright), low x, low y, high x, high y.
-    """
-    known, onward = False, (0.0, 1.0, 0.0, 0.0)
-    for i in range(first, last):
-        c, a = cutter[i], arc[i]
-        radius = shapes[c, 0]
-        x0, y0, x1, y1 = start[i, 0], start[i, 1], end[i, 0], end[i, 1]
-        box = (min(x0, x1) - radius, min(y0, y1) - radius, max(x0, x1) + radius, max(y0, y1) + radius)
-        if a >= 0:
-            box = (arcs[a, 3] - radius, arcs[a, 4] - radius, arcs[a, 5] + radius, arcs[a, 6] + radius)
-        spans[i, 2], spans[i, 3], spans[i, 4], spans[i, 5] = box
-        if a >= 0 or box[0] > window[2] or box[1] > window[3] or box[2] < window[0] or box[3] < window[1]:
-            known = False
-            continue
-        course = onward if known else course_of((x1 - x0, y1 - y0, end[i, 2] - start[i, 2]))
-        span, size = (0.0, -1.0), course[0]
-        me, before, joins = (int(does[i]), int(c), int(a)), known, False
-        if not known and i > 0:
-            he, k = (int(does[i - 1]), int(cutter[i - 1]), int(arc[i - 1])), i - 1
-            before = goes_on(he, me, (end[k, 0], end[k, 1], end[k, 2]), (x0, y0, start[i, 2])) and not (
-                abs(end[k, 0] - start[k, 0]) <= SHORT and abs(end[k, 1] - start[k, 1]) <= SHORT)  # fmt: skip
-        if i + 1 < len(cutter):
-            she, k = (int(does[i + 1]), int(cutter[i + 1]), int(arc[i + 1])), i + 1
-            if goes_on(me, she, (x1, y1, end[i, 2]), (start[k, 0], start[k, 1], start[k, 2])):
-                onward = course_of((end[k, 0] - x1, end[k, 1] - y1, end[k, 2] - end[i, 2]))
-                joins = size > 0.0 and onward[0] > 0.0
-        known = joins
-        if size > 0.0:
-            span = (-radius, size + radius)
-            if does[i] == CUTS:
-                shape = (radius, shapes[c, 1], shapes[c, 2], shapes[c, 3], shapes[c, 4], shapes[c, 5], shapes[c, 6])
-                span = reach(shape, course, onward, before, joins and reduced)
-        spans[i, 0], spans[i, 1] = span
-        spans[i, 2], spans[i, 3], spans[i, 4], spans[i, 5] = box_of(span, (x0, y0), course, radius)
-
-
 @kernel("UniTuple(int64, 4)(UniTuple(float64, 4), UniTuple(float64, 3), UniTuple(int64, 2))")
 def tiles_met(box, grid, extent):
     """Return the first and the last row and column of tiles that a box meets; the last before the first: none."""
     x0, y0, pitch = grid
     rows, cols = extent
-    first_col, last_col = max((box[0] - x0) / pitch - 1.0, 0.0), min((box[2] - x0) / pitch, cols - 1.0)
-    first_row, last_row = max((box[1] - y0) / pitch - 1.0, 0.0), min((box[3] - y0) / pitch, rows - 1.0)
+    cell = 1.0 / pitch
+    first_col, last_col = max((box[0] - x0) * cell - 1.0, 0.0), min((box[2] - x0) * cell, cols - 1.0)
+    first_row, last_row = max((box[1] - y0) * cell - 1.0, 0.0), min((box[3] - y0) * cell, rows - 1.0)
     if first_col > last_col or first_row > last_row:
         return 0, -1, 0, -1
     return int(first_row) // TILE, int(last_row) // TILE, int(first_col) // TILE, int(last_col) // TILE
@@ -131,56 +63,106 @@ def misses(way, centre, radius, half, curved):
     return size > SHORT and abs((x - way[0]) * dy - (y - way[1]) * dx) > near * size
 
 
-_SORTING = f"{_PLACES}, {_PLACES}, {_TABLES}, float64[:, ::1], UniTuple(float64, 3), UniTuple(int64, 2), int64, int64, float64"
-
-
-@kernel(f"void({_SORTING}, int64[::1], int64[::1])")
-def count(start, end, does, cutter, arc, shapes, arcs, spans, grid, extent, first, last, top, counts, votes):
-    """Count how many of the pieces first … last - 1 meet each tile, and how many cells their boxes are taller than wide.
+@kernel("boolean(UniTuple(int64, 3), UniTuple(int64, 3), UniTuple(float64, 3), UniTuple(float64, 3))")
+def goes_on(one, two, end, start):
+    """Return whether a piece begins where another ends, both straight and cut with one cutter.
 
     Args:
-        start, end, does, cutter, arc, shapes, arcs, spans: as for `survey`.
-        grid: x and y of the lower left corner, pitch, mm.
-        extent: rows and columns of cells.
-        first, last: of the pieces.
-        top: no metal is higher.
-        counts, votes: by tile. Votes are whole numbers, so that their sum does not depend on the order.
+        one, two: what they do, their cutters and arcs. end: of the first. start: of the second.
     """
-    pitch = grid[2]
-    half = 0.5 * TILE * pitch
-    across = (extent[1] + TILE - 1) // TILE
+    alike = one[0] == CUTS and two[0] == CUTS and one[1] == two[1] and one[2] < 0 and two[2] < 0
+    return alike and end[0] == start[0] and end[1] == start[1] and end[2] == start[2]
+
+
+_SORTING = f"{_PLACES}, {_PLACES}, {_TABLES}, UniTuple(float64, 3), UniTuple(int64, 2), int64, int64"
+
+
+@kernel(f"void({_SORTING}, boolean, float64, float64[:, ::1], int16[:, ::1])", counts=False)
+def survey(start, end, does, cutter, arc, shapes, arcs, grid, extent, first, last, reduced, top, spans, met):
+    """Write where pieces must be evaluated.
+
+    Args:
+        start, end: of all n pieces.
+        does: NOTHING, CUTS or ASKS. cutter: row of the cutter. arc: row of the arc, -1: it is straight.
+        shapes: rows of cutters, as `reach_kernels` says.
+        arcs: rows of arcs: centre, radius, box.
+        grid: x and y of the lower left corner, pitch, mm. extent: rows and columns of cells.
+        first, last: the pieces to do are first … last - 1.
+        reduced: pieces that go on are evaluated without what the next one cuts as deep; what the one before has cut is always left out.
+        top: no metal is higher.
+        spans: (n, 2) from and to along straight pieces, mm (to < from: upright).
+        met: (n, 5) first and last row and column of tiles that the box of those cells meets (the last before the first: none), and how
+            many cells the box is taller than wide.
+    """
+    pitch, known, onward = grid[2], False, (0.0, 1.0, 0.0, 0.0, 1.0)
+    window = (grid[0], grid[1], grid[0] + extent[1] * pitch, grid[1] + extent[0] * pitch)
     for i in range(first, last):
         c, a = cutter[i], arc[i]
-        if does[i] == NOTHING or min(start[i, 2], end[i, 2]) + shapes[c, 5] >= top:
+        radius, span, here, there = shapes[c, 0], (0.0, -1.0), (start[i, 0], start[i, 1], start[i, 2]), (end[i, 0], end[i, 1], end[i, 2])
+        box = (min(here[0], there[0]) - radius, min(here[1], there[1]) - radius,
+               max(here[0], there[0]) + radius, max(here[1], there[1]) + radius)  # fmt: skip
+        if a >= 0:
+            box = (arcs[a, 3] - radius, arcs[a, 4] - radius, arcs[a, 5] + radius, arcs[a, 6] + radius)
+        over = does[i] == NOTHING or min(here[2], there[2]) + shapes[c, 5] >= top
+        if over or box[0] > window[2] or box[1] > window[3] or box[2] < window[0] or box[3] < window[1]:
+            known, met[i, 0], met[i, 1], met[i, 4] = False, 0, -1, 0
             continue
-        box = (spans[i, 2], spans[i, 3], spans[i, 4], spans[i, 5])
-        r0, r1, c0, c1 = tiles_met(box, grid, extent)
-        way = (arcs[a, 0], arcs[a, 1], arcs[a, 2], arcs[a, 2]) if a >= 0 else (start[i, 0], start[i, 1], end[i, 0], end[i, 1])
-        vote = int((box[3] - box[1] - box[2] + box[0]) / pitch)
+        me, before = (int(does[i]), int(c), int(a)), known
+        if not known and i > 0:
+            k = i - 1
+            he, last_way = (int(does[k]), int(cutter[k]), int(arc[k])), (end[k, 0] - start[k, 0], end[k, 1] - start[k, 1], 0.0)
+            before = goes_on(he, me, (end[k, 0], end[k, 1], end[k, 2]), here) and course_of(last_way)[0] > 0.0
+        course = onward if known else course_of((there[0] - here[0], there[1] - here[1], there[2] - here[2]))
+        known = False
+        if a < 0 and i + 1 < len(cutter):
+            k = i + 1
+            she, place = (int(does[k]), int(cutter[k]), int(arc[k])), (start[k, 0], start[k, 1], start[k, 2])
+            if goes_on(me, she, there, place):
+                onward = course_of((end[k, 0] - place[0], end[k, 1] - place[1], end[k, 2] - place[2]))
+                known = course[0] > 0.0 and onward[0] > 0.0
+        if a < 0 and course[0] > 0.0:
+            shape = (radius, shapes[c, 1], shapes[c, 2], shapes[c, 3], shapes[c, 4], shapes[c, 5], shapes[c, 6])
+            span = reach(shape, course, onward, before, known and reduced) if does[i] == CUTS else (-radius, course[0] + radius)
+            box = box_of(span, (here[0], here[1]), course, radius)
+        spans[i, 0], spans[i, 1] = span
+        met[i, 0], met[i, 1], met[i, 2], met[i, 3] = tiles_met(box, grid, extent)
+        met[i, 4] = int(max(min((box[3] - box[1] - box[2] + box[0]) / pitch, 32000.0), -32000.0))
+
+
+@kernel(f"void({_SORTING}, int16[:, ::1], int64[::1], int64[::1])", counts=False)
+def count(start, end, does, cutter, arc, shapes, arcs, grid, extent, first, last, met, counts, votes):
+    """Count how many of the pieces first … last - 1 meet each tile, and how many cells their boxes are taller than wide.
+
+    The rest of the arguments are `survey`'s; counts and votes are by tile. Votes are whole numbers, so that their sum does not depend
+    on the order.
+    """
+    across, side = (extent[1] + TILE - 1) // TILE, TILE * grid[2]
+    for i in range(first, last):
+        r0, r1, c0, c1 = met[i, 0], met[i, 1], met[i, 2], met[i, 3]
+        way, a = (start[i, 0], start[i, 1], end[i, 0], end[i, 1]), arc[i]
+        if a >= 0:
+            way = (arcs[a, 0], arcs[a, 1], arcs[a, 2], arcs[a, 2])
         for row in range(r0, r1 + 1):
             for col in range(c0, c1 + 1):
-                centre = (grid[0] + col * TILE * pitch + half, grid[1] + row * TILE * pitch + half)
-                if (r0 == r1 and c0 == c1) or not misses(way, centre, shapes[c, 0], half, a >= 0):
+                centre = (grid[0] + (col + 0.5) * side, grid[1] + (row + 0.5) * side)
+                if (r0 == r1 and c0 == c1) or not misses(way, centre, shapes[cutter[i], 0], 0.5 * side, a >= 0):
                     counts[row * across + col] += 1
-                    votes[row * across + col] += vote
+                    votes[row * across + col] += met[i, 4]
 
 
-@kernel(f"void({_SORTING}, int64[::1], int32[::1])")
-def fill(start, end, does, cutter, arc, shapes, arcs, spans, grid, extent, first, last, top, places, refs):
+@kernel(f"void({_SORTING}, int16[:, ::1], int64[::1], int32[::1])", counts=False)
+def fill(start, end, does, cutter, arc, shapes, arcs, grid, extent, first, last, met, places, refs):
     """Write the pieces into the lists of the tiles that they meet; `places` are the next free ones, by tile. See `count`."""
-    pitch = grid[2]
-    half = 0.5 * TILE * pitch
-    across = (extent[1] + TILE - 1) // TILE
+    across, side = (extent[1] + TILE - 1) // TILE, TILE * grid[2]
     for i in range(first, last):
-        c, a = cutter[i], arc[i]
-        if does[i] == NOTHING or min(start[i, 2], end[i, 2]) + shapes[c, 5] >= top:
-            continue
-        r0, r1, c0, c1 = tiles_met((spans[i, 2], spans[i, 3], spans[i, 4], spans[i, 5]), grid, extent)
-        way = (arcs[a, 0], arcs[a, 1], arcs[a, 2], arcs[a, 2]) if a >= 0 else (start[i, 0], start[i, 1], end[i, 0], end[i, 1])
+        r0, r1, c0, c1 = met[i, 0], met[i, 1], met[i, 2], met[i, 3]
+        way, a = (start[i, 0], start[i, 1], end[i, 0], end[i, 1]), arc[i]
+        if a >= 0:
+            way = (arcs[a, 0], arcs[a, 1], arcs[a, 2], arcs[a, 2])
         for row in range(r0, r1 + 1):
             for col in range(c0, c1 + 1):
-                centre = (grid[0] + col * TILE * pitch + half, grid[1] + row * TILE * pitch + half)
-                if (r0 == r1 and c0 == c1) or not misses(way, centre, shapes[c, 0], half, a >= 0):
+                centre = (grid[0] + (col + 0.5) * side, grid[1] + (row + 0.5) * side)
+                if (r0 == r1 and c0 == c1) or not misses(way, centre, shapes[cutter[i], 0], 0.5 * side, a >= 0):
                     refs[places[row * across + col]] = i
                     places[row * across + col] += 1
 

@@ -202,7 +202,7 @@ class _Batch:
         self._does = job.does[self._motion]
         self._tables = (pieces.start, pieces.end, self._does, job.cutter[self._motion], pieces.arc, job.shapes, pieces.arcs)
         self._where = (float(job.grid.x0), float(job.grid.y0), float(job.grid.pitch))
-        self._spans = np.empty((len(pieces), 6))
+        self._spans = np.empty((len(pieces), 2))
 
     def run(self, progress: Progress) -> None:
         """Cut all tiles."""
@@ -229,17 +229,17 @@ class _Batch:
         grid, full = self._job.grid, self._job.options.trace
         steps = np.linspace(0, len(self._motion), CHUNKS + 1).astype(int).tolist()
         counts, votes = np.zeros((CHUNKS, tiles), np.int64), np.zeros((CHUNKS, tiles), np.int64)
-        common = (*self._tables, self._spans, self._where, (grid.rows, grid.cols))
+        common, met = (*self._tables, self._where, (grid.rows, grid.cols)), np.empty((len(self._motion), 5), np.int16)
         top = float(self._before.max())
 
         def look(k: int) -> None:
-            survey(*self._tables, steps[k], steps[k + 1], not full, grid.box, self._spans)
-            count(*common, steps[k], steps[k + 1], top, counts[k], votes[k])
+            survey(*common, steps[k], steps[k + 1], not full, top, self._spans, met)
+            count(*common, steps[k], steps[k + 1], met, counts[k], votes[k])
 
         _in_parallel(look, list(range(CHUNKS)))
         bounds = np.concatenate([[0], np.cumsum(counts.sum(axis=0))])
         places, refs = bounds[:-1] + np.cumsum(counts, axis=0) - counts, np.empty(bounds[-1], np.int32)
-        _in_parallel(lambda k: fill(*common, steps[k], steps[k + 1], top, places[k], refs), list(range(CHUNKS)))
+        _in_parallel(lambda k: fill(*common, steps[k], steps[k + 1], met, places[k], refs), list(range(CHUNKS)))
         return bounds, refs, votes.sum(axis=0)
 
     def _take_notes(self, refs: Ints, told: Floats) -> None:
