@@ -127,6 +127,8 @@ class CutView(QWidget):
         self.detail = detail
         colour = self.colours.told
         self.overlay.show_pitch((detail or self.picture).pitch, finer=detail is not None)
+        if self.overlay.line is not None:
+            self.show_line(self.overlay.line)
         if detail is None or colour in detail.values:
             self.painting.new_detail(detail.values[colour] if detail is not None else None)
         else:
@@ -261,7 +263,9 @@ class CutView(QWidget):
         self.overlay.show_line(line)
         self.profile.setVisible(line is not None)
         if line is not None and self.picture is not None:
-            self.profile.show_profile(profile(self.picture, line[0][:2], line[1][:2]))
+            finer = self.detail is not None and all(self.detail.holds(*end[:2]) for end in line)
+            picture = self.detail if self.detail is not None and finer else self.picture
+            self.profile.show_profile(profile(picture, line[0][:2], line[1][:2]))
 
     def _need_surface(self) -> None:
         """Make what the cut is painted on, once; where that cannot be, say why.

@@ -62,7 +62,7 @@ def pick_finest(picture: CutPicture, detail: CutPicture | None, ray: Ray, sectio
     fine = pick(detail, ray, section) if detail is not None else None
     if detail is None or fine is None or hit is None:
         return fine or hit
-    covered = all(low <= at <= high for low, at, high in zip(detail.low[:2], hit.place[:2], detail.high[:2], strict=True))
+    covered = detail.holds(*hit.place[:2])
     nearer = np.dot(np.subtract(fine.place, hit.place), ray.direction) <= 0
     return fine if covered or nearer else hit
 

@@ -158,6 +158,10 @@ class CutPicture:
         """Return (rows, columns) which cells no move has cut."""
         return self.move < 0 if self.move is not None else self.heights >= np.float32(self.top - TOUCHED)
 
+    def holds(self, x: float, y: float) -> bool:
+        """Return whether a place, mm, lies on its cells, or at their rim."""
+        return bool(np.all(self.low[:2] <= (x, y)) and np.all((x, y) <= self.high[:2]))
+
     def height_at(self, x: float, y: float) -> float:
         """Return the height of the cell that a place, mm, lies in; beside the stock that of the nearest one."""
         column, row = (int(np.clip((at - low) / self.pitch, 0, count - 1))

@@ -10,8 +10,10 @@ from PySide6.QtWidgets import QApplication, QMainWindow, QStackedWidget, QWidget
 
 from app.ui.cut.cut_view import CutView
 from app.ui.cut.surface import GlSurface
+from app.ui.cut.zooming import Zooming
 from app.ui.theme import DARK, LIGHT
 from tests.ui.cut.made_up import made_up
+from tests.ui.cut.real_cut import real_shown
 
 
 def wait(done):
@@ -40,6 +42,23 @@ def metal_share(window, view):
     return float((np.abs(shown - ground).max(axis=2) > 12).mean())
 
 
+def look_closer(window, view):
+    """Zoom into a real cut until its cells are fine, and out again."""
+    shown, zooming = real_shown(), Zooming(view, view)
+    zooming.follow(shown.cut)
+    view.show_cut(shown.picture)
+    view.fit()
+    wait(lambda: view.painting.fine and metal_share(window, view) > 0.2)
+    for _ in range(4):
+        view.zoom_by(3.0)
+        wait(lambda: view.painting.fine and not zooming.worker.busy)
+        assert metal_share(window, view) > 0.7, "metal is missing round the finer part"
+    assert view.detail.pitch < shown.picture.pitch / 10
+    view.fit()
+    wait(lambda: view.painting.fine and view.detail is None)
+    zooming.worker.finish()
+
+
 def main():
     """Show, resize, change the theme, leave the view and come back; print OK."""
     application = QApplication(sys.argv[:1])
@@ -65,6 +84,7 @@ def main():
     stack.setCurrentWidget(view)
     view.show_cut(made_up(160))
     wait(lambda: view.painting.fine and 0.3 < metal_share(window, view) < 0.7)
+    look_closer(window, view)
     print("OK")
     window.close()
     application.quit()

@@ -105,3 +105,13 @@ def test_deviation_of_the_part_is_that_of_its_own_cells(qtbot, zooming, shown):
     deviation = view.detail.deviation
     assert deviation is not None and deviation.shape == view.detail.heights.shape
     assert float(deviation.min()) == pytest.approx(float(shown.picture.deviation.min()), abs=1e-4)
+
+
+def test_a_profile_within_the_part_is_that_of_its_cells(qtbot, zooming, shown):
+    view = zooming._view
+    zoom(qtbot, zooming, 8.0)
+    view.show_line(((29.0, 15.0, -2.0), (30.5, 15.2, -2.0)))
+    fine = len(view.profile.drawn.heights)
+    view.show_line(((2.0, 15.0, 0.0), (30.5, 15.2, -2.0)))
+    assert fine > 3 * 1.5 / shown.picture.pitch
+    assert len(view.profile.drawn.heights) < 1.3 * 28.5 / shown.picture.pitch
