@@ -11,6 +11,8 @@ import math
 
 from app.jit import kernel
 
+CROSSING, TANGENT, PINNED = 0, 1, 2
+
 NEAR = 6
 """Steps from a joint within which a point is near it."""
 
@@ -63,7 +65,7 @@ def _between(points, a, b, arc, lines):
     for r in range(2):
         s1 = arc[3] * r + first[2] * first[1] - first[3] * first[0]
         s2 = arc[3] * r + last[2] * last[1] - last[3] * last[0]
-        x, y = (first[2] * s2 - last[2] * s1) / cross, (first[3] * s2 - last[3] * s1) / cross
+        x, y = (last[2] * s1 - first[2] * s2) / cross, (last[3] * s1 - first[3] * s2) / cross
         if r == 0:
             c0x, c0y = x, y
         else:
@@ -87,13 +89,13 @@ def _between(points, a, b, arc, lines):
 
 
 @kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], uint8[::1], float64)")
-def make_tangent(points, ends, carriers, smooth, tolerance):
+def make_tangent(points, ends, carriers, joined, tolerance):
     """Move arcs so that they touch the lines next to them where they nearly do.
 
     Args:
         points, ends: what the carriers were fitted to.
         carriers: (n, 5) of a closed path, changed in place.
-        smooth: (n,) gets 1 where the joint before a carrier is tangent.
+        joined: (n,) how each carrier begins; gets TANGENT where it is made so. PINNED ones stay.
         tolerance: an arc is left alone where its points would be farther off than this.
     """
     n = len(carriers)
@@ -102,8 +104,8 @@ def make_tangent(points, ends, carriers, smooth, tolerance):
         arc, before, after = carriers[k], carriers[k - 1], carriers[(k + 1) % n]
         if arc[4] == 0.0 or n < 3:
             continue
-        one = before[4] == 0.0 and _nearly_tangent(before, arc, tolerance)
-        two = after[4] == 0.0 and _nearly_tangent(after, arc, tolerance)
+        one = before[4] == 0.0 and joined[k] != PINNED and _nearly_tangent(before, arc, tolerance)
+        two = after[4] == 0.0 and joined[(k + 1) % n] != PINNED and _nearly_tangent(after, arc, tolerance)
         kept = arc.copy()
         done = False
         if one and two:
@@ -119,8 +121,10 @@ def make_tangent(points, ends, carriers, smooth, tolerance):
             if _worst(points, ends[k], ends[k + 1], arc) > 1.5 * tolerance:
                 arc[:] = kept
                 one = two = False
-        smooth[k] |= one
-        smooth[(k + 1) % n] |= two
+        if one:
+            joined[k] = TANGENT
+        if two:
+            joined[(k + 1) % n] = TANGENT
 
 
 @kernel("UniTuple(float64, 2)(float64[::1], float64[::1], float64, float64, float64)")
@@ -157,20 +161,22 @@ def _crossing(a, b, x, y, far):
 
 
 @kernel("void(float64[:, ::1], float64[:, ::1], uint8[::1], float64, float64[:, ::1])")
-def join(near, carriers, smooth, tolerance, joints):
+def join(near, carriers, joined, tolerance, joints):
     """Find where each carrier of a closed path begins.
 
     Args:
         near: (n, 2) the points' own joints; of two crossings the nearer one counts.
         carriers: (n, 5).
-        smooth: (n,) 1 where the joint before a carrier is tangent.
+        joined: (n,) how each carrier begins: CROSSING, TANGENT or PINNED, which is at the points' own joint.
         tolerance: see FAR.
         joints: (n, 2) gets them.
     """
     n = len(carriers)
     for k in range(n):
         a, b = carriers[k - 1], carriers[k]
-        if smooth[k] == 1 and a[4] != b[4]:
+        if joined[k] == PINNED:
+            joints[k, 0], joints[k, 1] = near[k, 0], near[k, 1]
+        elif joined[k] == TANGENT and a[4] != b[4]:
             line, arc = (a, b) if a[4] == 0.0 else (b, a)
             joints[k, 0], joints[k, 1] = _foot(line, arc[0], arc[1])
         else:
@@ -197,27 +203,33 @@ def rows_between(carriers, joints, rows):
         rows[k, 4], rows[k, 5], rows[k, 6], rows[k, 7] = cx, cy, math.hypot(ax - cx, ay - cy), carriers[k, 3]
 
 
+@kernel("boolean(float64[::1], float64, float64)")
+def _within(row, x, y):
+    """Tell whether a point lies in the sector of an arc, which may sweep up to a full turn."""
+    ax, ay, bx, by, vx, vy = row[0] - row[4], row[1] - row[5], row[2] - row[4], row[3] - row[5], x - row[4], y - row[5]
+    behind, ahead = row[7] * (ax * vy - ay * vx) >= 0.0, row[7] * (vx * by - vy * bx) >= 0.0
+    return (behind and ahead) if row[7] * (ax * by - ay * bx) >= 0.0 else (behind or ahead)
+
+
 @kernel("float64(float64[::1], float64, float64)")
 def _distance(row, x, y):
     """Return the distance of a point from a row, which may sweep up to a full turn."""
-    ends = min(math.hypot(x - row[0], y - row[1]), math.hypot(x - row[2], y - row[3]))
     if row[7] == 0.0:
         dx, dy = row[2] - row[0], row[3] - row[1]
         square = dx * dx + dy * dy
-        t = ((x - row[0]) * dx + (y - row[1]) * dy) / square if square > 0.0 else -1.0
-        return abs((x - row[0]) * dy - (y - row[1]) * dx) / math.sqrt(square) if 0.0 < t < 1.0 else ends
-    start = math.atan2(row[1] - row[5], row[0] - row[4])
-    sweep = (row[7] * (math.atan2(row[3] - row[5], row[2] - row[4]) - start)) % math.tau
-    ahead = (row[7] * (math.atan2(y - row[5], x - row[4]) - start)) % math.tau
-    return abs(math.hypot(x - row[4], y - row[5]) - row[6]) if ahead <= sweep else ends
+        if 0.0 < (x - row[0]) * dx + (y - row[1]) * dy < square:
+            return abs((x - row[0]) * dy - (y - row[1]) * dx) / math.sqrt(square)
+    elif _within(row, x, y):
+        return abs(math.sqrt((x - row[4]) ** 2 + (y - row[5]) ** 2) - row[6])
+    return math.sqrt(min((x - row[0]) ** 2 + (y - row[1]) ** 2, (x - row[2]) ** 2 + (y - row[3]) ** 2))
 
 
 @kernel("boolean(float64[::1], float64[::1], float64, float64)")
 def _runs_back(row, carrier, x, y):
-    """Tell whether a row runs against its carrier; (x, y) is a point in its middle."""
+    """Tell whether a row runs against its carrier, or the other way round; (x, y) is a point in its middle."""
     if carrier[4] == 0.0:
         return (row[2] - row[0]) * carrier[2] + (row[3] - row[1]) * carrier[3] <= 0.0
-    return row[7] != 0.0 and _distance(row, x, y) > row[6] / 2
+    return row[7] != 0.0 and not _within(row, x, y)
 
 
 @kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1])")

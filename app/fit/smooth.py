@@ -20,9 +20,11 @@ from app.geometry.primitives import R, Rows
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+_Segments = tuple[Ints, Ints, NDArray[np.uint8]]
+"""Ends (n + 1,), kinds (n,), and how each begins (n,)."""
 
 _LIMIT = 2.0
-"""Times the tolerance; points may be so far from the path once its lines and arcs are joined, near corners twice as far."""
+"""Times the tolerance; points may be so far from the path once its lines and arcs are joined, near corners rounds as far."""
 
 _ROUNDS = 6
 """How often segments that no joint suits are cut into finer ones."""
@@ -66,7 +68,7 @@ class Smoothed:
         rows: (n, 8) rows of `app.geometry.primitives`, each beginning where the one before ends; arcs up to a full turn.
         kinds: (n,) PieceKind.
         ends: (n + 1,) indices of the points between which each row runs, rising; those beyond the last go on from the first.
-        smooth: (n,) whether each row begins in the direction in which the one before ends.
+        joined: (n,) how each row begins: see `joint_kernels`.
         deviation: greatest distance of a point from its row.
         exact: False where nothing but lines from point to point came near enough.
         carriers: (n, 5) the lines and circles that the rows lie on, see `joint_kernels`.
@@ -75,10 +77,18 @@ class Smoothed:
     rows: Rows
     kinds: Ints
     ends: Ints
-    smooth: NDArray[np.bool_]
+    joined: NDArray[np.uint8]
     deviation: float
     exact: bool
     carriers: Floats
+
+    @property
+    def tangent(self) -> NDArray[np.bool_]:
+        """(n,) whether each row begins in the direction in which the one before ends."""
+        from app.fit import joint_kernels
+
+        touching: NDArray[np.bool_] = self.joined == joint_kernels.TANGENT
+        return touching
 
 
 def smooth(points: Floats, options: SmoothOptions) -> Smoothed:
@@ -90,45 +100,86 @@ def smooth(points: Floats, options: SmoothOptions) -> Smoothed:
     References:
         JPH07107645B2, steps 401-407.
     """
-    from app.fit import smooth_kernels
+    from app.fit import joint_kernels, smooth_kernels
 
     count = len(points)
     if count < 4:
         return as_it_is(points)
-    twice = np.concatenate([points, points, points[:1]])
-    breaks, kinds = np.empty(count + 2, np.int64), np.empty(count + 1, np.int64)
-    found = smooth_kernels.segment_closed(twice, count, options.tolerance, breaks, kinds)
-    breaks, kinds = breaks[: found + 1].copy(), kinds[:found].copy()
-    for finer in range(_ROUNDS):
-        result, bad = _joined(twice, breaks, kinds, options)
+    rounds = _rounds(points)
+    ends, kinds = _segments(rounds, count, options.tolerance)
+    if len(kinds) == 1 and kinds[0] == smooth_kernels.ARC:
+        return _without_bias(_one_circle(points, _carriers(rounds, ends, kinds)), points, options)
+    joined = np.zeros(len(kinds), np.uint8)
+    for again in range(_ROUNDS):
+        result, bad = _joined(rounds, (ends, kinds, joined), options)
         if not bad.any():
             return _without_bias(result, points, options)
-        breaks, kinds = _split(twice, result, bad, options.tolerance / 2 ** (finer + 1))
+        joined[bad | np.roll(bad, 1)] = joint_kernels.PINNED
+        if again % 2:
+            ends, kinds, joined = _split(rounds, (ends, kinds, joined), bad, options.tolerance / 2 ** (again // 2 + 1))
     return as_it_is(points)
 
 
-def _split(twice: Floats, path: Smoothed, bad: NDArray[np.bool_], tolerance: float) -> tuple[Ints, Ints]:
-    """Return the ends and kinds of a path's segments, the bad ones in finer pieces."""
+def _rounds(points: Floats) -> Floats:
+    """Return a closed path's points three times over."""
+    return np.concatenate([points, points, points])
+
+
+def _segments(rounds: Floats, count: int, tolerance: float) -> tuple[Ints, Ints]:
+    """Return the ends (n + 1,) and kinds (n,) of the lines and arcs that a closed path of `count` points falls into."""
     from app.fit import smooth_kernels
 
-    breaks, kinds = path.ends, path.carriers[:, 4].astype(np.int64)
-    new_breaks, new_kinds = [breaks[:1]], []
-    for k, (a, b) in enumerate(pairwise(breaks.tolist())):
-        if not bad[k]:
-            new_breaks.append(breaks[k + 1 : k + 2])
-            new_kinds.append(kinds[k : k + 1])
-            continue
-        inner, own = np.empty(b - a + 1, np.int64), np.empty(b - a, np.int64)
-        found = smooth_kernels.segment(twice, a, b - a, tolerance, inner, own)
-        new_breaks.append(inner[1 : found + 1])
-        new_kinds.append(own[:found])
-    return np.concatenate(new_breaks), np.concatenate(new_kinds)
+    ends, kinds = np.empty(2 * count + 2, np.int64), np.empty(2 * count + 1, np.int64)
+    found = smooth_kernels.segment_closed(rounds, count, tolerance, ends, kinds)
+    if found > 2:
+        found = smooth_kernels.absorb(rounds, ends, kinds, _carriers(rounds, ends[: found + 1], kinds[:found]), tolerance)
+    return ends[: found + 1].copy(), kinds[:found].copy()
+
+
+def _carriers(rounds: Floats, ends: Ints, kinds: Ints) -> Floats:
+    """Return the line or circle (n, 5) that fits each segment."""
+    from app.fit import smooth_kernels
+
+    carriers = np.empty((len(kinds), 5))
+    smooth_kernels.carriers(rounds, ends, kinds, len(kinds), carriers)
+    return carriers
+
+
+def _split(rounds: Floats, segments: _Segments, bad: NDArray[np.bool_], tolerance: float) -> _Segments:
+    """Return segments, the bad ones in finer pieces."""
+    from app.fit import smooth_kernels
+
+    ends, kinds, joined = segments
+    new_ends, new_kinds, new_joined = [ends[:1]], [], []
+    for k, (a, b) in enumerate(pairwise(ends.tolist())):
+        inner, own = np.array([a, b]), kinds[k : k + 1]
+        if bad[k]:
+            inner, own = np.empty(b - a + 1, np.int64), np.empty(b - a, np.int64)
+            found = smooth_kernels.segment(rounds, a, b - a, tolerance, inner, own)
+            inner, own = inner[: found + 1], own[:found]
+        new_ends.append(inner[1:])
+        new_kinds.append(own)
+        new_joined.append(np.append(joined[k], np.zeros(len(own) - 1, np.uint8)).astype(np.uint8))
+    return np.concatenate(new_ends), np.concatenate(new_kinds), np.concatenate(new_joined)
+
+
+def _joined(rounds: Floats, segments: _Segments, options: SmoothOptions) -> tuple[Smoothed, NDArray[np.bool_]]:
+    """Return the path along segments, tangent where neighbours nearly touch, and which rows are too far off."""
+    from app.fit import joint_kernels
+
+    ends, kinds, pinned = segments
+    carriers, joined, worst = _carriers(rounds, ends, kinds), pinned.copy(), np.empty((len(kinds), 2))
+    joint_kernels.make_tangent(rounds, ends, carriers, joined, options.tolerance)
+    rows = _rows(rounds, ends, (carriers, joined), options.tolerance)
+    joint_kernels.deviations(rounds, ends, carriers, rows, worst)
+    path = Smoothed(rows, _kinds(rows, options), ends, joined, float(worst[:, 0].max()), True, carriers)
+    return path, worst[:, 1] > _LIMIT * options.tolerance
 
 
 def _one_circle(points: Floats, carriers: Floats) -> Smoothed:
     """Step 401: the whole path is one circle."""
     off = np.hypot(*(points - carriers[0, :2]).T) - carriers[0, 2]
-    return Smoothed(circle_rows(carriers[0]), np.array([PieceKind.CIRCLE]), np.array([0, len(points)]), np.ones(1, np.bool_),
+    return Smoothed(circle_rows(carriers[0]), np.array([PieceKind.CIRCLE]), np.array([0, len(points)]), np.ones(1, np.uint8),
                     float(np.abs(off).max()), True, carriers)
 
 
@@ -138,36 +189,13 @@ def circle_rows(carrier: Floats) -> Rows:
     return np.array([[cx + r, cy, cx + r, cy, cx, cy, r, turn]])
 
 
-def _joined(twice: Floats, breaks: Ints, kinds: Ints, options: SmoothOptions) -> tuple[Smoothed, NDArray[np.bool_]]:
-    """Return the path along segments, tangent where neighbours nearly touch or not at all, and which rows are too far off."""
-    from app.fit import joint_kernels, smooth_kernels
-
-    breaks, kinds, count = breaks.copy(), kinds.copy(), len(kinds)
-    carriers = np.empty((count, 5))
-    smooth_kernels.carriers(twice, breaks, kinds, count, carriers)
-    if count == 1 and kinds[0] == smooth_kernels.ARC:
-        return _one_circle(twice[: len(twice) // 2], carriers), np.zeros(1, np.bool_)
-    if count > 2:
-        count = smooth_kernels.absorb(twice, breaks, kinds, carriers, options.tolerance)
-    ends, fitted = breaks[: count + 1], carriers[:count]
-    tries = []
-    for tangent in (True, False):
-        own, touching, worst = fitted.copy(), np.zeros(count, np.uint8), np.empty((count, 2))
-        if tangent:
-            joint_kernels.make_tangent(twice, ends, own, touching, options.tolerance)
-        rows = _rows(twice, ends, (own, touching), options.tolerance)
-        joint_kernels.deviations(twice, ends, own, rows, worst)
-        made = Smoothed(rows, _kinds(rows, options), ends, touching.astype(np.bool_), float(worst[:, 0].max()), True, own)
-        tries.append((made, worst[:, 1] > _LIMIT * options.tolerance))
-    return min(tries, key=lambda each: int(each[1].sum()))
-
-
-def _rows(twice: Floats, ends: Ints, fitted: tuple[Floats, NDArray[np.uint8]], tolerance: float) -> Rows:
+def _rows(rounds: Floats, ends: Ints, fitted: tuple[Floats, NDArray[np.uint8]], tolerance: float) -> Rows:
+    """Return the rows along carriers that begin as told."""
     from app.fit import joint_kernels
 
-    carriers, touching = fitted
+    carriers, joined = fitted
     joints, rows = np.empty((len(carriers), 2)), np.empty((len(carriers), 8))
-    joint_kernels.join(np.ascontiguousarray(twice[ends[:-1]]), carriers, touching, tolerance, joints)
+    joint_kernels.join(np.ascontiguousarray(rounds[ends[:-1]]), carriers, joined, tolerance, joints)
     joint_kernels.rows_between(carriers, joints, rows)
     return rows
 
@@ -207,14 +235,15 @@ def moved(path: Smoothed, points: Floats, right: Floats, tolerance: float) -> Sm
             they are moved alike.
         tolerance: that the path was made with.
     """
+    from app.fit import joint_kernels
+
     carriers = _moved(path.carriers, right)
     if not path.exact:
         return path
     if len(carriers) == 1:
         return replace(path, rows=circle_rows(carriers[0]), carriers=carriers)
-    twice = np.concatenate([points, points, points[:1]])
-    alike = path.smooth & (right == np.roll(right, 1))
-    rows = _rows(twice, path.ends, (carriers, alike.astype(np.uint8)), tolerance + float(np.abs(right).max()))
+    joined = np.where(right == np.roll(right, 1), path.joined, joint_kernels.CROSSING).astype(np.uint8)
+    rows = _rows(_rounds(points), path.ends, (carriers, joined), tolerance + float(np.abs(right).max()))
     return replace(path, rows=rows, carriers=carriers)
 
 
@@ -225,7 +254,7 @@ def astray(path: Smoothed, points: Floats, limit: float) -> NDArray[np.bool_]:
     from app.fit import joint_kernels
 
     worst = np.empty((len(path.rows), 2))
-    joint_kernels.deviations(np.concatenate([points, points, points[:1]]), path.ends, path.carriers, path.rows, worst)
+    joint_kernels.deviations(_rounds(points), path.ends, path.carriers, path.rows, worst)
     shrunk: NDArray[np.bool_] = (path.carriers[:, 4] == 1) & (path.carriers[:, 2] <= 0)
     return shrunk | (worst[:, 1] > limit)
 
@@ -236,6 +265,8 @@ def without(path: Smoothed, dropped: NDArray[np.bool_]) -> Smoothed | None:
     Args:
         dropped: (n,) the rows to leave out; their points go to their neighbours.
     """
+    from app.fit import joint_kernels
+
     kept = np.flatnonzero(~dropped)
     if len(kept) < 3:
         return None
@@ -246,7 +277,7 @@ def without(path: Smoothed, dropped: NDArray[np.bool_]) -> Smoothed | None:
     starts += count if starts[0] < 0 else 0
     next_to = (before + 1) % len(dropped) == kept
     return replace(path, rows=path.rows[kept], kinds=path.kinds[kept], ends=np.append(starts, starts[0] + count),
-                   smooth=path.smooth[kept] & next_to, carriers=path.carriers[kept])
+                   joined=np.where(next_to, path.joined[kept], joint_kernels.CROSSING).astype(np.uint8), carriers=path.carriers[kept])
 
 
 def _moved(carriers: Floats, right: Floats) -> Floats:
@@ -264,5 +295,5 @@ def as_it_is(points: Floats) -> Smoothed:
     rows = np.zeros((len(points), 8))
     rows[:, :2], rows[:, 2:4] = points, np.roll(points, -1, axis=0)
     count = len(points)
-    kinds, smooth = np.full(count, PieceKind.SPLINE), np.zeros(count, np.bool_)
-    return Smoothed(rows, kinds, np.arange(count + 1), smooth, 0.0, False, np.zeros((count, 5)))
+    kinds, joined = np.full(count, PieceKind.SPLINE), np.full(count, 2, np.uint8)
+    return Smoothed(rows, kinds, np.arange(count + 1), joined, 0.0, False, np.zeros((count, 5)))

@@ -1,6 +1,6 @@
 """Compiled segmentation of a sequence of points into lines and arcs (steps 401-406); see `smooth`.
 
-The points of a closed path are given twice over, so that a run may pass its beginning. A segment from a to b holds the
+The points of a closed path are given three times over, so that a run may pass its beginning. A segment from a to b holds the
 points a ... b, both ends included; neighbours share an end. Kinds: 0 line, 1 arc.
 """
 
@@ -45,46 +45,73 @@ def _arc_holds(points, a, steps, sums, tolerance):
     if r <= tolerance:
         return False
     cx, cy = cx + points[a, 0], cy + points[a, 1]
+    low, high = (r - tolerance) ** 2, (r + tolerance) ** 2
+    px, py = points[a, 0] - cx, points[a, 1] - cy
+    if not low <= px * px + py * py <= high:
+        return False
     gone, way = 0.0, 0.0
-    for k in range(a, a + steps + 1):
+    for k in range(a + 1, a + steps + 1):
         x, y = points[k, 0] - cx, points[k, 1] - cy
-        if abs(math.sqrt(x * x + y * y) - r) > tolerance:
-            return False
-        if k == a:
-            continue
-        step = x * (points[k - 1, 1] - cy) - y * (points[k - 1, 0] - cx)
-        if step == 0.0 or step * way < 0.0:
+        step = px * y - py * x
+        if not low <= x * x + y * y <= high or step * way < 0.0 or step == 0.0:
             return False
         way = step
         gone += abs(step)
+        px, py = x, y
     sweep = gone / (r * r)
     return sweep < 6.5 and (sweep > math.pi or r * (1 - math.cos(sweep / 2)) > 2 * tolerance)
 
 
-@kernel("int64(float64[:, ::1], int64, int64, float64[:, ::1], float64, int64)")
-def _longest(points, a, most, sums, tolerance, kind):
-    """Return how many steps from point a the longest run takes that one line (or arc) holds: doubling, then halving."""
-    good, step, filled = 0, 8, 0
-    bad = most + 1
-    while good < most:
-        steps = min(step, most)
+@kernel("int64(float64[:, ::1], int64, int64, int64, float64[:, ::1], float64)")
+def _longest_line(points, a, most, filled, sums, tolerance):
+    """Return how many steps from point a the longest run takes that one line holds: doubling, then halving.
+
+    Args:
+        most: steps at most.
+        filled: sums are there for so many points from a on.
+    """
+    good, steps, bad = 1, min(8, most), most + 1
+    while steps > good:
         if steps + 1 > filled:
             add_up(points, a, filled, steps + 1, sums)
             filled = steps + 1
-        holds = _line_holds(points, a, steps, sums, tolerance) if kind == LINE else _arc_holds(points, a, steps, sums, tolerance)
-        if not holds and not (kind == ARC and steps < 32):
+        if not _line_holds(points, a, steps, sums, tolerance):
             bad = steps
             break
-        if holds:
+        good = steps
+        steps = min(2 * steps, most)
+    while bad - good > 1:
+        steps = (good + bad) // 2
+        if _line_holds(points, a, steps, sums, tolerance):
+            good = steps
+        else:
+            bad = steps
+    return good
+
+
+@kernel("int64(float64[:, ::1], int64, int64, int64, float64[:, ::1], float64)")
+def _longest_arc(points, a, most, least, sums, tolerance):
+    """Return how many steps from point a the longest run takes that one arc holds; 0 where none of `least` steps does."""
+    if least > most:
+        return 0
+    good, steps, bad, filled = 0, least, most + 1, 0
+    while steps > good:
+        add_up(points, a, filled, steps + 1, sums)
+        filled = steps + 1
+        if not _arc_holds(points, a, steps, sums, tolerance):
+            if good > 0 or steps >= 2 * least:
+                bad = steps
+                break
+        else:
             good = steps
         if steps == most:
             break
-        step *= 2
-    if kind == ARC and good == 0:
+        steps = min(2 * steps, most)
+    if good == 0:
         return 0
     while bad - good > 1:
         steps = (good + bad) // 2
-        if _line_holds(points, a, steps, sums, tolerance) if kind == LINE else _arc_holds(points, a, steps, sums, tolerance):
+        if _arc_holds(points, a, steps, sums, tolerance):
             good = steps
         else:
             bad = steps
@@ -111,10 +138,10 @@ def segment(points, start, count, tolerance, breaks, kinds):
     breaks[0] = start
     while at < start + count:
         most = start + count - at
-        line = max(_longest(points, at, most, sums, tolerance, LINE), 1)
-        arc = _longest(points, at, most, sums, tolerance, ARC) if most >= LEAST_ARC else 0
-        kinds[found] = ARC if arc >= LEAST_ARC and arc > 1.3 * line else LINE
-        at += arc if kinds[found] == ARC else line
+        line = _longest_line(points, at, most, 0, sums, tolerance)
+        arc = _longest_arc(points, at, most, max(LEAST_ARC, int(1.3 * line) + 1), sums, tolerance)
+        kinds[found] = ARC if arc > 0 else LINE
+        at += max(arc, line)
         found += 1
         breaks[found] = at
     return found
@@ -129,15 +156,15 @@ def _cost(sums, first, stop, kind):
     return fit_circle(sums, first, stop)[3] * n if n > 3 else math.inf
 
 
-@kernel("boolean(float64[:, ::1], int64[::1], int64[::1], int64, float64[:, ::1])")
-def _settle(points, breaks, kinds, k, sums):
-    """Move the end between segments k and k + 1 to where both fit best; tell whether it moved."""
-    a, m, c = breaks[k], breaks[k + 1], breaks[k + 2]
+@kernel("int64(float64[:, ::1], UniTuple(int64, 3), UniTuple(int64, 2), float64[:, ::1])")
+def _settled(points, ends, kinds, sums):
+    """Return where two segments a ... m and m ... c best part, ends = (a, m, c), for both to fit their kinds."""
+    a, m, c = ends
     add_up(points, a, 0, c - a + 1, sums)
-    first, last = kinds[k], kinds[k + 1]
+    first, last = kinds
     low, high = a + (LEAST_ARC if first == ARC else 1), c - (LEAST_ARC if last == ARC else 1)
     best = _cost(sums, 0, m - a + 1, first) + _cost(sums, m - a, c - a + 1, last)
-    began, step = m, 8
+    step = 8
     while step > 0:
         moved = False
         for side in (-step, step):
@@ -149,26 +176,40 @@ def _settle(points, breaks, kinds, k, sums):
                     break
         if not moved:
             step //= 2
-    breaks[k + 1] = m
-    return m != began
+    return m
+
+
+@kernel("void(int64[::1], int64, int64)")
+def _within(breaks, count, period):
+    """Shift ends by whole rounds so that the first is one of the first round's points."""
+    shift = -period if breaks[0] >= period else period if breaks[0] < 0 else 0
+    for k in range(count + 1):
+        breaks[k] += shift
 
 
 @kernel("void(float64[:, ::1], int64[::1], int64[::1], int64)")
 def settle(points, breaks, kinds, count):
-    """Move the ends of segments, in two sweeps, to where the points on either side fit best.
+    """Move the ends of a closed path's segments, in two sweeps, to where the points on either side fit best.
 
     Args:
-        breaks, kinds: of `count` segments, changed in place; the first and last end stay.
+        points: the path three times.
+        breaks, kinds: of `count` segments, changed in place.
     """
-    longest = 0
-    for k in range(count - 1):
-        longest = max(longest, breaks[k + 2] - breaks[k])
-    sums = np.zeros((longest + 34, 8))
+    if count < 2:
+        return
+    period = breaks[count] - breaks[0]
+    sums = np.zeros((16, 8))
     for _ in range(2):
-        for k in range(count - 1):
-            if breaks[k + 2] - breaks[k] + 2 > len(sums):
-                sums = np.zeros((2 * (breaks[k + 2] - breaks[k]) + 2, 8))
-            _settle(points, breaks, kinds, k, sums)
+        for k in range(count):
+            if k + 1 < count:
+                ends, pair = (breaks[k], breaks[k + 1], breaks[k + 2]), (kinds[k], kinds[k + 1])
+            else:
+                ends, pair = (breaks[k], breaks[k + 1], breaks[1] + period), (kinds[k], kinds[0])
+            if ends[2] - ends[0] + 2 > len(sums):
+                sums = np.zeros((2 * (ends[2] - ends[0]) + 2, 8))
+            breaks[k + 1] = _settled(points, ends, pair, sums)
+        breaks[0] = breaks[count] - period
+    _within(breaks, count, period)
 
 
 @kernel("int64(float64[:, ::1], int64[::1], int64[::1], int64, float64)")
@@ -194,9 +235,23 @@ def merge(points, breaks, kinds, count, tolerance):
     return kept + 1
 
 
+@kernel("boolean(float64[:, ::1], int64, int64, float64[:, ::1])")
+def _goes_round(points, a, steps, sums):
+    """Tell whether points a ... a + steps go round the centre of their circle one way."""
+    cx, cy, _, _ = fit_circle(sums, 0, steps + 1)
+    cx, cy = cx + points[a, 0], cy + points[a, 1]
+    way = 0.0
+    for k in range(a + 1, a + steps + 1):
+        step = (points[k - 1, 0] - cx) * (points[k, 1] - cy) - (points[k - 1, 1] - cy) * (points[k, 0] - cx)
+        if step * way < 0.0:
+            return False
+        way = step
+    return True
+
+
 @kernel("void(float64[:, ::1], int64[::1], int64[::1], int64, float64)")
 def straighten(points, breaks, kinds, count, tolerance):
-    """Make lines of the arcs that a line holds as well, now that their ends have moved."""
+    """Make lines of the arcs that a line holds as well, or that are none, now that their ends have moved."""
     sums = np.zeros((16, 8))
     for k in range(count):
         a, b = breaks[k], breaks[k + 1]
@@ -204,7 +259,7 @@ def straighten(points, breaks, kinds, count, tolerance):
             if b - a + 2 > len(sums):
                 sums = np.zeros((2 * (b - a) + 2, 8))
             add_up(points, a, 0, b - a + 1, sums)
-            if _line_holds(points, a, b - a, sums, tolerance):
+            if _line_holds(points, a, b - a, sums, tolerance) or not _goes_round(points, a, b - a, sums):
                 kinds[k] = LINE
 
 
@@ -259,7 +314,6 @@ def absorb(points, breaks, kinds, found, tolerance):
 
     Args:
         breaks, kinds: of the segments of a closed path, changed in place; the first, which is long, stays.
-            breaks[0] may move back by as much as SHORT.
         found: (count, 5) their carriers, changed in place.
     """
     count, kept = len(found), 0
@@ -271,13 +325,34 @@ def absorb(points, breaks, kinds, found, tolerance):
         between_longer = b - a <= SHORT < min(breaks[kept + 1] - breaks[kept], length_after)
         if between_longer and _held_by_neighbours(points, a, b, pair, tolerance):
             breaks[kept + 1] = (a + b) // 2
-            if k + 1 == count:
-                breaks[0] = breaks[kept + 1] - period
             continue
         kept += 1
         kinds[kept], found[kept] = kinds[k], found[k]
         breaks[kept + 1] = b
+    breaks[0] = breaks[kept + 1] - period
+    _within(breaks, kept + 1, period)
     return kept + 1
+
+
+@kernel("int64(float64[:, ::1], int64, float64, int64[::1], int64[::1], int64)")
+def _turned(points, count, tolerance, breaks, kinds, found):
+    """Let a closed path's segments begin with the longest, and make those anew that met at the path's first point."""
+    first = 1
+    for k in range(1, found - 1):
+        if breaks[k + 1] - breaks[k] > breaks[first + 1] - breaks[first]:
+            first = k
+    old_breaks, old_kinds = breaks[: found + 1].copy(), kinds[:found].copy()
+    made = 0
+    for k in range(first, found - 1):
+        breaks[made], kinds[made] = old_breaks[k], old_kinds[k]
+        made += 1
+    last = old_breaks[found - 1]
+    made += segment(points, last, count + old_breaks[1] - last, tolerance, breaks[made:], kinds[made:])
+    for k in range(1, first):
+        breaks[made], kinds[made] = old_breaks[k] + count, old_kinds[k]
+        made += 1
+    breaks[made] = old_breaks[first] + count
+    return made
 
 
 @kernel("int64(float64[:, ::1], int64, float64, int64[::1], int64[::1])")
@@ -285,10 +360,10 @@ def segment_closed(points, count, tolerance, breaks, kinds):
     """Cover a closed path by lines and arcs, beginning where the longest of them begins, and settle their ends.
 
     Args:
-        points: (2 count + 1, 2) the path twice.
+        points: (3 count, 2) the path three times.
         count: points of the path, >= 3.
         tolerance: greatest distance of a point from its line or circle.
-        breaks, kinds: (count + 1,) and (count,) get the segments' ends and kinds.
+        breaks, kinds: (2 count + 1,) and (2 count,) get the segments' ends and kinds.
 
     Returns:
         Number of segments; 1 when one circle (or line) holds them all.
@@ -299,12 +374,8 @@ def segment_closed(points, count, tolerance, breaks, kinds):
     if _arc_holds(points, 0, count, sums, tolerance):
         return 1
     found = segment(points, 0, count, tolerance, breaks, kinds)
-    longest = 0
-    for k in range(found):
-        if breaks[k + 1] - breaks[k] > breaks[longest + 1] - breaks[longest]:
-            longest = k
-    first = breaks[longest] if breaks[longest] > 16 * SHORT else count  # so that the first end can still move back
-    found = segment(points, first, count, tolerance, breaks, kinds)
+    if found > 3:
+        found = _turned(points, count, tolerance, breaks, kinds, found)
     for _ in range(2):
         found = merge(points, breaks, kinds, found, tolerance)
         settle(points, breaks, kinds, found)

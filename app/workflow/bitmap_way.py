@@ -210,7 +210,7 @@ def _smoothed(part: BitmapPart, levels: Sequence[Sequence[Border]], made_for: tu
     result = []
     for k, (borders, distance) in enumerate(zip(levels, distances, strict=True)):
         progress.step((k + 1) / (len(levels) + 1), "Smooth paths")
-        keep = Keep(distance, distances[0], part.squares, part.frame.pitch)
+        keep = Keep(distance, distances[0], part.squares, part.frame, part.free)
         chains = [border.chain for border in borders]
         result.append(tuple(PixelPath(chain, pixel_path(chain_points(part.frame, chain), keep, options)) for chain in chains))
     return tuple(result)

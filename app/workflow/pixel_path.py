@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from app.bitmap.frame import Frame
 from app.bitmap.trace import Chain
+from app.bitmap.walls import Mask
 from app.fit.smooth import Smoothed, SmoothOptions, as_it_is, astray, moved, smooth, without
 from app.geometry.distance import DistanceField
 from app.geometry.primitives import R, Rows, lengths, points_at
@@ -70,21 +71,33 @@ class Keep:
         level: the distance that it is meant to have, mm.
         least: the distance below which it must not come, mm, <= level.
         field: distances from the squares.
-        pitch: of the pixels, mm.
+        frame, free: which pixels are none of these squares.
     """
 
     level: float
     least: float
     field: DistanceField
-    pitch: float
+    frame: Frame
+    free: Mask
+
+    @property
+    def pitch(self) -> float:
+        """Size of a pixel, mm."""
+        return self.frame.pitch
 
     def spare(self, rows: Rows) -> Floats:
         """Return how much farther than meant each row (n,) is from the squares, mm; no more than _REACH_PX tells."""
         return clearance(rows, self.field, _STEP_PX * self.pitch, self.level + _REACH_PX * self.pitch) - self.level
 
     def holds(self, rows: Rows) -> bool:
-        """Tell whether rows keep the least distance."""
-        return bool(self.spare(rows).min() >= self.least - self.level - _EXACT * self.pitch)
+        """Tell whether closed rows keep the least distance, on the right side of the squares.
+
+        Rows that keep any distance from the squares cannot get from one side to the other, so their ends tell.
+        """
+        cols, lines = np.floor(self.frame.to_px(rows[:, :2])).astype(np.int64).T
+        if not (0 <= cols.min() <= cols.max() < self.frame.cols and 0 <= lines.min() <= lines.max() < self.frame.rows):
+            return False
+        return bool(self.free[lines, cols].all() and self.spare(rows).min() >= self.least - self.level - _EXACT * self.pitch)
 
 
 def pixel_path(points: Floats, keep: Keep, options: SmoothOptions) -> Smoothed:
@@ -116,7 +129,7 @@ def _moved_out(path: Smoothed, points: Floats, keep: Keep, tolerance: float) -> 
     right, stays, best = np.zeros(len(path.rows)), np.zeros(len(path.rows), np.bool_), None
     tried, aim = path, _AIM_PX * keep.pitch
     for turn in range(_TRIES):
-        spare = _per_group(keep.spare(tried.rows), path.smooth)
+        spare = _per_group(keep.spare(tried.rows), path.tangent)
         if keep.holds(tried.rows):
             best = tried
         back = spare.min() if turn == _TRIES - 2 else (1 + turn / 4) * spare
@@ -135,10 +148,10 @@ def _moved_out(path: Smoothed, points: Floats, keep: Keep, tolerance: float) -> 
     return best
 
 
-def _per_group(values: Floats, smooth: NDArray[np.bool_]) -> Floats:
+def _per_group(values: Floats, tangent: NDArray[np.bool_]) -> Floats:
     """Return for each row the least value of all rows that it is joined to without a corner."""
-    corners = max(int(np.sum(~smooth)), 1)
-    groups = np.cumsum(~smooth) % corners
+    corners = max(int(np.sum(~tangent)), 1)
+    groups = np.cumsum(~tangent) % corners
     least = np.full(corners, np.inf)
     np.minimum.at(least, groups, values)
     shared: Floats = least[groups]
@@ -150,4 +163,4 @@ def _spot(path: Smoothed, pitch: float) -> Smoothed:
     x, y = path.rows[0, :2]
     rows = np.zeros((2, 8))
     rows[0, :4], rows[1, :4] = (x, y, x + pitch / 4, y), (x + pitch / 4, y, x, y)
-    return Smoothed(rows, np.repeat(path.kinds, 2), np.array([0, 0, 1]), np.zeros(2, np.bool_), 0.0, False, np.zeros((2, 5)))
+    return Smoothed(rows, np.repeat(path.kinds, 2), np.array([0, 0, 1]), np.zeros(2, np.uint8), 0.0, False, np.zeros((2, 5)))

@@ -212,5 +212,5 @@ def _mark_pieces(plane: Plane, path: PixelPath, chosen: Mask) -> None:
 
 def _mark_vertices(plane: Plane, path: PixelPath) -> None:
     pixels = path.chain.pixels()[:-1] if len(path.chain.directions) else path.chain.pixels()
-    corners = path.smoothed.ends[:-1][~path.smoothed.smooth & (path.smoothed.kinds != PieceKind.SPLINE)]
+    corners = path.smoothed.ends[:-1][~path.smoothed.tangent & (path.smoothed.kinds != PieceKind.SPLINE)]
     plane[tuple(pixels[corners % len(pixels)].T)] = PixelCode.VERTEX
