@@ -179,9 +179,9 @@ def taper_run(line, first, blocks, where, move):
 @kernel("float32(float32, float32, float32, float32)")
 def _nearer(y, c, wide, deep):
     """Return the next guess of Newton's method for `bull_contact`."""
-    w = _ONE / np.sqrt(_ONE + y * y)
-    bend = wide * w
-    return y + (c - (bend + deep) * y) / (bend * w * w + deep)
+    u = _ONE + y * y
+    cube = u * np.sqrt(u)
+    return y + ((c - deep * y) * cube - wide * y * u) / (wide + deep * cube)
 
 
 @kernel("UniTuple(float32, 2)(float64, float64, float64)")
