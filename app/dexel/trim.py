@@ -51,7 +51,7 @@ class TrimOptions:
         rapids: ASKED: they cut nothing, and metal that they meet is told.
         touch: a rapid that goes no deeper into metal than this is told as none, mm; also how much slimmer than its cutter it is taken.
         trace: note the motion that cut each cell last, and each motion's volume and engaged cells. Every motion is then evaluated
-            in all cells that it sweeps, which takes several times as long.
+            in all cells that the one before it in its chain has not swept as deep, which takes three times as long.
     """
 
     rapids: Rapids = Rapids.ASKED
