@@ -115,6 +115,32 @@ def nc_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
     return {"own": own, "foreign": foreign, "front": front, "find": find, "error": error, "compare": compare}
 
 
+def cut_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
+    """Return what the Cut view is photographed with: a place that was picked, another program, and what is asked of one."""
+    panel, cutting, view = wiring.window_.cut_panel, wiring.cutting, wiring.window_.views.cut
+
+    def rest() -> None:
+        wait(400)
+        wait_until(lambda: view.painting.fine and not cutting.zooming.worker.busy)
+
+    def place() -> None:
+        wiring.showing.show_view(View.CUT)
+        panel.rows[0].clicked.emit()
+        rest()
+
+    def program(name: str) -> None:
+        open_program(wiring, PROGRAMS / name)
+        wiring.window_.actions_["nc_cut"].trigger()
+        wait_until(lambda: not cutting.foreign_worker.busy)
+
+    def foreign() -> None:
+        program("test_pycam.ngc")
+        view.fit()
+        rest()
+
+    return {"place": place, "foreign": foreign, "asked": lambda: program("tux.ngc")}
+
+
 def main() -> None:
     """Take the pictures."""
     os.environ["HITOFUDE_CONFIG"] = tempfile.mkdtemp()
@@ -140,6 +166,10 @@ def main() -> None:
             for name, arrange in nc_states(wiring, Path(os.environ["HITOFUDE_CONFIG"])).items():
                 arrange()
                 take(wiring, folder / f"nc-{name}-{theme.value}-{width}.png")
+            for name, arrange in cut_states(wiring).items():
+                arrange()
+                take(wiring, folder / f"cut-{name}-{theme.value}-{width}.png")
+            wiring.cutting.back()
             wiring.nc.back()
     wiring.window_.close()
     application.quit()

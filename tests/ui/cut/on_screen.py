@@ -85,6 +85,7 @@ def main():
     view.show_cut(made_up(160))
     wait(lambda: view.painting.fine and 0.3 < metal_share(window, view) < 0.7)
     look_closer(window, view)
+    view.colours.worker.finish()
     print("OK")
     window.close()
     application.quit()
