@@ -313,7 +313,8 @@ def _shape_rows(course: Course, cutters: Mapping[int, Cutter], does: NDArray[np.
     for k, number in enumerate(numbers.tolist()):
         cutter = cutters.get(number)
         if cutter is not None:
-            rows[2 * k], rows[2 * k + 1] = _shape_row(cutter, 0.0), _slimmer_row(cutter, options.touch)
+            rows[2 * k] = _shape_row(cutter)
+            rows[2 * k + 1] = _shape_row(cutter.shrunk(min(options.touch, cutter.radius / 2)) or cutter)
             continue
         mine = index == k
         cuts = np.flatnonzero(mine & (does == 1) & (course.motions.kind != MotionKind.RAPID))
@@ -324,7 +325,7 @@ def _shape_rows(course: Course, cutters: Mapping[int, Cutter], does: NDArray[np.
     return rows, (2 * index + (does == 2)).astype(np.int32)
 
 
-def _shape_row(cutter: Cutter, lift: float) -> Floats:
+def _shape_row(cutter: Cutter) -> Floats:
     """Return a cutter's row for the kernels."""
     from app.dexel.sweep_kernels import BALL, BULL, CONE, FLAT_END, TAPER
 
@@ -335,15 +336,4 @@ def _shape_row(cutter: Cutter, lift: float) -> Floats:
         kind = BULL if cutter.flat else BALL
     else:
         kind = FLAT_END
-    return np.array([cutter.radius, cutter.flat, cutter.fillet, cutter.fillet_span, cone, lift, kind])
-
-
-def _slimmer_row(cutter: Cutter, touch: float) -> Floats:
-    """Return the row of a cutter that lies `touch` within another one, so that it meets no wall that the other one has cut."""
-    touch = min(touch, cutter.radius / 2)
-    if math.isinf(cutter.slope) and cutter.fillet > touch:
-        return _shape_row(replace(cutter, radius=cutter.radius - touch, fillet=cutter.fillet - touch), touch)
-    if math.isinf(cutter.slope):
-        return _shape_row(Cutter(cutter.radius - touch, cutter.radius - touch), cutter.fillet)
-    rim = max(cutter.radius - touch, cutter.rim_of_fillet)
-    return _shape_row(replace(cutter, radius=rim), 0.0)
+    return np.array([cutter.radius, cutter.flat, cutter.fillet, cutter.fillet_span, cone, cutter.lift, kind])
