@@ -8,8 +8,7 @@ from app.bitmap.frame import POINTS
 from app.bitmap.picture import PictureOptions, Shows
 from app.cli_options import number
 from app.errors import InputError
-from app.workflow.bitmap_job import BitmapOptions, is_picture
-from app.workflow.bitmap_part import BitmapSize
+from app.workflow.bitmap_options import BitmapOptions, BitmapSize, is_picture
 
 
 def add_bitmap_options(group: argparse._ArgumentGroup, bitmap_help: str) -> None:
@@ -44,6 +43,17 @@ def _whole(what: str, least: int) -> type[int]:
         return value
 
     return read  # type: ignore[return-value]  # argparse wants a callable, and names types
+
+
+def asked_bitmap(arguments: argparse.Namespace) -> BitmapOptions | None:
+    """Return how to compute on pixels where that was asked for, or the file is a picture; None = exactly.
+
+    Raises:
+        HitofudeError: as `bitmap_options`.
+    """
+    options = bitmap_options(arguments)
+    asked = arguments.bitmap is not None or arguments.pitch is not None or is_picture(arguments.drawing.name)
+    return options if asked else None
 
 
 def bitmap_options(arguments: argparse.Namespace) -> BitmapOptions:

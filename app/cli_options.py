@@ -128,14 +128,19 @@ def typed(read: Callable[[str], object]) -> Callable[[str], object]:
 
 def make_parser() -> OptionParser:
     """Return the parser of `hitofude make`."""
+    from app.cli_bitmap import add_bitmap_options
+
     parser = OptionParser(
         "make", ("drawing", "the drawing and the NC program to write"),
-        "Turn a drawing (.dxf) into contour and pocket tool paths and write them as an NC program, read back and proven the same.", EPILOG,
-    )
-    parser.add_argument("drawing", metavar="DRAWING", type=Path, help="the drawing, .dxf")
+        "Turn a drawing (.dxf) or a picture into contour and pocket tool paths and write them as an NC program, read back and proven "
+        "the same.", EPILOG,
+    )  # fmt: skip
+    parser.add_argument("drawing", metavar="DRAWING", type=Path, help="the drawing, .dxf, or a picture, .png .jpg .bmp")
     _file_options(parser.add_argument_group("files"))
     _tool_options(parser.add_argument_group("tools and cutting"))
     _drawing_options(parser.add_argument_group("drawing and origin"))
+    add_bitmap_options(parser.add_argument_group("bitmap and picture"),
+                       "compute on N x N pixels, as in 1986, instead of exactly; a picture is always")
     return parser
 
 
@@ -183,8 +188,6 @@ def _drawing_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--layer", metavar="NAME", action="append", default=[], help="machine only this layer; may be repeated")
     group.add_argument("--join-tolerance", metavar="MM", type=join_tolerance,
                        help="join loose ends nearer than this, 0 to 10 mm (default 0.01)")
-    group.add_argument("--bitmap", metavar="N", help=argparse.SUPPRESS)
-    group.add_argument("--pitch", metavar="MM", help=argparse.SUPPRESS)
 
 
 def read_arguments(argv: Sequence[str]) -> argparse.Namespace:
@@ -193,11 +196,7 @@ def read_arguments(argv: Sequence[str]) -> argparse.Namespace:
     Raises:
         InputError: one line that names the option, its value and what it must be.
     """
-    arguments = make_parser().parse_args(with_equals(argv))
-    for name in ("bitmap", "pitch"):
-        if getattr(arguments, name) is not None:
-            raise InputError(f"--{name}: the bitmap way is not built yet; leave the option away for exact lines and arcs")
-    return arguments
+    return make_parser().parse_args(with_equals(argv))
 
 
 def with_equals(argv: Sequence[str]) -> list[str]:
@@ -212,7 +211,13 @@ def with_equals(argv: Sequence[str]) -> list[str]:
 
 
 def make_options(arguments: argparse.Namespace) -> MakeOptions:
-    """Return what was asked for, but for the job file, which is yet to be read."""
+    """Return what was asked for, but for the job file, which is yet to be read.
+
+    Raises:
+        HitofudeError: options of the bitmap that go neither with one another nor with the drawing.
+    """
+    from app.cli_bitmap import asked_bitmap
+
     origin_xy, origin_z = arguments.origin or (None, None)
     return MakeOptions(
         contour_diameter=arguments.contour_tool, pocket_diameter=arguments.pocket_tool,
@@ -223,4 +228,5 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         post=arguments.post, machine=arguments.machine, out_units=arguments.out_units, units=arguments.units,
         origin_xy=origin_xy, origin_z=origin_z, layers=tuple(arguments.layer),
         join_tolerance=arguments.join_tolerance, exact_path=arguments.exact_path,
+        bitmap=asked_bitmap(arguments),
     )

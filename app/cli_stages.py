@@ -47,9 +47,9 @@ def stages_command(argv: Sequence[str], stopped: threading.Event) -> int:
     arguments = parser.parse_args(argv)
     folder = _check_outputs(arguments)
     progress = shown_progress(arguments.quiet, stopped)
-    options, bitmap = _make_options(arguments), bitmap_options(arguments)
+    options = _make_options(arguments)
     data = read_input(arguments.drawing)
-    run = run_stages(arguments.drawing.name, data, (options, bitmap, Variant(arguments.variant)), progress.part(0.0, 0.8))
+    run = run_stages(arguments.drawing.name, data, (options, Variant(arguments.variant)), progress.part(0.0, 0.8))
     texts = {folder / name: text for name, text in stage_files(run, progress.part(0.8, 1.0)).items()}
     if arguments.report is not None:
         texts[arguments.report] = (json.dumps(run.report(), indent=2, allow_nan=False) + "\n").encode()
@@ -112,7 +112,7 @@ def _make_options(arguments: argparse.Namespace) -> MakeOptions:
     options = MakeOptions(
         contour_diameter=arguments.contour_tool, pocket_diameter=arguments.pocket_tool, stepover=arguments.stepover,
         overlap=arguments.overlap, stock_to_leave=arguments.stock_to_leave, units=arguments.units, layers=tuple(arguments.layer),
-        join_tolerance=arguments.join_tolerance,
+        join_tolerance=arguments.join_tolerance, bitmap=bitmap_options(arguments),
     )  # fmt: skip
     if arguments.job is None:
         return options

@@ -132,7 +132,7 @@ def test_help_of_make_names_every_option() -> None:
         --speed --climb --conventional --order --post --out-units --units --origin --layer --join-tolerance --image --report --quiet"""
     assert all(option in text for option in options.split())
     assert "lower-left" in text
-    assert "bitmap" not in text
+    assert "--bitmap" in text
 
 
 @pytest.mark.parametrize(("arguments", "words"), [
@@ -171,8 +171,10 @@ def test_help_of_make_names_every_option() -> None:
     ("--out-units m", "'m' is no unit of an NC program"),
     ("--post abacus", "no post 'abacus'"),
     ("--layer walls", "no layer walls"),
-    ("--bitmap 400", "--bitmap: the bitmap way is not built yet"),
-    ("--pitch 0.1", "--pitch: the bitmap way is not built yet"),
+    ("--bitmap 4", "The bitmap is 4 px wide; use 16 to 8192 px"),
+    ("--bitmap many", "'many' is no whole number"),
+    ("--pitch 0", "the pitch must be greater than 0 mm"),
+    ("--dpi 300", "fig2.dxf is no picture"),
     ("--image picture.jpg", "a picture is .svg or .png"),
     ("--nonsense 3", "--nonsense 3 is no option"),
     ("--contour 3", "no option"),

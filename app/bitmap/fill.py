@@ -51,7 +51,7 @@ def fill(frame: Frame, contours: Sequence[Contour] | Rows, observer: Observer | 
 
 def _show_tracing(plane: Plane, observer: Observer) -> None:
     chains, traced = trace(plane)
-    contour = np.minimum(plane, PixelCode.CONTOUR)
+    contour = np.asarray(plane != PixelCode.EMPTY, np.uint8)
     observer(201, contour)
     starts = contour.copy()
     for chain in chains:

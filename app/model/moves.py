@@ -121,6 +121,7 @@ class Program:
         polyline_rings: rings that had to fall back to a fine polyline.
         bitmap_area_mm2, exact_area_mm2: area of A' by the bitmap fill and by the exact offset (independent check).
         pitch_mm: size of that bitmap's pixels; 0 when nothing was filled.
+        given_up_mm: of paths made from pixels: how much farther from the walls than asked they are at most; None of exact ones.
     """
 
     moves: Moves
@@ -131,3 +132,4 @@ class Program:
     bitmap_area_mm2: float = 0.0
     exact_area_mm2: float = 0.0
     pitch_mm: float = 0.0
+    given_up_mm: float | None = None

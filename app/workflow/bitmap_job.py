@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import PurePath
 
 import numpy as np
@@ -19,27 +19,12 @@ from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.part import Entity, Part, Region
 from app.toolpath.compute import regions_of
-from app.workflow.bitmap_part import BitmapPart, BitmapSize, part_of_mask, part_of_regions
+from app.workflow.bitmap_options import BitmapOptions, BitmapSize, is_picture
+from app.workflow.bitmap_part import BitmapPart, part_of_mask, part_of_regions
 from app.workflow.options import MakeOptions, job_with_options
-
-PICTURES = (".png", ".jpg", ".jpeg", ".bmp")
-"""Suffixes of pictures that can be read, in lower case."""
 
 _TOLD = 20
 """Doubtful places of one kind that are findings of their own."""
-
-
-@dataclass(frozen=True)
-class BitmapOptions:
-    """How a drawing or a picture gets onto the display memory.
-
-    Attributes:
-        size: of the bitmap, for drawings; a picture has its own.
-        picture: how to read one.
-    """
-
-    size: BitmapSize = field(default_factory=BitmapSize)
-    picture: PictureOptions = field(default_factory=PictureOptions)
 
 
 @dataclass(frozen=True)
@@ -57,12 +42,7 @@ class BitmapJob:
     findings: tuple[Finding, ...] = ()
 
 
-def is_picture(name: str) -> bool:
-    """Tell whether a file is a picture, by its suffix."""
-    return PurePath(name).suffix.lower() in PICTURES
-
-
-def bitmap_job(name: str, data: bytes, options: MakeOptions, bitmap: BitmapOptions) -> BitmapJob:
+def bitmap_job(name: str, data: bytes, options: MakeOptions) -> BitmapJob:
     """Return the job for the bytes of a drawing or a picture.
 
     Args:
@@ -71,6 +51,7 @@ def bitmap_job(name: str, data: bytes, options: MakeOptions, bitmap: BitmapOptio
     Raises:
         HitofudeError: it cannot be used, or an option is out of its range.
     """
+    bitmap = options.bitmap or BitmapOptions()
     if is_picture(name):
         return picture_job(read_picture(name, data, bitmap.picture), options, bitmap.picture, PurePath(name).stem)
     layers = options.layers or (options.job.layer_names if options.job else ())

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from app.bitmap.codes import Plane
 from app.bitmap.draw import draw
-from app.bitmap.frame import POINTS, Frame
+from app.bitmap.frame import Frame
 from app.bitmap.peel import frame_pixels
 from app.bitmap.walls import Mask, free_pixels, wall_rows
 from app.errors import ParameterError
@@ -18,47 +18,7 @@ from app.geometry import kernels
 from app.geometry.distance import DistanceField
 from app.geometry.primitives import boxes, contour_rows, pack
 from app.model.part import Region
-
-MARGIN_PX = 2
-"""Empty pixels round a drawing on its bitmap."""
-
-LARGEST_SIDE = 8192
-"""Pixels; a larger bitmap is refused before it is made."""
-
-
-@dataclass(frozen=True)
-class BitmapSize:
-    """How finely a drawing is seen.
-
-    Attributes:
-        points: rows and columns, 16 ... 8192; with a pitch, the least.
-        pitch: size of a pixel, mm, > 0; None = as large as the drawing allows.
-    """
-
-    points: int = POINTS
-    pitch: float | None = None
-
-    def __post_init__(self) -> None:
-        if not 16 <= self.points <= LARGEST_SIDE:
-            raise ParameterError(f"The bitmap is {self.points} px wide; use 16 to {LARGEST_SIDE} px.")
-        if self.pitch is not None and not 0 < self.pitch < 1e5:
-            raise ParameterError(f"The pitch is {self.pitch:g} mm; it must be greater than 0 and less than 100000 mm.")
-
-    def frame(self, extent: tuple[float, float, float, float]) -> Frame:
-        """Return a frame round an extent x0, y0, x1, y1, mm; its corner lies on a whole multiple of the pitch where one was given.
-
-        Raises:
-            ParameterError: at this pitch the drawing is larger than the largest bitmap.
-        """
-        if self.pitch is None:
-            return Frame.around(extent, self.points, MARGIN_PX)
-        x0, y0 = (int(np.floor(low / self.pitch)) - MARGIN_PX for low in extent[:2])
-        need = max(int(np.ceil(high / self.pitch)) + MARGIN_PX - low for high, low in zip(extent[2:], (x0, y0), strict=True))
-        if need > LARGEST_SIDE:
-            raise ParameterError(f"At a pitch of {self.pitch:g} mm the drawing is {need} px wide; {LARGEST_SIDE} px are the most, "
-                                 "so use a larger pitch.")
-        side = max(need, self.points)
-        return Frame(side, side, self.pitch, x0 * self.pitch, y0 * self.pitch)
+from app.workflow.bitmap_options import BitmapSize
 
 
 @dataclass(frozen=True)

@@ -141,7 +141,8 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
     rough = sum(not path.smoothed.exact for each in paths for level in each.levels for path in level)
     setting.findings.extend(_findings(part, paths, given_up, job))
     findings = tuple(sorted(setting.findings, key=lambda finding: not finding.counts))
-    program = Program(setting.builder.moves(), part.regions, findings, setting.strokes, pitch_mm=part.frame.pitch)
+    program = Program(setting.builder.moves(), part.regions, findings, setting.strokes, pitch_mm=part.frame.pitch,
+                      given_up_mm=given_up.most_mm)
     return BitmapProgram(program, tuple(paths), given_up, rough)
 
 

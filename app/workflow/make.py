@@ -24,6 +24,7 @@ from app.nc.write import NcFile, NcText
 from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
 from app.toolpath.coverage import Coverage, coverage_findings, measure
+from app.workflow.bitmap_options import is_picture
 from app.workflow.cut import CutProgram
 from app.workflow.cut_job import cut_job, news
 from app.workflow.options import MakeOptions, job_with_options
@@ -107,11 +108,27 @@ def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_P
         Cancelled: the job was asked to stop.
     """
     progress.step(0.0, f"Reading {name}")
+    if options.bitmap is not None or is_picture(name):
+        return _make_on_bitmap(name, data, options, progress)
     units = options.units
     drawing = read_drawing(name, data, units, options.layers or (options.job.layer_names if options.job else ()))
     job = job_from_drawing(drawing, options)
     made = export(job, progress.part(0.1, 1.0), drawing.findings, options.machine)
     if not len(made.program.moves):
+        raise GeometryError(_nothing(name, made.findings))
+    return made
+
+
+def _make_on_bitmap(name: str, data: bytes, options: MakeOptions, progress: Progress) -> Made:
+    """Return what `make` returns, computed on pixels alone."""
+    from app.workflow.bitmap_job import bitmap_job
+    from app.workflow.bitmap_way import compute_on_bitmap
+
+    ready = bitmap_job(name, data, options)
+    load_post(ready.job.post)
+    program = compute_on_bitmap(ready.job, ready.part, progress.part(0.1, 0.5)).program
+    made = finish(program, ready.job, progress.part(0.5, 1.0), ready.findings, options.machine)
+    if not len(program.moves):
         raise GeometryError(_nothing(name, made.findings))
     return made
 

@@ -10,6 +10,7 @@ from app.model.machine import Machine
 from app.model.operation import LEAST_LENGTH, ContourOperation, Cut, Direction, Operation, Order, PocketOperation
 from app.model.part import Part, Units
 from app.model.tool import Tool
+from app.workflow.bitmap_options import BitmapOptions
 
 LEAST_PER_CENT = 1.0
 """Of the diameter; a smaller stepover is a slip of the pen."""
@@ -51,6 +52,7 @@ class MakeOptions:
         feed, plunge (mm/min), speed (rpm): of every tool.
         machine: that the program has to fit and is timed on; None = timed on a usual one.
         units: of a drawing that names none. layers: to machine; empty = all visible ones.
+        bitmap: compute on pixels, and how they are made; None = exactly, but for pictures.
     """
 
     job: Job | None = None
@@ -76,6 +78,7 @@ class MakeOptions:
     join_tolerance: float | None = None
     exact_path: bool = False
     machine: Machine | None = None
+    bitmap: BitmapOptions | None = None
 
 
 def job_with_options(part: Part, options: MakeOptions) -> Job:

@@ -23,6 +23,7 @@ from app.workflow.verdict import Gouge, RapidInMaterial, in_stock
 from app.workflow.written import Written
 
 ENGINE = "exact lines and arcs; pocket rings are levels of one distance field"
+BITMAP_ENGINE = "pixels alone, smoothed into lines and arcs that keep clear of the pixels' squares"
 COVERAGE_METHOD = f"polygons of the emitted moves, arcs as chords within {CHORD:g} mm; strips narrower than {STRIP:g} mm are not counted"
 GOUGE_METHOD = "closed-form distance of every move below Z 0 from every wall, less tool radius and stock to leave"
 TIME_METHOD = ("feeds and accelerations with look-ahead, corners blended as the program says, dwells and tool changes, on this "
@@ -111,7 +112,7 @@ def make_report(measured: Measured) -> Report:
         "cut": _cut(measured.cut),
         "skipped": [as_values(each) for each in _of(measured, FindingKind.REGION_TOO_SMALL, FindingKind.LEFT_OUT, FindingKind.TINY_ENTITY)],
         "open_contours": [as_values(each) for each in _of(measured, FindingKind.OPEN_CONTOUR)],
-        "engine": "; ".join([ENGINE, *([rings_in_words(program.polyline_rings)] if program.polyline_rings else [])]),
+        "engine": _engine(program),
         "polyline_rings": program.polyline_rings,
         "tolerance": _tolerance(measured),
         "findings": [as_values(each) for each in measured.findings],
@@ -191,10 +192,21 @@ def as_values(finding: Finding) -> Json:
             "amount": finding.amount}
 
 
+def _engine(program: Program) -> str:
+    polylines = [rings_in_words(program.polyline_rings)] if program.polyline_rings else []
+    return "; ".join([ENGINE if program.given_up_mm is None else BITMAP_ENGINE, *polylines])
+
+
+def _path_tolerance(program: Program) -> Json:
+    if program.given_up_mm is None:
+        return {"path_mm": tolerances.LEVEL, "path": "checked"}
+    return {"path_mm": program.given_up_mm, "path": "measured along the walls; never nearer to them than asked"}
+
+
 def _tolerance(measured: Measured) -> Json:
     contours = [contour for region in measured.program.regions for contour in region.contours]
     return {
-        "path_mm": tolerances.LEVEL, "path": "checked",
+        **_path_tolerance(measured.program),
         "curves_mm": max((contour.deviation for contour in contours), default=0.0), "curves": "measured",
         "join_mm": measured.job.join_tolerance,
         "writing_mm": writing_tolerance(measured.job, measured.written.post), "writing": "bound",

@@ -12,7 +12,7 @@ from app.bitmap.codes import PixelCode
 from app.bitmap.steps import STEPS, Stage, StageObserver
 from app.model.finding import Finding, worst_first
 from app.progress import NO_PROGRESS, Progress
-from app.workflow.bitmap_job import BitmapJob, BitmapOptions, bitmap_job
+from app.workflow.bitmap_job import BitmapJob, bitmap_job
 from app.workflow.bitmap_way import BitmapProgram, compute_on_bitmap
 from app.workflow.options import MakeOptions
 from app.workflow.report import as_values
@@ -84,23 +84,23 @@ def _step(stage: Stage, file: str, seen: dict[int, int]) -> Json:
             "chains": len(stage.chains), "pixels": {PixelCode(int(v)).name.lower(): int(n) for v, n in zip(values, counts, strict=True)}}
 
 
-def run_stages(name: str, data: bytes, asked: tuple[MakeOptions, BitmapOptions, Variant], progress: Progress = NO_PROGRESS,
+def run_stages(name: str, data: bytes, asked: tuple[MakeOptions, Variant], progress: Progress = NO_PROGRESS,
                observer: StageObserver | None = None) -> StagesRun:
     """Compute a drawing or a picture on pixels, and look at every step.
 
     Args:
         name: of the file; its suffix tells the format.
         data: its bytes.
-        asked: tools and operations; the bitmap; the rules of the fill.
+        asked: tools, operations and bitmap; the rules of the fill.
         observer: is shown every stage, also those that `StagesRun` keeps only the last of.
 
     Raises:
         HitofudeError: it cannot be used, or nothing in it can be cut.
         Cancelled: the job was asked to stop.
     """
-    options, bitmap, variant = asked
+    options, variant = asked
     progress.step(0.0, f"Reading {name}")
-    ready = bitmap_job(name, data, options, bitmap)
+    ready = bitmap_job(name, data, options)
     made = compute_on_bitmap(ready.job, ready.part, progress.part(0.1, 0.8))
     last: dict[int, Stage] = {}
     seen: dict[int, int] = {}

@@ -57,7 +57,7 @@ def stages(job: Job, part: BitmapPart, paths: Sequence[OperationPaths], variant:
     scene = _Scene(part, variant)
     contour = next((each for each in paths if isinstance(job.operations[each.index], ContourOperation)), None)
     pocket = next((each for each in paths if each is not contour and not isinstance(job.operations[each.index], ContourOperation)), None)
-    yield Stage(110, np.minimum(part.drawn, PixelCode.CONTOUR))
+    yield Stage(110, (part.drawn != PixelCode.EMPTY).astype(np.uint8))
     shown = contour or pocket
     if shown is None:
         return
