@@ -29,7 +29,7 @@ from app.ui.nc.motion_shapes import Look
 from app.ui.samples import Sample
 from app.ui.theme import Theme
 
-_NOTCH = 1.2
+_NOTCH, _CROWDED_PX = 1.2, 6.0
 _EDGE_PX = 16
 _STEEP, _MOST_OF_STOCK = np.radians(55.0), 0.5
 _LOOKS = {Sample.RAPID: Look.RAPID, Sample.POCKET: Look.CUT, Sample.PLUNGE: Look.PLUNGE, Sample.CONTOUR: Look.CONTOUR}
@@ -117,8 +117,16 @@ class CutView(QWidget):
         if before is None or not (np.array_equal(before.low, picture.low) and np.array_equal(before.high, picture.high)):
             self.look_now(self._fitted_camera())
             self._fitted = True
+            self._thin_out(picture)
         if self.isVisible():
             self._need_surface()
+
+    def _thin_out(self, picture: CutPicture) -> None:
+        """Leave out paths of cuts that would hide the metal, until the user wants them."""
+        area = float(np.prod((picture.high - picture.low)[:2]))
+        for sample in (Sample.POCKET, Sample.CONTOUR):
+            length = picture.paths.length(int(_LOOKS[sample])) if picture.paths is not None else 0.0
+            self.legend.rows[sample].setChecked(length * _CROWDED_PX < area * self.camera.scale)
 
     def show_detail(self, detail: CutPicture | None) -> None:
         """Show a part of the cut in finer cells, or only the whole again."""

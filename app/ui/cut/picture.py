@@ -60,6 +60,11 @@ class CutPaths:
     def __len__(self) -> int:
         return len(self.look)
 
+    def length(self, look: int) -> float:
+        """Return how long all pieces of a look are, seen from above, mm."""
+        chosen = self.look == look
+        return float(np.sum(np.hypot(*(self.end - self.start)[chosen, :2].T)))
+
 
 @dataclass(frozen=True, slots=True)
 class Span:

@@ -1,5 +1,7 @@
 """The Cut view without a screen: it shows what OpenGL painted elsewhere, and does what mouse and keys ask."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
@@ -10,6 +12,7 @@ from app.ui.cut.camera import StandardView
 from app.ui.cut.colouring import CutColour
 from app.ui.cut.cut_legend import Side
 from app.ui.cut.cut_view import CutView
+from app.ui.cut.picture import CutPaths
 from app.ui.cut.surface import ImageSurface, widgets_have_opengl
 from app.ui.samples import Sample
 from app.ui.theme import DARK, LIGHT
@@ -185,6 +188,18 @@ def test_paths_can_be_hidden(qtbot, view):
     assert green[0] > 500 > green[1]
 
 
+def test_paths_that_would_hide_the_metal_are_left_out_until_somebody_wants_them(view, picture):
+    assert view.legend.rows[Sample.POCKET].isChecked()
+    paths = picture.paths
+    many = CutPaths(*(np.concatenate([column] * 40) for column in (paths.start, paths.end, paths.look)))
+    view.show_cut(None)
+    view.show_cut(replace(picture, paths=many))
+    assert not view.legend.rows[Sample.POCKET].isChecked() and view.legend.rows[Sample.RAPID].isChecked()
+    view.legend.rows[Sample.POCKET].setChecked(True)
+    view.show_cut(replace(picture, paths=many))
+    assert view.legend.rows[Sample.POCKET].isChecked()
+
+
 def test_a_section_opens_the_stock_and_the_probe_meets_its_face(qtbot, view):
     qtbot.mouseClick(view.legend.side.buttons[Side.Y], LEFT)
     assert view.legend.slider.isVisible()
@@ -210,4 +225,5 @@ def test_the_view_stays_when_the_same_stock_is_cut_anew(view, picture):
 
 
 def test_cut_stands_between_paths_and_nc():
-    assert [view.name for view in View] == ["DRAW", "PATHS", "CUT", "NC"]
+    names = [view.name for view in View]
+    assert names[names.index("PATHS") + 1:] == ["CUT", "NC"]
