@@ -38,8 +38,8 @@ def test_every_step_of_a_drawing_is_written(tmp_path: Path) -> None:
     assert "34 steps on 400 x 400 px" in done.stdout
     told = json.loads(report.read_text())
     assert [step["number"] for step in told["steps"]] == [
-        110, 120, 201, 202, 203, 204, 205, 206, 207, 208, 130, 301, 302, 303, 304, 305, 306, 307, 141, 142, 143, 144, 145, 146, 147, 148, 140,
-        401, 402, 403, 404, 405, 406, 407]
+        110, 120, 201, 202, 203, 204, 205, 206, 207, 208, 130, 301, 302, 303, 304, 305, 306, 307, 141, 142, 143, 144, 145, 146, 147, 148,
+        140, 401, 402, 403, 404, 405, 406, 407]
     for step in told["steps"]:
         codes = np.load(folder / f"{step['file']}.npy")
         assert codes.dtype == np.uint8
@@ -85,7 +85,8 @@ def test_make_computes_on_pixels_where_asked(tmp_path: Path) -> None:
 
 
 def test_make_takes_a_picture(tmp_path: Path, picture: Path) -> None:
-    done = run("make", picture, "-o", tmp_path / "o.ngc", "--pitch", 0.2, "--contour-tool", 1, "--pocket-tool", 2, "--report", tmp_path / "r.json")
+    done = run("make", picture, "-o", tmp_path / "o.ngc", "--pitch", 0.2, "--contour-tool", 1, "--pocket-tool", 2,
+               "--report", tmp_path / "r.json")
     assert done.returncode == 1, done.stderr
     told = json.loads((tmp_path / "r.json").read_text())
     assert told["gouge"]["max_mm"] <= 1e-6

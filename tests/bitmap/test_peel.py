@@ -1,0 +1,108 @@
+"""Borders, peels and the circle's correction: literal peeling is the city block distance, step 307 makes it Euclidean."""
+
+import numpy as np
+import pytest
+from scipy import ndimage
+
+from app.bitmap.border import borders_of, mark
+from app.bitmap.frame import Frame
+from app.bitmap.levels import SAFE_PX, RingSteps, frame_distance, offset_area, ring_index
+from app.bitmap.peel import correct_by_circles, distance_px, frame_pixels, peeled, peels, shrink
+from app.bitmap.walls import free_pixels
+from tests.part_shapes import fig2
+
+EIGHT = np.ones((3, 3))
+
+
+def random_area(seed: int, size: int = 60) -> np.ndarray:
+    rng = np.random.default_rng(seed)
+    noise = rng.random((size, size)) < rng.choice([0.3, 0.5, 0.7, 0.9])
+    return ndimage.binary_opening(noise) if seed % 3 == 0 else ndimage.binary_closing(noise) if seed % 3 == 1 else noise
+
+
+def part(size: int) -> np.ndarray:
+    return free_pixels(Frame.around((6, 6, 96, 96), size), fig2())
+
+
+def squared_distance(area: np.ndarray, targets: np.ndarray) -> np.ndarray:
+    """Exact squared distances from target pixels, whole numbers."""
+    _, (row, col) = ndimage.distance_transform_edt(~targets, return_indices=True)
+    rows, cols = np.indices(area.shape)
+    return (rows - row) ** 2 + (cols - col) ** 2
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_every_border_is_found_once_and_holds_every_border_pixel(seed: int) -> None:
+    area = random_area(seed)
+    borders = borders_of(area)
+    assert len(borders) == ndimage.label(area, EIGHT)[1] + ndimage.label(~np.pad(area, 1))[1] - 1, "one an area, one a hole"
+    marked = np.zeros(area.shape, np.uint8)
+    mark(marked, borders, 1)
+    padded = np.pad(area, 1)
+    assert np.array_equal(marked == 1, area & ~ndimage.binary_erosion(padded)[1:-1, 1:-1])
+    assert np.array_equal(marked == 1, frame_pixels(area))
+    assert all(border.chain.pixels()[-1].tolist() == list(border.chain.start) for border in borders)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_all_levels_in_one_pass_are_the_borders_of_each(seed: int) -> None:
+    index = np.random.default_rng(seed).integers(0, 8, (40, 40)).astype(np.uint16)
+    index = ndimage.median_filter(index, 3) if seed % 2 else index
+    together = borders_of(index)
+    for level in range(1, 9):
+        alone = sorted(border.chain.text() for border in borders_of(index >= level))
+        assert alone == sorted(border.chain.text() for border in together if border.level == level)
+
+
+@pytest.mark.parametrize("count", [1, 2, 4, 9])
+def test_peeling_is_the_city_block_distance(count: int) -> None:
+    for area in (part(400), random_area(2), random_area(3)):
+        blocks = ndimage.distance_transform_cdt(np.pad(area, 1), "taxicab")[1:-1, 1:-1]
+        assert np.array_equal(peeled(area, count), blocks > count), "0 px different"
+
+
+@pytest.mark.parametrize("radius", [1.0, 4.0, 6.3, 17.5])
+def test_with_the_circles_it_is_the_euclidean_threshold(radius: float) -> None:
+    for area in (part(400), random_area(2), random_area(3)):
+        frame = area & ~ndimage.binary_erosion(np.pad(area, 1))[1:-1, 1:-1]
+        exact = area & (squared_distance(area, frame) > radius * radius) if frame.any() else area
+        assert np.array_equal(shrink(area, radius), exact), "0 px different"
+        assert np.array_equal(correct_by_circles(area, area, radius), exact), "the peels add nothing to the circles"
+
+
+@pytest.mark.long
+def test_peeling_at_1600() -> None:
+    area = part(1600)
+    blocks = ndimage.distance_transform_cdt(np.pad(area, 1), "taxicab")[1:-1, 1:-1]
+    assert np.array_equal(peeled(area, 25), blocks > 25)
+    frame = frame_pixels(area)
+    assert np.array_equal(shrink(area, 25.0), area & (squared_distance(area, frame) > 625))
+
+
+def test_the_exception_of_step_304_keeps_the_ends_of_thin_lines() -> None:
+    area = np.zeros((7, 12), bool)
+    area[3, 1:11] = True
+    assert not peeled(area, 1).any()
+    ((left, borders),) = peels(area, 1, keep_ends=True)
+    assert np.argwhere(left).tolist() == [[3, 1], [3, 10]]
+    assert len(borders) == 1
+    assert not correct_by_circles(left, area, 1.0).any(), "which the circles take away again"
+
+
+def test_an_offset_keeps_its_distance_from_every_outside_pixel() -> None:
+    free = part(400)
+    distance = np.sqrt(squared_distance(free, ~free))
+    assert np.array_equal(offset_area(free, 8.0, 1.0), distance >= 8 + 1 + SAFE_PX - 1e-6)
+    assert offset_area(free, 0.0, 1.0) is free
+    assert np.allclose(distance_px(free)[free], distance[free], atol=1e-4)
+
+
+def test_paths_are_levels_of_one_field() -> None:
+    area = offset_area(part(400), 4.0, 1.0)
+    field = frame_distance(area)
+    index = ring_index(field, RingSteps(8.0, 5.0, 2.0))
+    assert np.array_equal(index >= 1, shrink(area, 8.0))
+    exact = np.sqrt(np.maximum(np.rint(field.astype(float) ** 2), 0))
+    for k in (2, 3, 4):
+        assert np.array_equal(index >= k, area & (exact > 8) & (exact >= 8 + 5 * (k - 1) - 2))
+    assert np.array_equal(ring_index(field, RingSteps(0.0, 5.0)) >= 1, area)
