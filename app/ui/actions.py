@@ -52,9 +52,10 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
     )),
     ("&View", (
         Spec("view_draw", "&Draw", "Ctrl+1", group="view", checkable=True),
-        Spec("view_paths", "&Paths", "Ctrl+2", group="view", checkable=True),
-        Spec("view_cut", "C&ut", "Ctrl+3", group="view", checkable=True),
-        Spec("view_nc", "&NC", "Ctrl+4", group="view", checkable=True),
+        Spec("view_stages", "St&ages", "Ctrl+2", group="view", checkable=True),
+        Spec("view_paths", "&Paths", "Ctrl+3", group="view", checkable=True),
+        Spec("view_cut", "C&ut", "Ctrl+4", group="view", checkable=True),
+        Spec("view_nc", "&NC", "Ctrl+5", group="view", checkable=True),
         SEPARATOR,
         Spec("fit", "&Fit", "Ctrl+0", "fit", key_hint="F"),
         Spec("zoom_in", "Zoom &in", "Ctrl++", "zoom-in"),
@@ -96,6 +97,7 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
     ("&Compute", (
         Spec("compute", "&Compute", "F5", "compute"),
         Spec("cancel", "C&ancel", "Shift+F5", "cancel"),
+        Spec("stages_again", "Compute the &stages"),
         SEPARATOR,
         Spec("findings", "&Findings", "Ctrl+Shift+F"),
     )),
@@ -195,6 +197,7 @@ def keys_text() -> str:
         ("Repeat the last tool, end a chain", "Enter"), ("Straight up or across while drawing", "Shift"),
         ("Turn the cut; from above, front, right, isometric", "drag; 1, 2, 3, 4"),
         ("Profile along a line over the cut", "Ctrl + drag"),
+        ("Stages: play, step, first and last", "Space; Left, Right; Home, End"), ("Stages: another region or phase", "Page up, Page down"),
         ("Cut an operation earlier, later", "Alt+Up, Alt+Down"), ("Place by number", "x,y   @dx,dy   @length<angle"),
     ]
     half = (len(rows) + 1) // 2

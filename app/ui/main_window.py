@@ -22,6 +22,7 @@ from app.ui.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
 from app.ui.notice import Notice
 from app.ui.opening import SUFFIXES
 from app.ui.panels.side_panel import SidePanel
+from app.ui.stages.stages_panel import StagesPanel
 from app.ui.status_bar import StatusBar
 from app.ui.theme import DARK, LIGHT, Theme
 from app.ui.views import Views
@@ -53,6 +54,7 @@ class MainWindow(QMainWindow):
         self.canvas = Canvas(document, self.theme)
         self.views, self.panel, self.cut_panel = Views(self.canvas), SidePanel(document), CutPanel()
         self.cut_form = SetupForm()
+        self.stages_panel = StagesPanel()
         self.notice, self.command_line, self.status = Notice(), CommandLine(), StatusBar()
         self.top_bar, self.tool_strip = TopBar(self.actions_), ToolStrip(self.actions_)
         self.findings_list = FindingsList(self)
@@ -75,7 +77,7 @@ class MainWindow(QMainWindow):
         middle.addWidget(self.tool_strip)
         middle.addLayout(centre, 1)
         middle.addWidget(self.panel)
-        for widget in (self.cut_panel, self.cut_form):
+        for widget in (self.stages_panel, self.cut_panel, self.cut_form):
             middle.addWidget(widget)
             widget.hide()
         root = QWidget()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 
 from app.edit.document import Change
 from app.model.finding import Finding
@@ -41,17 +41,28 @@ NO_NC = Missing("There is no NC program yet.", "Compute  F5", "compute")
 NO_PROGRAM = Missing("There is no NC program yet. Draw a part and compute it, or open a program.", "Open an NC program", "nc_open")
 NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
 CUT_PROMPT = "Drag turns the cut, the middle button shifts it, Ctrl+drag measures a profile; click the metal to go to its line"
+STAGES_PROMPT = "Space plays, Left and Right step; click a traced line to see its chain code"
 COMPUTING = Missing("The paths are being computed.", "Cancel  Shift+F5", "cancel")
 
 
 class Showing(QObject):
-    """Reads the state and shows it; changes nothing but the window."""
+    """Reads the state and shows it; changes nothing but the window.
+
+    Signals:
+        view_changed(View): another view came to the front.
+
+    Attributes:
+        stages_missing: what the stages lack.
+    """
+
+    view_changed = Signal(View)
 
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
         self._window = window
         self._document, self._computation = window.document, window.computation
         self.view = View.DRAW
+        self.stages_missing = NOTHING
         self._layers = PathLayers.ALL
         self._shown_program: object = None
         self._empty_action = "open"
@@ -92,14 +103,15 @@ class Showing(QObject):
         self.view = view
         self._window.actions_[view.value].setChecked(True)
         self._window.views.show_view(view)
-        self._window.tool_strip.setVisible(view not in (View.CUT, View.NC))
+        self._window.tool_strip.setVisible(view in (View.DRAW, View.PATHS))
         self.show_prompt()
         self._window.status.show_message(self._standing())
+        self.view_changed.emit(view)
         self.show_missing()
 
     def show_prompt(self) -> None:
         """Say what the command line takes: on the canvas what the tool in hand wants, beside a program what it is for."""
-        prompts = {View.CUT: CUT_PROMPT, View.NC: NC_PROMPT}
+        prompts = {View.STAGES: STAGES_PROMPT, View.CUT: CUT_PROMPT, View.NC: NC_PROMPT}
         self._window.command_line.set_prompt(prompts.get(self.view, self._window.canvas.prompt))
 
     def refresh(self, change: Change) -> None:
@@ -140,14 +152,18 @@ class Showing(QObject):
     def _show_side(self) -> None:
         """Have what belongs to the view at its right: the job, or what is known of the cut, or what is asked of it."""
         window, beside_cut = self._window, self.view is View.CUT
+        stages = self.view is View.STAGES and bool(self._document.part.entities)
         asks, tells = beside_cut and window.cut_form.asked is not None, beside_cut and window.cut_panel.shown is not None
         window.cut_form.setVisible(asks)
         window.cut_panel.setVisible(tells and not asks)
-        window.panel.setVisible(not (asks or tells))
+        window.stages_panel.setVisible(stages)
+        window.panel.setVisible(not (asks or tells or stages))
 
     def _missing(self) -> Missing:
         if self._has_something():
             return NOTHING
+        if self.view is View.STAGES and self._document.part.entities:
+            return self.stages_missing
         if self._computation.state is State.RUNNING:
             return COMPUTING if self.view is not View.DRAW else NOTHING
         if not self._document.part.entities:
@@ -159,6 +175,8 @@ class Showing(QObject):
     def _has_something(self) -> bool:
         """Return whether the view at the front shows something besides the drawing."""
         views = self._window.views
+        if self.view is View.STAGES:
+            return views.stages.film is not None
         if self.view is View.CUT:
             return views.cut.picture is not None or bool(views.cut.sentence.text())
         return self._computation.made is not None or (self.view is View.NC and len(views.nc.pane.text.text) > 0)
@@ -169,7 +187,8 @@ class Showing(QObject):
 
     def _standing(self) -> str:
         """Return what the status bar says when nothing else is to be said."""
-        words = self._window.views.nc.summary if self.view is View.NC else ""
+        views = self._window.views
+        words = {View.NC: views.nc.summary, View.STAGES: views.stages.summary}.get(self.view, "")
         return words or self._computation.state.value
 
     def _on_computation(self) -> None:
@@ -223,7 +242,7 @@ class Showing(QObject):
         if finding.x is None or finding.y is None:
             return
         self._window.canvas.set_findings((*self._marked(), finding))
-        if self.view in (View.CUT, View.NC):
+        if self.view not in (View.DRAW, View.PATHS):
             self.show_view(View.PATHS)
         self._window.canvas.go_to(finding.x, finding.y, closely=True)
         self._window.canvas.setFocus()

@@ -7,7 +7,7 @@ from string import Template
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QApplication
 
-from app.ui.theme import Theme, text_font
+from app.ui.theme import Theme, mixed, text_font
 
 _BARS = """
 QMainWindow, QWidget#root { background: $paper; }
@@ -111,8 +111,7 @@ QDialog { background: $paper; }
 
 def _mix(a: QColor, b: QColor, part: float) -> str:
     """Return `part` of b in a, as "#rrggbb"."""
-    values = (round(x + (y - x) * part) for x, y in ((a.red(), b.red()), (a.green(), b.green()), (a.blue(), b.blue())))
-    return QColor(*values).name()
+    return mixed(a, b, part).name()
 
 
 def style_sheet(theme: Theme, arrow: str = "") -> str:

@@ -88,6 +88,12 @@ DARK = Theme(
 )
 
 
+def mixed(a: QColor, b: QColor, part: float) -> QColor:
+    """Return `part` of b in a."""
+    values = (round(x + (y - x) * part) for x, y in ((a.red(), b.red()), (a.green(), b.green()), (a.blue(), b.blue())))
+    return QColor(*values)
+
+
 def text_font(pixels: int = TEXT_PX, semibold: bool = False) -> QFont:
     """Return the system's font with tabular figures, so that numbers line up.
 

@@ -1,4 +1,4 @@
-"""The middle of the window: Draw and Paths on one canvas, Cut in space, NC as text; a view with nothing to show says what is missing."""
+"""The middle of the window: Draw and Paths on one canvas, Stages as pixels, Cut in space, NC as text; or what is missing."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from app.ui.fade import Fade
 from app.ui.legend import Legend
 from app.ui.nc.nc_view import NcView
 from app.ui.nc.path_view import PathView
+from app.ui.stages.stages_view import StagesView
 from app.ui.theme import LIGHT, Theme
 
 _RULER_PX, _MARGIN_PX = 24, 16
@@ -25,6 +26,7 @@ class View(Enum):
     """The way from drawing to machine; the value is the action's name."""
 
     DRAW = "view_draw"
+    STAGES = "view_stages"
     PATHS = "view_paths"
     CUT = "view_cut"
     NC = "view_nc"
@@ -69,13 +71,15 @@ class EmptyState(QWidget):
 
 
 class Views(QStackedWidget):
-    """Canvas, cut and NC text, with legend and empty state laid over them."""
+    """Canvas, stages, cut and NC text, with legend and empty state laid over them."""
 
     def __init__(self, canvas: Canvas) -> None:
         super().__init__()
-        self.canvas, self.cut, self.nc = canvas, CutView(), NcView()
+        self.canvas, self.stages, self.cut, self.nc = canvas, StagesView(), CutView(), NcView()
+        self._own: dict[View, QWidget] = {View.STAGES: self.stages, View.CUT: self.cut, View.NC: self.nc}
         self.view = View.DRAW
         self.addWidget(canvas)
+        self.addWidget(self.stages)
         self.addWidget(self.cut)
         self.addWidget(self.nc)
         self.legend, self.empty, self.fade = Legend(self), EmptyState(self), Fade(self)
@@ -89,8 +93,9 @@ class Views(QStackedWidget):
             self.fade.hide()
             self.fade.begin(self.grab())
         self.view = view
-        if view in (View.CUT, View.NC):
-            self.setCurrentWidget(self.cut if view is View.CUT else self.nc)
+        own = self._own.get(view)
+        if own is not None:
+            self.setCurrentWidget(own)
             self.take_focus()
         else:
             self.setCurrentWidget(self.canvas)
@@ -98,13 +103,15 @@ class Views(QStackedWidget):
 
     def take_focus(self) -> None:
         """Have the keys go to the view at the front."""
-        {View.CUT: self.cut, View.NC: self.nc}.get(self.view, self.canvas).setFocus()
+        self._own.get(self.view, self.canvas).setFocus()
 
     @property
-    def viewport(self) -> Canvas | CutView | PathView:
+    def viewport(self) -> Canvas | StagesView | CutView | PathView:
         """What zooms and fits in the view at the front."""
         if self.view is View.CUT:
             return self.cut
+        if self.view is View.STAGES:
+            return self.stages
         return self.nc.path if self.view is View.NC else self.canvas
 
     def show_missing(self, sentence: str, button: str, shows_paths: bool) -> None:

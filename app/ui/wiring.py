@@ -27,6 +27,7 @@ from app.ui.nc.wiring import NcWiring
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.tool_exchange import ToolExchange
 from app.ui.showing import Showing
+from app.ui.stages.staging import Staging
 from app.ui.verdict import Level, verdict
 from app.ui.views import View
 
@@ -52,6 +53,7 @@ class Wiring(QObject):
         self.showing = Showing(window)
         self.nc = NcControl(window, self.log)
         self.cutting = Cutting(window)
+        self.staging = Staging(window)
         self.cutting.shown.connect(self.showing.show_missing)
         self.nc.cut_wanted.connect(self._show_cut)
         self.cutting.failed.connect(self._say_error)
@@ -60,6 +62,7 @@ class Wiring(QObject):
         self.files = Files(window, self.showing, self.log, self.nc.open)
         self.tools = ToolExchange(window, self.log)
         self.cut_saving = CutSaving(window, self.log)
+        self._connect_stages()
         self._connect_files()
         self._connect_edit()
         self._connect_view()
@@ -85,6 +88,19 @@ class Wiring(QObject):
         files.opening.failed.connect(self._say_error)
         files.exporting.failed.connect(self._say_error)
         files.exporting.show_findings.connect(self._show_worst)
+
+    def _connect_stages(self) -> None:
+        view = self.window_.views.stages
+        self.staging.changed.connect(self._show_stages)
+        self.showing.view_changed.connect(lambda shown: self.staging.see(shown is View.STAGES))
+        self._on("stages_again", self.staging.again)
+        view.hovered.connect(self.showing.show_hovered)
+        view.pixels.cursor_moved.connect(self.window_.status.show_place)
+
+    def _show_stages(self) -> None:
+        self.showing.stages_missing = self.staging.missing
+        self.showing.show_missing()
+        self.showing.show_hovered("")
 
     def _connect_edit(self) -> None:
         self._on("undo", self.document.undo)
@@ -157,7 +173,7 @@ class Wiring(QObject):
 
     def _take_tool(self, tool: CanvasTool) -> None:
         """Take a tool in hand, on the canvas."""
-        if self.showing.view in (View.CUT, View.NC):
+        if self.showing.view not in (View.DRAW, View.PATHS):
             self.showing.show_view(View.DRAW)
         self.window_.canvas.set_tool(tool)
 
@@ -205,6 +221,7 @@ class Wiring(QObject):
 
     def cancel(self) -> None:
         """Leave the running job."""
+        self.staging.cancel()
         if self.window_.worker.busy:
             self.window_.worker.cancel()
             self._say("Cancelled; nothing has changed.")

@@ -72,7 +72,7 @@ def test_tabs_lead_from_drawing_to_nc(qtbot, computed):
     assert not window.views.legend.isVisible()
     qtbot.mouseClick(window.top_bar.tabs["view_draw"], Qt.MouseButton.LeftButton)
     assert window.views.currentWidget() is window.canvas
-    press(qtbot, computed, Qt.Key.Key_2, Qt.KeyboardModifier.ControlModifier)
+    press(qtbot, computed, Qt.Key.Key_3, Qt.KeyboardModifier.ControlModifier)
     assert computed.showing.view is View.PATHS
 
 

@@ -1,0 +1,153 @@
+"""Beside the stages: what the step does and what was settled, its chain codes, the fill's rules, and how fine the bitmap is."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QLabel, QScrollArea, QVBoxLayout, QWidget
+
+from app.ui.figures import TIMES, counted, grouped
+from app.ui.labels import muted
+from app.ui.panels.fields import ChoiceField, NumberField, Spec
+from app.ui.panels.section import EDGE, hairline, heading
+from app.ui.panels.side_panel import WIDTH
+from app.ui.stages.chains_panel import ChainsPanel
+from app.ui.stages.film import Still
+from app.ui.stages.reel import Reel, Size
+from app.ui.stages.words import NOTES
+
+LEAST, MOST = 100, 2000
+"""Rows and columns that can be asked for."""
+
+_TOLD_PX = 216
+"""Height that nearly all explanations fit in, so that what is below stays where it is while stages follow one another."""
+
+
+class Rules(Enum):
+    """Which rules mark R in the fill."""
+
+    SETTLED = "Settled"
+    PUBLISHED = "Published"
+
+
+class StagesPanel(QScrollArea):
+    """Words for one stage, and what the whole film is made with.
+
+    Signals:
+        chain_picked(index): light this chain up. rules_chosen(Rules): fill by these. size_chosen(Size): see it as finely.
+    """
+
+    chain_picked = Signal(int)
+    rules_chosen = Signal(Rules)
+    size_chosen = Signal(Size)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setFixedWidth(WIDTH)
+        self.setWidgetResizable(True)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.title, self.place, self.sentence, self.notes = heading(""), muted(), QLabel(), muted()
+        self.rules = ChoiceField("Fill", [(rules, rules.value) for rules in Rules])
+        self.wrong, self.chains = QLabel(), ChainsPanel()
+        self.points = NumberField(Spec("Resolution", "px", LEAST, MOST, 0, False, "Rows and columns of the bitmap; in 1986, 400."))
+        self.pitch = NumberField(Spec("Pitch", "mm", 0.0001, 1000, 4, True, "Size of a pixel; the bitmap is then as large as it must be."))
+        self.bitmap, self.given_up = muted(), muted()
+        self._told = QWidget()
+        self._lines = [hairline(), hairline()]
+        self._of_still: tuple[QWidget, ...] = (self.place, self.sentence, self.notes, self.rules, self.wrong, self.chains, *self._lines,
+                                               self.bitmap, self.given_up)
+        self._lay_out()
+        self.rules.chosen.connect(self.rules_chosen)
+        self.chains.picked.connect(self.chain_picked)
+        self.points.committed.connect(lambda value: self.size_chosen.emit(Size(round(value))))
+        self.pitch.committed.connect(lambda value: self.size_chosen.emit(Size(LEAST, value)))
+
+    def _lay_out(self) -> None:
+        inner = QWidget()
+        inner.setObjectName("sidePanel")
+        for label in (self.title, self.sentence, self.notes, self.wrong, self.bitmap, self.given_up):
+            label.setWordWrap(True)
+        self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.rules.show_value(Rules.SETTLED)
+        column = QVBoxLayout(inner)
+        column.setContentsMargins(EDGE + 1, 12, EDGE, 12)
+        column.setSpacing(6)
+        told = QVBoxLayout(self._told)
+        told.setContentsMargins(0, 0, 0, 0)
+        told.setSpacing(6)
+        for label in (self.title, self.place, self.sentence, self.notes):
+            told.addWidget(label)
+        told.addStretch(1)
+        self._told.setMinimumHeight(_TOLD_PX)
+        column.addWidget(self._told)
+        column.addSpacing(6)
+        column.addWidget(self.rules)
+        column.addWidget(self.wrong)
+        bitmap = (heading("Bitmap"), self.points, self.pitch, self.bitmap, self.given_up)
+        for line, group in ((self._lines[0], (self.chains,)), (self._lines[1], bitmap)):
+            column.addSpacing(6)
+            column.addWidget(line)
+            column.addSpacing(6)
+            for each in group:
+                column.addWidget(each)
+        column.addStretch(1)
+        self.setWidget(inner)
+
+    def show_still(self, still: Still | None) -> None:
+        """Tell of another stage; of none, only how fine the bitmap is."""
+        for widget in self._of_still:
+            widget.setVisible(still is not None)
+        if still is None:
+            self.title.setText("Stages")
+            return
+        self.title.setText(f"{still.number}  {still.name}")
+        self.place.setText(_place(still))
+        self.sentence.setText(still.sentence)
+        self.notes.setText(NOTES[still.number])
+        self.chains.show_chains(still.chains)
+
+    def show_reel(self, reel: Reel) -> None:
+        """Tell of another film: its fill, its bitmap, and what that costs."""
+        frame, given_up = reel.part.frame, reel.made.given_up
+        self.rules.show_value(Rules.PUBLISHED if reel.wish.published else Rules.SETTLED)
+        self._show_wrong(reel)
+        picture = reel.wish.pixels is not None
+        for field in (self.points, self.pitch):
+            field.setVisible(not picture)
+        self.points.show_value(max(frame.rows, frame.cols))
+        self.pitch.show_value(frame.pitch)
+        kind = "The picture's own pixels" if picture else "Pixels"
+        self.bitmap.setText(f"{kind}: {grouped(frame.cols, 0)} {TIMES} {grouped(frame.rows, 0)} of {frame.pitch:.4g} mm")
+        self.given_up.setText(f"So as never to gouge, paths along the walls stay up to {given_up.most_mm:.3f} mm farther away than asked, "
+                              f"{given_up.mean_mm:.3f} mm in the mean.{_rough(reel.made.unsmoothed)}")
+
+    def _show_wrong(self, reel: Reel) -> None:
+        masks = [still.wrong for still in reel.film.stills if still.wrong is not None]
+        count = int(np.count_nonzero(masks[0])) if masks else 0
+        if not reel.wish.published:
+            text, role = "Always right: parity comes from the crossings, not from the look of the pixels.", "muted"
+        elif count:
+            text, role = f"The rules as published fill {counted(count, 'pixel')} wrongly here; they are red in 208 and 130.", "error"
+        else:
+            text, role = "The rules as published get every pixel of this part right.", "ok"
+        self.wrong.setText(text)
+        self.wrong.setProperty("role", role)
+        self.wrong.style().unpolish(self.wrong)
+        self.wrong.style().polish(self.wrong)
+
+
+def _place(still: Still) -> str:
+    """Return which region and which turn a stage is about."""
+    region = f"Region {still.region}" if still.region else "All regions"
+    what = "peel" if 301 <= still.number <= 305 else "path"
+    return f"{region}, {what} {still.turn}" if still.number in (*range(301, 306), 145, 146, 147) else region
+
+
+def _rough(count: int) -> str:
+    if not count:
+        return ""
+    paths = counted(count, "path stays a line", "paths stay lines")
+    return f" {paths} from pixel to pixel, since nothing smoother keeps clear of the walls."
