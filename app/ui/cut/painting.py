@@ -112,6 +112,8 @@ class Painting(QObject):
         scene.draw(self._frame(self.budget))
         scene.ctx.finish()
         self.frame_ms = 1000 * (time.perf_counter() - begun)
+        if self.resting:  # it was hidden, or painting came late: the fine picture is still to come
+            self._rest.start()
         if not uploaded:
             self._learn()
 

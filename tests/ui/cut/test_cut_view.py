@@ -200,6 +200,14 @@ def test_paths_that_would_hide_the_metal_are_left_out_until_somebody_wants_them(
     assert view.legend.rows[Sample.POCKET].isChecked()
 
 
+def test_a_cut_that_came_while_the_view_was_hidden_is_painted_finely_too(qtbot, view):
+    view.hide()
+    view.show_cut(made_up(120))
+    qtbot.waitUntil(lambda: view.painting.resting, timeout=5000)
+    view.show()
+    qtbot.waitUntil(lambda: view.painting.fine, timeout=20_000)
+
+
 def test_a_section_opens_the_stock_and_the_probe_meets_its_face(qtbot, view):
     qtbot.mouseClick(view.legend.side.buttons[Side.Y], LEFT)
     assert view.legend.slider.isVisible()
