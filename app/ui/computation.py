@@ -12,11 +12,13 @@ from app.edit.document import Change, Document
 from app.model.finding import Finding
 from app.model.job import Job
 from app.model.moves import Program
+from app.model.part import Part
 from app.progress import Progress
 from app.ui.canvas.program_picture import ProgramPicture
 from app.ui.worker import Answer, Worker
 
 if TYPE_CHECKING:
+    from app.workflow.bitmap_part import BitmapPart
     from app.workflow.make import Made
 
 
@@ -38,10 +40,16 @@ class Computed:
     picture: ProgramPicture
 
 
-def _compute(job: Job, drawing_findings: tuple[Finding, ...], progress: Progress) -> Computed:
-    from app.workflow.make import export  # imports the engines: never on the window's thread
+def _compute(job: Job, pixels: BitmapPart | None, drawing_findings: tuple[Finding, ...], progress: Progress) -> Computed:
+    from app.workflow.make import export, finish  # imports the engines: never on the window's thread
 
-    made = export(job, progress.part(0.0, 0.95), drawing_findings)
+    if pixels is None:
+        made = export(job, progress.part(0.0, 0.95), drawing_findings)
+    else:
+        from app.workflow.bitmap_way import compute_on_bitmap
+
+        program = compute_on_bitmap(job, pixels, progress.part(0.0, 0.5)).program
+        made = finish(program, job, progress.part(0.5, 0.95), drawing_findings)
     progress.step(0.95, "Preparing the picture")
     return Computed(made, ProgramPicture(made.program, made.coverage.places))
 
@@ -57,6 +65,7 @@ class Computation(QObject):
         picture: its moves, prepared for painting.
         error: why the last run failed, or "".
         drawing_findings: what reading the drawing had to say.
+        pixels: a part that came from a picture, and its pixels: it is computed on these; None = there was no picture.
     """
 
     changed = Signal()
@@ -73,6 +82,7 @@ class Computation(QObject):
         self.picture: ProgramPicture | None = None
         self.error = ""
         self.drawing_findings: tuple[Finding, ...] = ()
+        self.pixels: tuple[Part, BitmapPart] | None = None
         worker.done.connect(self._on_done)
         worker.failed.connect(self._on_failed)
         worker.cancelled.connect(self._on_cancelled)
@@ -102,10 +112,15 @@ class Computation(QObject):
     def start(self) -> None:
         """Compute the job as it is now; a run that is on its way is left."""
         job, findings = self._document.job, self.drawing_findings
+        pixels = self.pixels_of(job.part)
         self.error = ""
         self._snapshot = job
-        self._job_id = self._worker.start(lambda progress: _compute(job, findings, progress), self._document.revision)
+        self._job_id = self._worker.start(lambda progress: _compute(job, pixels, findings, progress), self._document.revision)
         self.changed.emit()
+
+    def pixels_of(self, part: Part) -> BitmapPart | None:
+        """Return the pixels of a part that is a picture's and was not drawn in since, else None."""
+        return self.pixels[1] if self.pixels is not None and self.pixels[0] is part else None
 
     def forget(self, drawing_findings: tuple[Finding, ...] = ()) -> None:
         """Drop the result: another document was opened, and reading it had this to say."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
@@ -22,21 +22,31 @@ from app.ui.nc.reading import is_program
 from app.ui.opening import Opened, Opening
 from app.ui.showing import Showing
 from app.ui.views import View
+from app.workflow.bitmap_options import PICTURES, is_picture
 
 FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
-OPEN_FILTER = f"Drawings and NC programs (*.dxf *.DXF {' '.join('*' + suffix for suffix in PROGRAM_SUFFIXES)});;All files (*)"
+OPEN_FILTER = (f"Drawings, pictures and NC programs (*.dxf *.DXF {' '.join('*' + suffix for suffix in (*PICTURES, *PROGRAM_SUFFIXES))});;"
+               "All files (*)")
 _UNIT_NAMES = {Units.MM: "mm", Units.INCH: "inch"}
+
+
+@dataclass(frozen=True)
+class Openers:
+    """Who opens what is no drawing: an NC program, a picture."""
+
+    program: Callable[[Path], None]
+    picture: Callable[[Path], None]
 
 
 class Files(QObject):
     """Everything between the window and files."""
 
-    def __init__(self, window: MainWindow, showing: Showing, log: Log, open_program: Callable[[Path], None]) -> None:
+    def __init__(self, window: MainWindow, showing: Showing, log: Log, open_others: Openers) -> None:
         super().__init__(window)
         self._window, self._showing, self._log = window, showing, log
         self._document, self._computation = window.document, window.computation
         self._gives_up = False
-        self._open_program = open_program
+        self._open_program, self._open_picture = open_others.program, open_others.picture
         self.opening = Opening(window.document, window.worker)
         self.exporting = Exporting(window.computation, window.notice, self._choose_nc_file)
         window.dropped.connect(lambda path: self.open_file(Path(path)))
@@ -62,6 +72,9 @@ class Files(QObject):
         """Open a drawing, after asking when changes would be lost; an NC program is shown beside it, and nothing is lost."""
         if is_program(path):
             self._open_program(path)
+            return
+        if is_picture(path.name):
+            self._leave_drawing(f"Open {path.name}", lambda: self._open_picture(path))
             return
         self._leave_drawing(f"Open {path.name}", lambda: self.opening.open(path, units))
 

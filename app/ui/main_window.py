@@ -22,11 +22,13 @@ from app.ui.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
 from app.ui.notice import Notice
 from app.ui.opening import SUFFIXES
 from app.ui.panels.side_panel import SidePanel
+from app.ui.stages.import_panel import ImportPanel
 from app.ui.stages.stages_panel import StagesPanel
 from app.ui.status_bar import StatusBar
 from app.ui.theme import DARK, LIGHT, Theme
 from app.ui.views import Views
 from app.ui.worker import Worker
+from app.workflow.bitmap_options import PICTURES
 
 SIZE = (1440, 900)
 
@@ -35,7 +37,8 @@ class MainWindow(QMainWindow):
     """Menu, bars, views, panel, log, command line, status.
 
     Signals:
-        dropped(path): a drawing or an NC program was dropped on the window. closing(): about to close; `may_close` tells whether it may.
+        dropped(path): a drawing, a picture or an NC program was dropped on the window.
+        closing(): about to close; `may_close` tells whether it may.
         closed(): it closes now; whoever runs jobs of his own ends them.
     """
 
@@ -54,7 +57,7 @@ class MainWindow(QMainWindow):
         self.canvas = Canvas(document, self.theme)
         self.views, self.panel, self.cut_panel = Views(self.canvas), SidePanel(document), CutPanel()
         self.cut_form = SetupForm()
-        self.stages_panel = StagesPanel()
+        self.stages_panel, self.import_panel = StagesPanel(), ImportPanel()
         self.notice, self.command_line, self.status = Notice(), CommandLine(), StatusBar()
         self.top_bar, self.tool_strip = TopBar(self.actions_), ToolStrip(self.actions_)
         self.findings_list = FindingsList(self)
@@ -77,7 +80,7 @@ class MainWindow(QMainWindow):
         middle.addWidget(self.tool_strip)
         middle.addLayout(centre, 1)
         middle.addWidget(self.panel)
-        for widget in (self.stages_panel, self.cut_panel, self.cut_form):
+        for widget in (self.import_panel, self.stages_panel, self.cut_panel, self.cut_form):
             middle.addWidget(widget)
             widget.hide()
         root = QWidget()
@@ -118,9 +121,9 @@ class MainWindow(QMainWindow):
         self.actions_[f"theme_{choice.value}"].setChecked(True)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
-        """Welcome one drawing or NC program."""
+        """Welcome one drawing, picture or NC program."""
         urls = event.mimeData().urls()
-        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith((*SUFFIXES, *PROGRAM_SUFFIXES)):
+        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith((*SUFFIXES, *PICTURES, *PROGRAM_SUFFIXES)):
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 (Qt's name)

@@ -42,6 +42,7 @@ NO_PROGRAM = Missing("There is no NC program yet. Draw a part and compute it, or
 NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
 CUT_PROMPT = "Drag turns the cut, the middle button shifts it, Ctrl+drag measures a profile; click the metal to go to its line"
 STAGES_PROMPT = "Space plays, Left and Right step; click a traced line to see its chain code"
+PICTURE_PROMPT = "Say what is ink and how large a pixel is; what lies green is machined"
 COMPUTING = Missing("The paths are being computed.", "Cancel  Shift+F5", "cancel")
 
 
@@ -112,7 +113,8 @@ class Showing(QObject):
     def show_prompt(self) -> None:
         """Say what the command line takes: on the canvas what the tool in hand wants, beside a program what it is for."""
         prompts = {View.STAGES: STAGES_PROMPT, View.CUT: CUT_PROMPT, View.NC: NC_PROMPT}
-        self._window.command_line.set_prompt(prompts.get(self.view, self._window.canvas.prompt))
+        picture = self.view is View.STAGES and self._window.import_panel.reading is not None
+        self._window.command_line.set_prompt(PICTURE_PROMPT if picture else prompts.get(self.view, self._window.canvas.prompt))
 
     def refresh(self, change: Change) -> None:
         """Show what changed in the document."""
@@ -152,12 +154,14 @@ class Showing(QObject):
     def _show_side(self) -> None:
         """Have what belongs to the view at its right: the job, or what is known of the cut, or what is asked of it."""
         window, beside_cut = self._window, self.view is View.CUT
-        stages = self.view is View.STAGES and bool(self._document.part.entities)
+        picture = self.view is View.STAGES and window.import_panel.reading is not None
+        stages = self.view is View.STAGES and bool(self._document.part.entities) and not picture
+        window.import_panel.setVisible(picture)
         asks, tells = beside_cut and window.cut_form.asked is not None, beside_cut and window.cut_panel.shown is not None
         window.cut_form.setVisible(asks)
         window.cut_panel.setVisible(tells and not asks)
         window.stages_panel.setVisible(stages)
-        window.panel.setVisible(not (asks or tells or stages))
+        window.panel.setVisible(not (asks or tells or stages or picture))
 
     def _missing(self) -> Missing:
         if self._has_something():
@@ -176,7 +180,7 @@ class Showing(QObject):
         """Return whether the view at the front shows something besides the drawing."""
         views = self._window.views
         if self.view is View.STAGES:
-            return views.stages.film is not None
+            return views.stages.film is not None or self._window.import_panel.reading is not None
         if self.view is View.CUT:
             return views.cut.picture is not None or bool(views.cut.sentence.text())
         return self._computation.made is not None or (self.view is View.NC and len(views.nc.pane.text.text) > 0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
+from pathlib import Path
 
 from PySide6.QtCore import QObject
 
@@ -16,7 +17,7 @@ from app.ui.canvas.modes import CanvasTool
 from app.ui.cut.cutting import Cutting
 from app.ui.cut.saving import CutSaving
 from app.ui.figures import counted
-from app.ui.files import Files
+from app.ui.files import Files, Openers
 from app.ui.help import show_about, show_keys
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
@@ -27,6 +28,7 @@ from app.ui.nc.wiring import NcWiring
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.tool_exchange import ToolExchange
 from app.ui.showing import Showing
+from app.ui.stages.picturing import Picturing
 from app.ui.stages.staging import Staging
 from app.ui.verdict import Level, verdict
 from app.ui.views import View
@@ -59,7 +61,8 @@ class Wiring(QObject):
         self.cutting.failed.connect(self._say_error)
         window.views.cut.cell_picked.connect(lambda x, y, z, motion: self._go_to_motion(motion))
         window.cut_panel.line_wanted.connect(self._go_to_motion)
-        self.files = Files(window, self.showing, self.log, self.nc.open)
+        self.picturing = Picturing(window, self.log)
+        self.files = Files(window, self.showing, self.log, Openers(self.nc.open, self.picturing.open))
         self.tools = ToolExchange(window, self.log)
         self.cut_saving = CutSaving(window, self.log)
         self._connect_stages()
@@ -94,6 +97,9 @@ class Wiring(QObject):
         self.staging.changed.connect(self._show_stages)
         self.showing.view_changed.connect(lambda shown: self.staging.see(shown is View.STAGES))
         self._on("stages_again", self.staging.again)
+        self.picturing.shown.connect(self._show_picture)
+        self.picturing.taken.connect(self._on_picture_taken)
+        self.picturing.failed.connect(self._say_error)
         view.hovered.connect(self.showing.show_hovered)
         view.pixels.cursor_moved.connect(self.window_.status.show_place)
 
@@ -101,6 +107,19 @@ class Wiring(QObject):
         self.showing.stages_missing = self.staging.missing
         self.showing.show_missing()
         self.showing.show_hovered("")
+
+    def _show_picture(self) -> None:
+        """Bring the picture to the front when it comes."""
+        if self.picturing.preview is not None and self.showing.view is not View.STAGES:
+            self.showing.show_view(View.STAGES)
+        self.showing.show_prompt()
+        self.showing.show_missing()
+
+    def _on_picture_taken(self, path: Path) -> None:
+        self.window_.settings = self.window_.settings.with_recent_file(path)
+        self.window_.notice.hide()
+        self.showing.show_view(View.STAGES)
+        self.window_.canvas.fit()
 
     def _connect_edit(self) -> None:
         self._on("undo", self.document.undo)

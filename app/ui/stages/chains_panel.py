@@ -36,6 +36,7 @@ class ChainsPanel(QWidget):
         self.title, self.copy = heading("Chain code"), IconButton("copy", "Copy all chain codes of this step")
         self.list, self.text, self.rose = QListWidget(), QPlainTextEdit(), Rose()
         self._lay_out()
+        self._show_text(-1)
         self.list.currentRowChanged.connect(self._choose)
         self.copy.clicked.connect(self.copy_all)
 

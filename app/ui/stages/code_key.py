@@ -41,7 +41,7 @@ def paint_code_key(painter: QPainter, place: QRectF, rows: tuple[CodeRow, ...], 
     """Paint the key at a place, px; `lit` is the code under the mouse."""
     if not rows:
         return
-    ground = QColor(theme.canvas)
+    ground = QColor(theme.paper)
     ground.setAlphaF(0.92)
     painter.fillRect(place, ground)
     for k, row in enumerate(rows):

@@ -11,7 +11,7 @@ from app.ui.icons import SIZE, icon
 from app.ui.stages.film import PHASES
 from app.ui.theme import LIGHT, Theme
 
-WIDTH = 256
+WIDTH = 260
 _ROW_PX, _BREAK_PX = 26, 8
 _STEP = Qt.ItemDataRole.UserRole
 _FIRSTS = {numbers[0] for numbers in PHASES[1:]}
@@ -66,7 +66,7 @@ class Rail(QListWidget):
         self.clear()
         self._items, self._reached, self._now = {}, frozenset(), 0
         for number in numbers:
-            item = QListWidgetItem(self._none, f"{number}   {STEPS[number][0]}")
+            item = QListWidgetItem(self._none, f"{number}  {STEPS[number][0]}")
             item.setData(_STEP, number)
             item.setToolTip(f"{number}  {STEPS[number][0]}")
             item.setSizeHint(QSize(0, _ROW_PX + (_BREAK_PX if number in _FIRSTS and number != numbers[0] else 0)))

@@ -9,6 +9,7 @@ from app.errors import ParameterError
 from app.model.job import Job
 from app.progress import NO_PROGRESS, Progress
 from app.ui.stages.film import Film, film_of
+from app.workflow.bitmap_options import BitmapSize
 
 if TYPE_CHECKING:
     from app.workflow.bitmap_part import BitmapPart
@@ -16,18 +17,6 @@ if TYPE_CHECKING:
 
 MOST_PX = 2048 * 2048
 """Pixels of the largest bitmap that is shown stage by stage."""
-
-
-@dataclass(frozen=True)
-class Size:
-    """How finely a drawing is seen.
-
-    Attributes:
-        points: rows and columns. pitch: size of a pixel, mm, instead; None = as large as the drawing allows.
-    """
-
-    points: int = 400
-    pitch: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +30,7 @@ class Wish:
     """
 
     job: Job
-    size: Size
+    size: BitmapSize
     pixels: BitmapPart | None = None
     published: bool = False
 
@@ -98,10 +87,8 @@ def reel_of(wish: Wish, before: Reel | None = None, progress: Progress = NO_PROG
 
 def _drawn(wish: Wish) -> BitmapPart:
     from app.workflow.bitmap_job import drawn_job
-    from app.workflow.bitmap_options import BitmapSize
 
-    size = wish.size
-    return drawn_job(wish.job, BitmapSize(size.points if size.pitch is None else 16, size.pitch)).part
+    return drawn_job(wish.job, wish.size).part
 
 
 def _check(part: BitmapPart) -> None:

@@ -15,11 +15,15 @@ from app.ui.panels.section import EDGE, hairline, heading
 from app.ui.panels.side_panel import WIDTH
 from app.ui.stages.chains_panel import ChainsPanel
 from app.ui.stages.film import Still
-from app.ui.stages.reel import Reel, Size
+from app.ui.stages.reel import Reel
 from app.ui.stages.words import NOTES
+from app.workflow.bitmap_options import BitmapSize
 
 LEAST, MOST = 100, 2000
 """Rows and columns that can be asked for."""
+
+_LEAST_ROUND = 16
+"""Rows and columns of a bitmap that is as large as it must be, at the least."""
 
 _TOLD_PX = 216
 """Height that nearly all explanations fit in, so that what is below stays where it is while stages follow one another."""
@@ -36,12 +40,12 @@ class StagesPanel(QScrollArea):
     """Words for one stage, and what the whole film is made with.
 
     Signals:
-        chain_picked(index): light this chain up. rules_chosen(Rules): fill by these. size_chosen(Size): see it as finely.
+        chain_picked(index): light this chain up. rules_chosen(Rules): fill by these. size_chosen(BitmapSize): see it as finely.
     """
 
     chain_picked = Signal(int)
     rules_chosen = Signal(Rules)
-    size_chosen = Signal(Size)
+    size_chosen = Signal(BitmapSize)
 
     def __init__(self) -> None:
         super().__init__()
@@ -62,8 +66,8 @@ class StagesPanel(QScrollArea):
         self._lay_out()
         self.rules.chosen.connect(self.rules_chosen)
         self.chains.picked.connect(self.chain_picked)
-        self.points.committed.connect(lambda value: self.size_chosen.emit(Size(round(value))))
-        self.pitch.committed.connect(lambda value: self.size_chosen.emit(Size(LEAST, value)))
+        self.points.committed.connect(lambda value: self.size_chosen.emit(BitmapSize(round(value))))
+        self.pitch.committed.connect(lambda value: self.size_chosen.emit(BitmapSize(_LEAST_ROUND, value)))
 
     def _lay_out(self) -> None:
         inner = QWidget()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QVBoxLayout, QWidget
@@ -27,32 +28,36 @@ class StagesView(QWidget):
     Signals:
         shown(): another stage is shown, or none. hovered(words): what the pixel under the mouse is, or "".
         chain_picked(index): a chain of the stage was clicked; -1 = none of them.
+        preview_clicked(x, y): a place of the preview was clicked, mm. theme_changed(Theme).
 
     Attributes:
-        film: what is shown; None = nothing. at: number of its stage.
+        film: what is shown, when no picture is; None = nothing. theme: in which it is painted.
     """
 
     shown = Signal()
     hovered = Signal(str)
     chain_picked = Signal(int)
+    preview_clicked = Signal(float, float)
+    theme_changed = Signal(Theme)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._theme = LIGHT
-        self.rail, self.pixels, self.player = Rail(), PixelView(), Player()
+        self.theme = LIGHT
+        self.rail, self.pixels, self.player, self._line = Rail(), PixelView(), Player(), QFrame()
         self.film: Film | None = None
         self._projector: Projector | None = None
         self._frame = Frame()
+        self._preview: Pixels | None = None
         self._lay_out()
         self.setFocusProxy(self.pixels)
         self.player.wanted.connect(self.show_stage)
         self.player.part_wanted.connect(self.go_part)
         self.rail.step_wanted.connect(self.go_step)
         self.pixels.hovered.connect(self._tell_pixel)
-        self.pixels.clicked.connect(self._pick_chain)
+        self.pixels.clicked.connect(self._click)
 
     def _lay_out(self) -> None:
-        line = QFrame()
+        line = self._line
         line.setObjectName("hairline")
         line.setFixedWidth(1)
         middle = QVBoxLayout()
@@ -88,9 +93,9 @@ class StagesView(QWidget):
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""
-        self._theme = theme
-        if self.film is not None:
-            self._show_pixels()
+        self.theme = theme
+        self._show_pixels()
+        self.theme_changed.emit(theme)
 
     def show_film(self, film: Film | None, frame: Frame | None = None) -> None:
         """Show another film, or none: at the same stage when it has as many, else where the same step comes first."""
@@ -98,17 +103,33 @@ class StagesView(QWidget):
         self.film, self._frame = film, frame or Frame()
         self._projector = Projector(film) if film is not None else None
         self.rail.show_steps(film.numbers if film is not None else ())
-        if film is None:
-            self.player.show_place(0, 0)
+        if film is not None:
+            self.show_stage(at)
+            return
+        self.player.show_place(0, 0)
+        if self._preview is None:
             self.pixels.show_pixels(None)
             self.pixels.show_key(())
-            self.shown.emit()
+        self.shown.emit()
+
+    def show_preview(self, preview: Pixels | None, key: tuple[CodeRow, ...] = ()) -> None:
+        """Show a picture in the place of the stages, or these again."""
+        self.player.pause()
+        self._preview = preview
+        for widget in (self.rail, self._line, self.player):
+            widget.setVisible(preview is None)
+        self.pixels.light(())
+        self.pixels.show_rows(np.zeros((0, 8)))
+        self.pixels.show_marks(())
+        if preview is not None:
+            self.pixels.show_pixels(preview)
+            self.pixels.show_key(key)
         else:
-            self.show_stage(at)
+            self.show_film(self.film, self._frame)
 
     def show_stage(self, at: int) -> None:
         """Show a stage, by its number."""
-        if self.film is None or self._projector is None:
+        if self.film is None or self._projector is None or self._preview is not None:
             return
         self._projector.show(at)
         still = self.film.stills[at]
@@ -160,13 +181,13 @@ class StagesView(QWidget):
     def _show_pixels(self) -> None:
         """Hand the stage's pixels to the picture: the memory itself, or a copy with what is wrong marked in it."""
         still, plane = self.still, self.plane
-        if still is None or plane is None or self.film is None:
+        if still is None or plane is None or self.film is None or self._preview is not None:
             return
         wrong = still.wrong
         if wrong is not None and wrong.any():
             plane = plane.copy()
             plane[wrong] = inks.WRONG
-        colours = inks.step_inks(self._theme, still.number)
+        colours = inks.step_inks(self.theme, still.number)
         self.pixels.show_pixels(Pixels(self._frame, plane, inks.table(colours), inks.LETTERS, inks.rank_of_code()))
         codes = [code for code in inks.ORDER if code in self.film.codes_near(self.at)]
         if wrong is not None and wrong.any():
@@ -175,15 +196,17 @@ class StagesView(QWidget):
 
     def _tell_pixel(self, row: int, col: int) -> None:
         still, pixels = self.still, self.pixels.pixels
-        if still is None or pixels is None or row < 0:
-            self.hovered.emit("")
+        if still is None or pixels is None or row < 0 or self._preview is not None:
+            self.hovered.emit(f"Column {col}, row {row}" if row >= 0 else "")
             return
         code = pixels.code(row, col)
         self.hovered.emit(f"Column {col}, row {row}: {inks.LETTERS[code]}, {inks.word(code, still.number)}")
 
-    def _pick_chain(self, row: int, col: int, x: float, y: float) -> None:
+    def _click(self, row: int, col: int, x: float, y: float) -> None:
         still = self.still
-        if still is not None and still.chains:
+        if self._preview is not None:
+            self.preview_clicked.emit(x, y)
+        elif still is not None and still.chains:
             index = chain_at(still.chains, row, col)
             self.light_chain(-1 if index is None else index)
             self.chain_picked.emit(-1 if index is None else index)

@@ -9,9 +9,10 @@ from PySide6.QtCore import QObject, Signal
 from app.edit.document import Change
 from app.ui.main_window import MainWindow
 from app.ui.showing import NOTHING, Missing
-from app.ui.stages.reel import Reel, Size, Wish, reel_of
+from app.ui.stages.reel import Reel, Wish, reel_of
 from app.ui.stages.stages_panel import Rules
 from app.ui.worker import Answer, Worker
+from app.workflow.bitmap_options import BitmapSize
 
 
 class StagesState(Enum):
@@ -45,7 +46,7 @@ class Staging(QObject):
         self.worker = Worker(self)
         self.reel: Reel | None = None
         self.error = ""
-        self._size, self._published, self._seen = Size(), False, False
+        self._size, self._published, self._seen = BitmapSize(), False, False
         self._asked: Wish | None = None
         self._connect()
 
@@ -101,7 +102,8 @@ class Staging(QObject):
         self.worker.cancel()
 
     def _wish(self) -> Wish:
-        return Wish(self._document.job, self._size, None, self._published)
+        job = self._document.job
+        return Wish(job, self._size, self._window.computation.pixels_of(job.part), self._published)
 
     def _follow(self) -> None:
         """Compute what is to be seen, unless it is there, on its way, or was asked for and failed."""
@@ -116,7 +118,7 @@ class Staging(QObject):
         self._published = rules is Rules.PUBLISHED
         self._follow()
 
-    def _choose_size(self, size: Size) -> None:
+    def _choose_size(self, size: BitmapSize) -> None:
         self._size = size
         self._follow()
 
