@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from app.bitmap.border import Index
-from app.bitmap.peel import Floats, distance_px, frame_pixels
+from app.bitmap.peel import Floats, distance_px, frame_pixels, inner_pixels
 from app.bitmap.walls import Mask
+from app.pool import pool
+
+_BAND = 1 << 20
+"""Pixels that are worth a thread's start."""
 
 SAFE_PX = 1.21
 """A path through pixel centres comes nearer to the walls' squares than its pixels' distances say by less than this:
@@ -25,8 +32,28 @@ def offset_area(free: Mask, radius: float, spare: float) -> Mask:
     """
     if radius == 0:
         return free
-    area: Mask = distance_px(free) - SAFE_PX - spare >= radius
+    area: Mask = thresholds_reached(free, [math.ceil((radius + SAFE_PX + spare) ** 2)]) != 0
     return area
+
+
+def thresholds_reached(free: Mask, squares: Sequence[int]) -> Index:
+    """Return for every pixel how many of some thresholds its distance from the nearest pixel that is not free reaches.
+
+    Distances are Euclidean, between centres, and exact; what lies beyond the picture is not free.
+
+    Args:
+        squares: of the thresholds, px2, whole and rising, no more than 65535 of them.
+    """
+    from app.bitmap import distance_kernels
+
+    inner, rows, cols = np.ascontiguousarray(free).view(np.uint8), *free.shape
+    index = np.empty(free.shape, np.uint16)
+    thresholds = np.array([*squares, np.iinfo(np.int64).max], np.int64)
+    parts = 1 + min(free.size // _BAND, 8)
+    columns, bands = (pairwise(np.linspace(0, size, parts + 1).astype(int).tolist()) for size in (cols, rows))
+    list(pool().map(lambda part: distance_kernels.columns(inner, index, *part), columns))
+    list(pool().map(lambda part: distance_kernels.reached(index, thresholds, *part), bands))
+    return index
 
 
 def frame_distance(area: Mask) -> Floats:
@@ -55,15 +82,18 @@ class RingSteps:
     early: float = 0.0
 
 
-def ring_index(distance: Floats, steps: RingSteps) -> Index:
+def ring_index(area: Mask, steps: RingSteps) -> Index:
     """Return which pocket path each pixel lies inside of (steps 141-148): path k is the border of {index >= k}, k = 1, 2, …
 
     No path is made from the one before it, so nothing adds up.
 
     Args:
-        distance: from the frame, px; -1 outside.
+        area: A'; distances are measured from its frame.
     """
-    exact = np.sqrt(np.rint(np.maximum(distance, 0).astype(np.float64) ** 2))  # squares of distances are whole numbers
-    outermost = (distance >= 0) & ((exact > steps.first) | (steps.first == 0))
-    further = np.maximum((exact - steps.first + steps.early) // steps.step, 0)
-    return np.where(outermost, np.minimum(1 + further, 65535), 0).astype(np.uint16)
+    first = math.floor(steps.first**2) + 1
+    count = min(int((min(area.shape) / 2 - steps.first + steps.early) / steps.step) + 1, 65534)
+    further = [max(math.ceil((steps.first - steps.early + k * steps.step) ** 2), first) for k in range(1, max(count, 1))]
+    index = thresholds_reached(inner_pixels(area), [first, *further])
+    if steps.first == 0:
+        index[area & (index == 0)] = 1
+    return index

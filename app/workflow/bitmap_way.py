@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from app.bitmap.border import Border, Index, borders_of
-from app.bitmap.levels import SAFE_PX, RingSteps, frame_distance, offset_area, ring_index
+from app.bitmap.levels import SAFE_PX, RingSteps, offset_area, ring_index
 from app.bitmap.trace import Chain
 from app.bitmap.walls import Mask
 from app.errors import ParameterError
@@ -179,7 +179,7 @@ def _pocket_paths(job: Job, part: BitmapPart, index: int, progress: Progress) ->
     wall = max(wall_distance(job), leave)
     area = offset_area(part.free, wall / pitch, TOLERANCE_PX)
     steps = RingSteps(tool.radius / pitch, step / pitch, min(SAFE_PX + TOLERANCE_PX, step / pitch - 1))
-    index_plane = ring_index(frame_distance(area), steps)
+    index_plane = ring_index(area, steps)
     index_plane[~offset_area(part.free, (tool.radius + leave) / pitch, TOLERANCE_PX)] = 0
     count = int(index_plane.max())
     by_level: list[list[Border]] = [[] for _ in range(count)]

@@ -6,7 +6,7 @@ from scipy import ndimage
 
 from app.bitmap.border import borders_of, mark
 from app.bitmap.frame import Frame
-from app.bitmap.levels import SAFE_PX, RingSteps, frame_distance, offset_area, ring_index
+from app.bitmap.levels import SAFE_PX, RingSteps, frame_distance, offset_area, ring_index, thresholds_reached
 from app.bitmap.peel import correct_by_circles, distance_px, frame_pixels, peeled, peels, shrink
 from app.bitmap.walls import free_pixels
 from tests.part_shapes import fig2
@@ -97,12 +97,30 @@ def test_an_offset_keeps_its_distance_from_every_outside_pixel() -> None:
     assert np.allclose(distance_px(free)[free], distance[free], atol=1e-4)
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_thresholds_are_reached_exactly(seed: int) -> None:
+    free = random_area(seed, 50 + seed)
+    square = squared_distance(np.pad(free, 1), ~np.pad(free, 1))[1:-1, 1:-1]
+    thresholds = [1, 2, 3, 5, 9, 10, 26]
+    expected = sum((square >= each).astype(int) for each in thresholds)
+    assert np.array_equal(thresholds_reached(free, thresholds), expected)
+    assert not thresholds_reached(np.zeros((3, 4), bool), [1]).any()
+    assert np.array_equal(thresholds_reached(np.ones((5, 9), bool), [1, 4, 9, 16]), np.minimum.reduce(
+        np.meshgrid(np.minimum(np.arange(1, 10), np.arange(9, 0, -1)), np.minimum(np.arange(1, 6), np.arange(5, 0, -1)))))
+
+
+def test_large_pictures_are_measured_in_bands_alike() -> None:
+    area = part(1600)
+    square = squared_distance(area, ~area)
+    assert np.array_equal(thresholds_reached(area, [400, 2500]), (square >= 400) + 1 * (square >= 2500))
+
+
 def test_paths_are_levels_of_one_field() -> None:
     area = offset_area(part(400), 4.0, 1.0)
     field = frame_distance(area)
-    index = ring_index(field, RingSteps(8.0, 5.0, 2.0))
+    index = ring_index(area, RingSteps(8.0, 5.0, 2.0))
     assert np.array_equal(index >= 1, shrink(area, 8.0))
     exact = np.sqrt(np.maximum(np.rint(field.astype(float) ** 2), 0))
     for k in (2, 3, 4):
         assert np.array_equal(index >= k, area & (exact > 8) & (exact >= 8 + 5 * (k - 1) - 2))
-    assert np.array_equal(ring_index(field, RingSteps(0.0, 5.0)) >= 1, area)
+    assert np.array_equal(ring_index(area, RingSteps(0.0, 5.0)) >= 1, area)
