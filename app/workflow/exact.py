@@ -32,8 +32,12 @@ class Exact:
     coverage: Coverage | None
 
 
-def exact_of(part: FlatPart, courses: Sequence[Course], progress: Progress = NO_PROGRESS) -> Exact:
+def exact_of(part: FlatPart, courses: Sequence[Course], stock: tuple[float, float, float, float],
+             progress: Progress = NO_PROGRESS) -> Exact:  # fmt: skip
     """Measure programs that were cut one after the other.
+
+    Args:
+        stock: x0, y0, x1, y1, mm, program coordinates; beside it nothing is cut.
 
     Raises:
         Cancelled: the job was asked to stop.
@@ -44,7 +48,8 @@ def exact_of(part: FlatPart, courses: Sequence[Course], progress: Progress = NO_
     motion = np.concatenate([each.motion + count for each, count in zip(found, before.tolist(), strict=False)])
     program = Program(moves, part.regions)
     progress.step(0.0, "Checking clearance")
-    depths = gouge_depths(program, part.job)
+    x, y, _ = part.origin
+    depths = gouge_depths(program, part.job, (stock[0] + x, stock[1] + y, stock[2] + x, stock[3] + y))
     flat = _flat(moves, part.job)
     coverage = measure(program, part.job, progress.part(0.2, 1.0), part.tolerance) if flat else None
     return Exact(replace(depths, move=motion[depths.move]), coverage)

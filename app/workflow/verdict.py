@@ -93,15 +93,18 @@ class Depths:
     places: Floats
 
 
-def gouge_depths(program: Program, job: Job) -> Depths:
+def gouge_depths(program: Program, job: Job, stock: tuple[float, float, float, float] | None = None) -> Depths:
     """Return how deep each move in the stock cuts into walls, by exact distances, or below the floor of its tool's operations.
 
     Args:
         program: its regions' contours are the walls; what lies outside of all regions is part.
         job: its tools and its stock to leave are what the path must keep clear of.
+        stock: x0, y0, x1, y1, mm: moves that keep off it by their cutter's radius cut nothing; None = moves may be anywhere.
     """
     moves = program.moves
     chosen = np.flatnonzero(in_stock(moves)) if program.regions else np.zeros(0, np.int64)
+    if stock is not None and len(chosen):
+        chosen = chosen[_touches(moves, job, stock)[chosen]]
     if not len(chosen):
         return Depths(chosen, np.zeros(0), np.zeros((0, 3)))
     rows, need = move_rows(moves)[chosen], required_clearance(moves, job)[chosen]
@@ -114,6 +117,13 @@ def gouge_depths(program: Program, job: Job) -> Depths:
     deeper = too_deep > np.maximum(depth, _SURFACE)
     depth[deeper], places[deeper] = too_deep[deeper], rows[deeper, 2:4]
     return Depths(chosen, depth, np.column_stack([places, low]))
+
+
+def _touches(moves: Moves, job: Job, stock: tuple[float, float, float, float]) -> NDArray[np.bool_]:
+    """Return (n,) whether the cutter comes nearer to a rectangle than its radius on a move."""
+    radius = {tool.number: tool.radius for tool in job.tools}
+    wide = np.array([radius[number] for number in moves.tool.tolist()])
+    return np.asarray(shapely.distance(shapely.box(*stock), lines(move_rows(moves), _CHORD)) < wide)
 
 
 def gouge(program: Program, job: Job) -> Gouge:

@@ -108,6 +108,11 @@ def test_a_rapid_through_metal() -> None:
     assert hits[0].amount == pytest.approx(1.0, abs=1e-4) and hits[0].y == pytest.approx(90.4952, abs=3.1)
 
 
+def test_beside_the_stock_nothing_is_cut() -> None:
+    assert kinds(again("M5\n(T2 flat", "G0 X120 Y120\nZ-1\nX130\nZ5\nM5\n(T2 flat")) == set()
+    assert FindingKind.GOUGE in kinds(again("M5\n(T2 flat", "G0 X98 Y98\nG1 Z-1 F100\nX99\nG0 Z5\nM5\n(T2 flat"))
+
+
 def test_a_start_in_the_metal_is_told_and_cuts_no_way_to_it() -> None:
     text = "G21 G90 G94\nT1 M6\nS1000 M3\nG1 X80 Y84 Z-1 F500\nX85\nG0 Z5\nM2\n"
     setup = made().cut

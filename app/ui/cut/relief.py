@@ -13,8 +13,8 @@ GAIN, LIMIT = 2.5, 0.15
 WALL = 2.0
 """From this slope on cells count as a wall: there the steps of the grid, not the metal, would tell the slope's direction."""
 
-_WIDE = 7
-"""Cells that are taken together to tell which way a wall faces."""
+_WIDE = 11
+"""Cells that are taken together to tell which way a wall faces; how steep it is, its own cells tell."""
 
 _COARSE = 4
 _SPANS = (3, 7, 15)
@@ -37,7 +37,7 @@ def relief(heights: NDArray[np.float32], pitch: float) -> Bytes:
     out, heights = np.empty(heights.shape, "<u4"), np.ascontiguousarray(heights)
     smooth = np.asarray(cv2.GaussianBlur(heights, (_WIDE, _WIDE), 0.0, borderType=cv2.BORDER_REPLICATE))
     spread = np.asarray(cv2.morphologyEx(heights, cv2.MORPH_GRADIENT, np.ones((3, 3), np.uint8)))
-    steep = (spread > np.float32(2 * WALL * pitch)).view(np.uint8)
+    steep = np.where(spread > np.float32(2 * WALL * pitch), spread / np.float32(2 * pitch), np.float32(0.0))
     relief_map(heights, smooth, steep, corner_light(heights, pitch), np.float32(pitch), np.float32(GAIN), np.float32(LIMIT), out)
     return out.view(np.uint8).reshape(*heights.shape, 4)
 

@@ -9,17 +9,21 @@ import numpy as np
 from app.jit import kernel
 
 ONE, HALF, MIDDLE, SPREAD = np.float32(1.0), np.float32(0.5), np.float32(128.5), np.float32(127.0)
+ZERO, LEAST = np.float32(0.0), np.float32(1e-6)
 
 
-@kernel("void(float32[:, ::1], float32[:, ::1], uint8[::1], uint8[::1], float32, float32, uint32[::1])")
+@kernel("void(float32[:, ::1], float32[:, ::1], float32[::1], uint8[::1], float32, float32, uint32[::1])")
 def _relief_row(slopes, smooth, steep, light, gain, limit, out):
-    """Write one row; slopes are (right - left) and (up - down), at walls those of the smoothed heights."""
+    """Write one row; slopes are (right - left) and (up - down), at walls in the direction of the smoothed heights'."""
     left, right, down, up = slopes[0], slopes[1], slopes[2], slopes[3]
     left_s, right_s, down_s, up_s = smooth[0], smooth[1], smooth[2], smooth[3]
     for j in range(len(out)):
         gx, gy = right[j] - left[j], up[j] - down[j]
-        gx = right_s[j] - left_s[j] if steep[j] else gx
-        gy = up_s[j] - down_s[j] if steep[j] else gy
+        sx, sy = right_s[j] - left_s[j], up_s[j] - down_s[j]
+        wall = steep[j] > ZERO
+        along = steep[j] / max(sqrt(sx * sx + sy * sy), LEAST)
+        gx = sx * along if wall else gx
+        gy = sy * along if wall else gy
         square = gx * gx + gy * gy
         k = ONE + (gain - ONE) / (ONE + square / (limit * limit))
         k = k / sqrt(ONE + k * k * square)
@@ -45,7 +49,7 @@ def _slopes(heights, i, pitch, out):
     out[2], out[3] = heights[below] * rise, heights[above] * rise
 
 
-@kernel("void(float32[:, ::1], float32[:, ::1], uint8[:, ::1], uint8[:, ::1], float32, float32, float32, uint32[:, ::1])")
+@kernel("void(float32[:, ::1], float32[:, ::1], float32[:, ::1], uint8[:, ::1], float32, float32, float32, uint32[:, ::1])")
 def relief_map(heights, smooth, steep, light, pitch, gain, limit, out):
     """Write the relief of heights.
 
@@ -53,7 +57,7 @@ def relief_map(heights, smooth, steep, light, pitch, gain, limit, out):
     The normal's x and y are written as 128 + 127 sign sqrt: fine where the metal is nearly flat.
 
     Args:
-        heights, smooth: (n, m) mm, as they are and smoothed. steep: (n, m) 1 = at a wall, where smooth tells the slope.
+        heights, smooth: (n, m) mm, as they are and smoothed. steep: (n, m) slope at walls, where smooth tells its direction, else 0.
         light: (n, m) share of the light that reaches a cell, 255 = all.
         pitch: mm. gain, limit: see above. out: (n, m) x, y, light, 255, from the lowest byte up.
     """
