@@ -242,7 +242,8 @@ def moved(path: Smoothed, points: Floats, right: Floats, tolerance: float) -> Sm
         return path
     if len(carriers) == 1:
         return replace(path, rows=circle_rows(carriers[0]), carriers=carriers)
-    joined = np.where(right == np.roll(right, 1), path.joined, joint_kernels.CROSSING).astype(np.uint8)
+    alike = (right == np.roll(right, 1)) & ((path.joined == joint_kernels.TANGENT) | (right == 0))
+    joined = np.where(alike, path.joined, joint_kernels.CROSSING).astype(np.uint8)
     rows = _rows(_rounds(points), path.ends, (carriers, joined), tolerance + float(np.abs(right).max()))
     return replace(path, rows=rows, carriers=carriers)
 

@@ -113,7 +113,8 @@ def fraction_at(row: Rows, point: np.ndarray) -> float:
     return 1.0 if turn - sweep < 2 * np.pi - turn else 0.0
 
 
-def level_bridges(rings: Sequence[Ring], groups: Sequence[int], spacing: float) -> Iterator[tuple[Bridge, NDArray[np.float64]]]:
+def level_bridges(rings: Sequence[Ring], groups: Sequence[int], spacing: float,
+                  most: int | None = None) -> Iterator[tuple[Bridge, NDArray[np.float64]]]:
     """Yield candidates between rings of the outermost level with their ends (2, 2), shortest first; clearance is not checked.
 
     The shortest tree through all rings is part of the Delaunay triangulation of points along them.
@@ -122,6 +123,7 @@ def level_bridges(rings: Sequence[Ring], groups: Sequence[int], spacing: float) 
         rings: the outermost level's rings, numbered from 0.
         groups: what is already joined has the same number.
         spacing: between points, mm.
+        most: candidates between any two rings, the shortest; None = all.
     """
     rows = np.concatenate([r.rows for r in rings])
     owner = np.repeat(np.arange(len(rings)), [len(r.rows) for r in rings])
@@ -140,9 +142,21 @@ def level_bridges(rings: Sequence[Ring], groups: Sequence[int], spacing: float) 
     apart = (group[edges[:, 0]] != group[edges[:, 1]]) & (region[edges[:, 0]] == region[edges[:, 1]])
     edges = np.unique(edges[apart], axis=0)
     size = np.hypot(*(points[edges[:, 0]] - points[edges[:, 1]]).T)
-    for k in np.argsort(size, kind="stable"):
+    order = np.argsort(size, kind="stable")
+    if most is not None:
+        order = order[_rank(ring[edges[order]].min(axis=1) * len(rings) + ring[edges[order]].max(axis=1)) < most]
+    for k in order:
         a, b = (Place(int(ring[i]), int(number[row[i]]), float(part[i])) for i in edges[k])
         yield Bridge(a, b, float(size[k])), points[edges[k]]
+
+
+def _rank(keys: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return how many equal keys come before each."""
+    order = np.argsort(keys, kind="stable")
+    first = np.flatnonzero(np.concatenate([[True], np.diff(keys[order]) != 0])) if len(keys) else np.zeros(0, np.int64)
+    ranks = np.empty(len(keys), np.int64)
+    ranks[order] = np.arange(len(keys)) - np.repeat(first, np.diff(np.append(first, len(keys))))
+    return ranks
 
 
 def is_clear(field: DistanceField, a: np.ndarray, b: np.ndarray, distance: float) -> bool:

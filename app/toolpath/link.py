@@ -23,6 +23,9 @@ from app.toolpath.build import Stroke, split_row
 
 _SAME = 1e-9  # fraction of a row
 
+_TRIED = 32
+"""Bridges between two rings that are looked at before they are taken to have none."""
+
 
 def link(levels: Sequence[Level], field: DistanceField, direction: Direction) -> tuple[Stroke, ...]:
     """Return as few strokes as there are connected areas that the tool's centre can be in.
@@ -52,7 +55,7 @@ def link_by_proof(levels: Sequence[Level], field: DistanceField, direction: Dire
     rings = [ring for level in levels for ring in level.rings]
     tree = _Tree(len(rings))
     too_many = len(rings) - sum(ring.area > 0 for ring in levels[0].rings) if levels else 0
-    for bridge, (a, b) in level_bridges(rings, range(len(rings)), spacing) if too_many > 0 else ():
+    for bridge, (a, b) in level_bridges(rings, range(len(rings)), spacing, _TRIED) if too_many > 0 else ():
         if not tree.joined(bridge) and is_clear(field, a, b, levels[0].distance):
             tree.add(bridge)
             too_many -= 1

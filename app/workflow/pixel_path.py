@@ -89,15 +89,15 @@ class Keep:
         """Return how much farther than meant each row (n,) is from the squares, mm; no more than _REACH_PX tells."""
         return clearance(rows, self.field, _STEP_PX * self.pitch, self.level + _REACH_PX * self.pitch) - self.level
 
-    def holds(self, rows: Rows) -> bool:
-        """Tell whether closed rows keep the least distance, on the right side of the squares.
+    def holds(self, rows: Rows, spare: Floats) -> bool:
+        """Tell whether closed rows, with what they have to spare, keep the least distance on the right side of the squares.
 
         Rows that keep any distance from the squares cannot get from one side to the other, so their ends tell.
         """
         cols, lines = np.floor(self.frame.to_px(rows[:, :2])).astype(np.int64).T
         if not (0 <= cols.min() <= cols.max() < self.frame.cols and 0 <= lines.min() <= lines.max() < self.frame.rows):
             return False
-        return bool(self.free[lines, cols].all() and self.spare(rows).min() >= self.least - self.level - _EXACT * self.pitch)
+        return bool(self.free[lines, cols].all() and spare.min() >= self.least - self.level - _EXACT * self.pitch)
 
 
 def pixel_path(points: Floats, keep: Keep, options: SmoothOptions) -> Smoothed:
@@ -129,11 +129,13 @@ def _moved_out(path: Smoothed, points: Floats, keep: Keep, tolerance: float) -> 
     right, stays, best = np.zeros(len(path.rows)), np.zeros(len(path.rows), np.bool_), None
     tried, aim = path, _AIM_PX * keep.pitch
     for turn in range(_TRIES):
-        spare = _per_group(keep.spare(tried.rows), path.tangent)
-        if keep.holds(tried.rows):
+        each = keep.spare(tried.rows)
+        if keep.holds(tried.rows, each):
             best = tried
-        back = spare.min() if turn == _TRIES - 2 else (1 + turn / 4) * spare
-        change = np.where(spare < 0, back - 2 * aim, np.where(stays, 0.0, spare - aim))
+        spare = _per_group(each, path.tangent)
+        if turn >= _TRIES // 2 and spare.min() < 0:
+            spare = np.full(len(spare), 1.5 * spare.min())  # corners that no side alone can mend: all go back together
+        change = np.where(spare < 0, (1 + turn / 4) * spare - 2 * aim, np.where(stays, 0.0, spare - aim))
         if np.abs(change).max() < 2 * aim:
             break
         stays |= spare < 0
