@@ -3,8 +3,12 @@
 import numpy as np
 import pytest
 
+from app.bitmap.border import borders_of
 from app.bitmap.frame import Frame
+from app.bitmap.levels import offset_area
+from app.bitmap.trace import chain_rows
 from app.bitmap.walls import free_contours, free_pixels, outline_px, wall_rows
+from app.geometry.distance import DistanceField
 from app.geometry.primitives import contour_rows, points_at, signed_area
 from app.geometry.region import nest
 from tests.bitmap.oracle import even_odd
@@ -69,3 +73,28 @@ def test_the_edges_of_free_pixels_are_closed_contours_round_them(seed: int) -> N
     lengths = np.hypot(*(wall_rows(frame, free)[:, 2:4] - wall_rows(frame, free)[:, :2]).T)
     across, down = np.diff(np.pad(free, 1).astype(int), axis=0), np.diff(np.pad(free, 1).astype(int), axis=1)
     assert lengths.sum() == pytest.approx(0.5 * (np.abs(across).sum() + np.abs(down).sum()))
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_contour_through_pixels_corners_takes_both_pixels_there(turned: bool) -> None:
+    corners = [(10.5, 10.5), (30.5, 30.5), (10.5, 50.5)]
+    triangle = polygon([(60 - x, y) for x, y in corners] if turned else corners)
+    free = free_pixels(FRAME, [triangle])
+    taken = even_odd(FRAME, [triangle]) & ~free
+    on_slants = {(row, col) for row, col in np.argwhere(taken).tolist() if col not in (12, 47)}
+    assert len(on_slants) >= 38, "each pixel along both slants whose centre is inside or on them, and no other"
+    assert not free[FRAME.rows - 1 - np.arange(14, 30), (59 - np.arange(14, 30) + 3) if turned else np.arange(14, 30)].any()
+
+
+@pytest.mark.parametrize("radius", [2.0, 3.5, 11.0])
+@pytest.mark.parametrize("kind", ["star", "arcs", "circles", "rectilinear"])
+def test_a_path_through_the_pixels_of_an_offset_keeps_its_radius_and_more(kind: str, radius: float) -> None:
+    for seed in range(10):
+        free = free_pixels(FRAME, KINDS[kind](np.random.default_rng(seed), 60.0))
+        if not free.any():
+            continue
+        field = DistanceField.of(wall_rows(FRAME, free))
+        for border in borders_of(offset_area(free, radius, 0.75)):
+            rows = chain_rows(FRAME, [border.chain])
+            points = points_at(np.repeat(rows, 9, axis=0), np.tile(np.linspace(0, 1, 9), len(rows)))
+            assert field.nearest(points)[0].min() >= radius + 0.75
