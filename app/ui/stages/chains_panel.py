@@ -15,7 +15,7 @@ from app.ui.panels.section import heading
 from app.ui.stages.rose import Rose
 from app.ui.theme import mono_font
 
-_LIST_PX, _TEXT_PX, _MOST_SHOWN, _MOST_DIGITS = 78, 96, 300, 20_000
+_LIST_PX, _TEXT_PX, _MOST_SHOWN, _MOST_DIGITS = 96, 64, 300, 20_000
 
 
 class ChainsPanel(QWidget):
@@ -49,25 +49,26 @@ class ChainsPanel(QWidget):
         self.list.setFixedHeight(_LIST_PX)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setAccessibleName("Contour lines of this step")
+        self.list.setToolTip("Column and row of the start pixel S, and how long the code is")
         self.text.setReadOnly(True)
         self.text.setFont(mono_font(12))
         self.text.setFixedHeight(_TEXT_PX)
         self.text.setAccessibleName("Chain code")
         self.text.setObjectName("chainText")
-        below = QHBoxLayout()
-        below.setSpacing(8)
-        below.addWidget(self.text, 1)
-        below.addWidget(self.rose)
+        above = QHBoxLayout()
+        above.setSpacing(8)
+        above.addWidget(self.list, 1)
+        above.addWidget(self.rose)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(6)
         column.addLayout(head)
-        column.addWidget(self.list)
-        column.addLayout(below)
+        column.addLayout(above)
+        column.addWidget(self.text)
 
     def show_chains(self, chains: Sequence[Chain]) -> None:
         """List other chains, none of them chosen."""
-        if tuple(chains) == self.chains:
+        if not chains and not self.chains:
             return
         self.chains = tuple(chains)
         self.list.blockSignals(True)
@@ -104,4 +105,4 @@ class ChainsPanel(QWidget):
 
 def _title(index: int, chain: Chain) -> str:
     row, col = chain.start
-    return f"{index + 1}   S at column {col}, row {row}   {counted(len(chain.directions), 'step')}"
+    return f"{index + 1}   {col}, {row}   {counted(len(chain.directions), 'step')}"

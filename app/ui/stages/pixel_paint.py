@@ -125,7 +125,7 @@ def paint_raster(painter: QPainter, view: View, area: QRectF, frame: Frame, colo
     if size < RASTER_PX or window.empty:
         return
     hue = QColor(colour)
-    hue.setAlphaF(min(0.5, 0.12 + 0.02 * (size - RASTER_PX)))
+    hue.setAlphaF(min(0.4, 0.12 + 0.02 * (size - RASTER_PX)))
     inside = screen_rect(frame, view, window)
     painter.setPen(screen_pen(painter, hue, 1.0))
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)

@@ -132,7 +132,7 @@ class PixelView(Viewport):
         if self.pixels is None:
             return
         paint_pixels(painter, self.view, area, self.pixels)
-        paint_raster(painter, self.view, area, self.pixels.frame, theme.ink)
+        paint_raster(painter, self.view, area, self.pixels.frame, theme.muted)
         paint_letters(painter, self.view, area, self.pixels)
         painter.setPen(screen_pen(painter, theme.muted, 1.0))
         painter.setBrush(Qt.BrushStyle.NoBrush)

@@ -25,7 +25,7 @@ LEAST, MOST = 100, 2000
 _LEAST_ROUND = 16
 """Rows and columns of a bitmap that is as large as it must be, at the least."""
 
-_TOLD_PX = 216
+_TOLD_PX = 208
 """Height that nearly all explanations fit in, so that what is below stays where it is while stages follow one another."""
 
 
@@ -62,7 +62,7 @@ class StagesPanel(QScrollArea):
         self._told = QWidget()
         self._lines = [hairline(), hairline()]
         self._of_still: tuple[QWidget, ...] = (self.place, self.sentence, self.notes, self.rules, self.wrong, self.chains, *self._lines,
-                                               self.bitmap, self.given_up)
+                                               self.given_up)
         self._lay_out()
         self.rules.chosen.connect(self.rules_chosen)
         self.chains.picked.connect(self.chain_picked)
@@ -87,14 +87,13 @@ class StagesPanel(QScrollArea):
         told.addStretch(1)
         self._told.setMinimumHeight(_TOLD_PX)
         column.addWidget(self._told)
-        column.addSpacing(6)
         column.addWidget(self.rules)
         column.addWidget(self.wrong)
-        bitmap = (heading("Bitmap"), self.points, self.pitch, self.bitmap, self.given_up)
-        for line, group in ((self._lines[0], (self.chains,)), (self._lines[1], bitmap)):
-            column.addSpacing(6)
+        bitmap = (self.points, self.pitch, self.bitmap, self.given_up)
+        for line, group in ((self._lines[0], bitmap), (self._lines[1], (self.chains,))):
+            column.addSpacing(2)
             column.addWidget(line)
-            column.addSpacing(6)
+            column.addSpacing(2)
             for each in group:
                 column.addWidget(each)
         column.addStretch(1)
@@ -123,9 +122,9 @@ class StagesPanel(QScrollArea):
             field.setVisible(not picture)
         self.points.show_value(max(frame.rows, frame.cols))
         self.pitch.show_value(frame.pitch)
-        kind = "The picture's own pixels" if picture else "Pixels"
-        self.bitmap.setText(f"{kind}: {grouped(frame.cols, 0)} {TIMES} {grouped(frame.rows, 0)} of {frame.pitch:.4g} mm")
-        self.given_up.setText(f"So as never to gouge, paths along the walls stay up to {given_up.most_mm:.3f} mm farther away than asked, "
+        self.bitmap.setVisible(picture)
+        self.bitmap.setText(f"The picture's own {grouped(frame.cols, 0)} {TIMES} {grouped(frame.rows, 0)} px of {frame.pitch:.4g} mm")
+        self.given_up.setText(f"What never gouging costs: up to {given_up.most_mm:.3f} mm too far from the walls, "
                               f"{given_up.mean_mm:.3f} mm in the mean.{_rough(reel.made.unsmoothed)}")
 
     def _show_wrong(self, reel: Reel) -> None:

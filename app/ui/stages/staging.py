@@ -54,7 +54,7 @@ class Staging(QObject):
         window, worker = self._window, self.worker
         worker.done.connect(self._on_done)
         worker.failed.connect(self._on_failed)
-        worker.cancelled.connect(lambda _: self.changed.emit())
+        worker.cancelled.connect(lambda _: self._on_cancelled())
         worker.progress.connect(window.status.show_progress)
         worker.busy_changed.connect(self._on_busy)
         window.status.cancelled.connect(worker.cancel)
@@ -147,6 +147,12 @@ class Staging(QObject):
         self.error = answer.error or ""
         self._show(None)
         self.failed.emit(self.error)
+
+    def _on_cancelled(self) -> None:
+        """Show no stages rather than those of an earlier job."""
+        if not self.worker.busy and self.reel is not None and not _alike(self.reel.wish, self._wish()):
+            self._show(None)
+        self.changed.emit()
 
     def _on_busy(self, busy: bool) -> None:
         other = self._window.worker.busy

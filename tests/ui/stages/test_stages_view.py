@@ -1,0 +1,238 @@
+"""The Stages view with mouse and keys."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QGuiApplication, QWheelEvent
+from PySide6.QtWidgets import QApplication
+
+from app.bitmap.codes import PixelCode
+from app.settings import ThemeChoice
+from app.ui.stages.inks import step_inks
+from app.ui.stages.pixel_paint import LETTER_PX, RASTER_PX
+from app.ui.stages.stages_panel import Rules
+from app.ui.theme import LIGHT
+from app.ui.views import View
+from tests.ui.conftest import WAIT_MS
+from tests.ui.stages.conftest import show_stages
+
+LEFT = Qt.MouseButton.LeftButton
+STAR = ("line 71.97,51.1 88.07,62.27 68.48,61.94 76.83,79.66 60.04,69.56 58.41,89.1 "
+        "48.9,71.97 37.73,88.07 38.06,68.48 20.34,76.83 30.44,60.04 71.97,51.1")
+
+
+def screen(view, row, col):
+    """Where a pixel's middle lies on the screen."""
+    x, y = view.pixels.pixels.frame.to_mm(np.array([(col + 0.5, row + 0.5)]))[0].tolist()
+    return view.pixels.view.to_screen((x, y)).toPoint()
+
+
+def type_value(qtbot, field, text):
+    field.edit.setFocus()
+    field.edit.selectAll()
+    qtbot.keyClicks(field.edit, text)
+    qtbot.keyClick(field.edit, Qt.Key.Key_Return)
+
+
+def test_an_empty_drawing_says_what_is_missing(wiring):
+    wiring.showing.show_view(View.STAGES)
+    assert wiring.window_.views.empty.isVisible() and "Nothing is drawn" in wiring.window_.views.empty.sentence.text()
+    assert not wiring.window_.stages_panel.isVisible()
+
+
+def test_the_tab_between_draw_and_paths_shows_the_first_step(qtbot, staged):
+    window = staged.window_
+    assert list(window.top_bar.tabs)[:3] == ["view_draw", "view_stages", "view_paths"]
+    view = window.views.stages
+    assert window.views.currentWidget() is view and window.stages_panel.isVisible() and not window.panel.isVisible()
+    assert view.still.number == 110 and view.rail.numbers[:3] == (110, 120, 201) and view.rail.numbers[-1] == 407
+    assert window.stages_panel.title.text() == "110  Show the shape"
+    qtbot.keyClick(window, Qt.Key.Key_1, Qt.KeyboardModifier.ControlModifier)
+    assert window.panel.isVisible() and not window.stages_panel.isVisible()
+    qtbot.keyClick(window, Qt.Key.Key_2, Qt.KeyboardModifier.ControlModifier)
+    assert staged.showing.view is View.STAGES
+
+
+def test_keys_step_and_the_rail_ticks_what_was_reached(qtbot, staged):
+    view = staged.window_.views.stages
+    for key, number in ((Qt.Key.Key_Right, 120), (Qt.Key.Key_Right, 201), (Qt.Key.Key_Left, 120), (Qt.Key.Key_End, 407),
+                        (Qt.Key.Key_Home, 110), (Qt.Key.Key_PageDown, 201), (Qt.Key.Key_PageDown, 301), (Qt.Key.Key_PageUp, 201)):
+        qtbot.keyClick(view.pixels, key)
+        assert view.still.number == number, key
+    assert view.rail.now == 201 and view.rail.reached == {110, 120}
+    item = view.rail.item(view.rail.numbers.index(206))
+    qtbot.mouseClick(view.rail.viewport(), LEFT, pos=view.rail.visualItemRect(item).center())
+    assert view.still.number == 206 and view.player.place.text().startswith("8 of ")
+    assert staged.window_.stages_panel.sentence.text() == view.still.sentence
+
+
+def test_space_plays_to_the_end_and_pauses(qtbot, staged):
+    view = staged.window_.views.stages
+    view.player.set_speed(60)
+    seen = []
+    view.shown.connect(lambda: seen.append(view.at))
+    qtbot.keyClick(view.pixels, Qt.Key.Key_Space)
+    assert view.player.playing
+    qtbot.waitUntil(lambda: len(seen) > 6, timeout=WAIT_MS)
+    qtbot.keyClick(view.pixels, Qt.Key.Key_Space)
+    assert not view.player.playing and seen == sorted(seen)
+    view.show_stage(len(view.film) - 3)
+    qtbot.mouseClick(view.player.play, LEFT)
+    qtbot.waitUntil(lambda: not view.player.playing, timeout=WAIT_MS)
+    assert view.at == len(view.film) - 1
+    qtbot.keyClick(view.pixels, Qt.Key.Key_Space)
+    staged.showing.show_view(View.DRAW)
+    assert not view.player.playing
+
+
+def test_pixels_have_their_codes_colours_and_say_what_they_are(qtbot, staged):
+    view = staged.window_.views.stages
+    view.show_stage(view.film.seek_step(206, -1))
+    row, col = np.argwhere(view.plane == PixelCode.R)[0].tolist()
+    view.pixels.zoom_by(4.0, QPointF(screen(view, row, col)))
+    image = view.pixels.grab().toImage()
+    inks = step_inks(LIGHT, 206)
+    for code in (PixelCode.R, PixelCode.TRACED, PixelCode.EMPTY):
+        window = np.argwhere(view.plane == code)
+        places = [screen(view, *place) for place in window.tolist()]
+        inside = next(p for p in places if 40 < p.x() < view.pixels.width() // 2 and 40 < p.y() < view.pixels.height() - 20)
+        assert image.pixelColor(inside + QPoint(-1, -1)).name() == inks[code].name(), code
+    qtbot.mouseMove(view.pixels, screen(view, row, col))
+    assert staged.window_.status.message.text() == f"Column {col}, row {row}: R, must not count"
+    x, y = view.pixels.pixels.frame.to_mm(np.array([(col + 0.5, row + 0.5)]))[0]
+    assert float(staged.window_.status.place_x.text()[2:]) == pytest.approx(x, abs=view.pixels.pixels.frame.pitch)
+    assert float(staged.window_.status.place_y.text()[2:]) == pytest.approx(y, abs=view.pixels.pixels.frame.pitch)
+
+
+def test_wheel_zooms_at_the_mouse_f_fits_the_middle_button_pans(qtbot, staged):
+    pixels = staged.window_.views.stages.pixels
+    at, before = QPointF(300.0, 200.0), pixels.view
+    pixels.wheelEvent(QWheelEvent(at, pixels.mapToGlobal(at), QPoint(), QPoint(0, 240), Qt.MouseButton.NoButton,
+                                  Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase, False))
+    assert pixels.view.scale > before.scale * 1.3
+    assert pixels.view.to_world(at) == pytest.approx(before.to_world(at))
+    held = pixels.view.to_world(QPointF(200, 150))
+    qtbot.mousePress(pixels, Qt.MouseButton.MiddleButton, pos=QPoint(200, 150))
+    qtbot.mouseMove(pixels, QPoint(260, 190))
+    qtbot.mouseRelease(pixels, Qt.MouseButton.MiddleButton, pos=QPoint(260, 190))
+    assert pixels.view.to_world(QPointF(260, 190)) == pytest.approx(held, abs=0.05)
+    qtbot.keyClick(pixels, Qt.Key.Key_F)
+    qtbot.waitUntil(lambda: pixels.view == before, timeout=WAIT_MS)
+
+
+def test_raster_and_letters_come_when_pixels_are_large(qtbot, staged):
+    view = staged.window_.views.stages
+    view.show_stage(view.film.seek_step(208, -1))
+    pixels, pitch = view.pixels, view.pixels.pixels.frame.pitch
+    row, col = np.argwhere(view.plane == PixelCode.INSIDE)[500].tolist()
+
+    def colours(px):
+        """How many colours there are in and round one pixel of this size on the screen."""
+        at = QPointF(screen(view, row, col))
+        pixels.zoom_by(px / (pitch * pixels.view.scale), at)
+        middle, half = screen(view, row, col), round(px * 0.7)
+        image = pixels.grab().toImage()
+        return len({image.pixel(middle.x() + dx, middle.y() + dy) for dx in range(-half, half) for dy in range(-half, half)})
+
+    assert colours(RASTER_PX - 2) == 1
+    small, large = colours(RASTER_PX + 3), colours(LETTER_PX + 6)
+    assert 1 < small < large
+
+
+def test_a_chain_is_lit_from_the_list_and_from_the_picture(qtbot, staged):
+    window, view = staged.window_, staged.window_.views.stages
+    chains = window.stages_panel.chains
+    view.show_stage(view.film.seek_step(203, -1))
+    assert chains.list.count() == len(view.still.chains) == 3
+    dark = view.pixels.grab().toImage()
+    qtbot.mouseClick(chains.list.viewport(), LEFT, pos=chains.list.visualItemRect(chains.list.item(1)).center())
+    assert chains.text.toPlainText() == view.still.chains[1].text()
+    assert view.pixels.grab().toImage() != dark
+    row, col = view.still.chains[2].pixels()[3].tolist()
+    qtbot.mouseClick(view.pixels, LEFT, pos=screen(view, row, col))
+    assert chains.list.currentRow() == 2 and chains.text.toPlainText() == view.still.chains[2].text()
+    qtbot.mouseClick(chains.copy, LEFT)
+    assert QGuiApplication.clipboard().text().splitlines() == [chain.text() for chain in view.still.chains]
+    view.show_stage(view.film.seek_step(204, -1))
+    assert chains.list.count() == 0 and "traces no line" in chains.text.toPlainText()
+
+
+def test_published_rules_are_marked_where_they_err_and_counted(qtbot, wiring):
+    wiring.run(STAR)
+    wiring.showing.show_view(View.STAGES)
+    show_stages(qtbot, wiring)
+    panel, view = wiring.window_.stages_panel, wiring.window_.views.stages
+    assert "Always right" in panel.wrong.text()
+    qtbot.mouseClick(panel.rules.buttons[Rules.PUBLISHED], LEFT)
+    qtbot.waitUntil(lambda: wiring.staging.reel.wish.published, timeout=WAIT_MS)
+    view.show_stage(view.film.seek_step(208, -1))
+    count = int(np.count_nonzero(view.still.wrong))
+    assert count > 100 and f"{count} pixels wrongly" in panel.wrong.text() and f"err in {count} pixels" in panel.sentence.text()
+    row, col = np.argwhere(view.still.wrong)[count // 2].tolist()
+    view.pixels.zoom_by(5.0, QPointF(screen(view, row, col)))
+    assert view.pixels.grab().toImage().pixelColor(screen(view, row, col)).name() == LIGHT.gouge.name()
+    qtbot.mouseMove(view.pixels, screen(view, row, col))
+    assert wiring.window_.status.message.text().endswith("!, wrong as published")
+    qtbot.mouseClick(panel.rules.buttons[Rules.SETTLED], LEFT)
+    qtbot.waitUntil(lambda: not wiring.staging.reel.wish.published, timeout=WAIT_MS)
+    assert view.still.number == 208 and view.still.wrong is None
+
+
+def test_resolution_and_pitch_and_what_they_cost(qtbot, staged):
+    panel, view = staged.window_.stages_panel, staged.window_.views.stages
+    assert "mm too far from the walls" in panel.given_up.text() and panel.points.edit.text() == "400"
+    type_value(qtbot, panel.points, "200")
+    qtbot.waitUntil(lambda: view.film is not None and view.film.shape == (200, 200), timeout=WAIT_MS)
+    assert float(panel.pitch.edit.text()) == pytest.approx(52 / 196, abs=1e-4)
+    type_value(qtbot, panel.pitch, "0.4")
+    qtbot.waitUntil(lambda: staged.staging.reel is not None and staged.staging.reel.part.frame.pitch == 0.4, timeout=WAIT_MS)
+    assert panel.points.value == view.film.shape[0] == 134
+    type_value(qtbot, panel.points, "50")
+    assert panel.points.reason.isVisible() and "100 to 2000" in panel.points.reason.text()
+
+
+def test_what_cannot_be_computed_says_why_and_is_computed_when_it_can(qtbot, staged):
+    window, panel = staged.window_, staged.window_.stages_panel
+    type_value(qtbot, panel.pitch, "3")
+    empty = window.views.empty
+    qtbot.waitUntil(lambda: empty.isVisible() and "not wider than two pixels" in empty.sentence.text(), timeout=WAIT_MS)
+    assert window.views.stages.film is None and panel.isVisible() and not panel.chains.isVisible()
+    type_value(qtbot, panel.points, "150")
+    show_stages(qtbot, staged)
+    assert not window.views.empty.isVisible() and panel.chains.isVisible()
+
+
+def test_stages_follow_the_drawing_and_are_never_of_another_one(qtbot, staged):
+    view = staged.window_.views.stages
+    before = view.film
+    staged.run("circle 46,30 5")
+    qtbot.waitUntil(lambda: view.film is not before and view.film is not None, timeout=WAIT_MS)
+    assert len(staged.staging.reel.part.regions) == 3
+    shown = view.film
+    staged.showing.show_view(View.DRAW)
+    staged.run("circle 60,30 5")
+    QApplication.processEvents()
+    assert not staged.staging.worker.busy and view.film is shown
+    staged.showing.show_view(View.STAGES)
+    qtbot.waitUntil(lambda: len(staged.staging.reel.part.regions) == 4, timeout=WAIT_MS)
+    staged.files.new()
+    assert view.film is None
+
+
+def test_cancelling_leaves_no_stages_of_an_earlier_job(qtbot, staged):
+    type_value(qtbot, staged.window_.stages_panel.points, "2000")
+    assert staged.staging.worker.busy and staged.window_.actions_["cancel"].isEnabled()
+    staged.window_.actions_["cancel"].trigger()
+    assert not staged.staging.worker.busy and staged.window_.views.stages.film is None
+    assert staged.window_.views.empty.button.text() == "Compute the stages"
+    assert not staged.window_.status.bar.isVisible()
+
+
+def test_both_themes(qtbot, staged):
+    view = staged.window_.views.stages
+    staged.window_.set_theme_choice(ThemeChoice.DARK)
+    dark = view.pixels.grab().toImage()
+    staged.window_.set_theme_choice(ThemeChoice.LIGHT)
+    light = view.pixels.grab().toImage()
+    middle = screen(view, 3, 3)
+    assert dark.pixelColor(middle).lightness() < 40 and light.pixelColor(middle).lightness() > 240
