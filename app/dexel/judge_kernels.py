@@ -50,11 +50,13 @@ def apart(wanted, row, col, height, where, sign):
     to the part there, if it is that way.
 
     Args:
-        wanted: (rows, cols) the part at the cells' centres.
+        wanted: the part at the cells' centres, with MOST_RINGS cells more on each side.
+        row, col: of the cell, in the grid without these.
         height: of the metal's end. where: pitch, half a cell's diagonal, mm.
     """
     pitch, half = where
     rows, cols = wanted.shape
+    row, col = row + MOST_RINGS, col + MOST_RINGS
     best = math.inf
     for ring in range(MOST_RINGS):
         if ring * pitch + half >= best:
@@ -75,13 +77,13 @@ def farthest(heights, wanted, before, where, sign, first, last):
 
     Args:
         heights: bound of what is left, from below for gouges (sign 1), from above for metal left (-1).
-        wanted: the part. before: gouges: the stock before; metal left: nothing is said where this is not finite.
+        wanted: the part, see `apart`. before: gouges: the stock before; metal left: nothing is said where this is not finite.
     """
     worst = 0.0
     for y in range(first, last):
         for x in range(heights.shape[1]):
             height = float(heights[y, x])
-            gap = sign * (wanted[y, x] - height)
+            gap = sign * (wanted[y + MOST_RINGS, x + MOST_RINGS] - height)
             if sign > 0 and heights[y, x] >= before[y, x]:
                 continue
             if sign < 0 and not before[y, x] < np.float32(math.inf):
@@ -94,7 +96,7 @@ def farthest(heights, wanted, before, where, sign, first, last):
 @kernel(f"void({_FIELD}, {_FIELD}, int64[::1], UniTuple(float64, 2), float64[::1])")
 def ways_out(wanted, heights, cells, where, out):
     """Write how far the metal's end in some cells, row * cols + col each, is from the part's surface above it; see `apart`."""
-    cols = wanted.shape[1]
+    cols = heights.shape[1]
     for k in range(len(cells)):
         row, col = cells[k] // cols, cells[k] % cols
         out[k] = apart(wanted, row, col, heights[row, col], where, 1)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from concurrent.futures import wait
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TypeVar
 
+import cv2
 import numpy as np
 
 from app.dexel.cutter import Cutter
@@ -19,6 +19,12 @@ from app.progress import NO_PROGRESS, Progress
 
 RIM = 2e-3
 """mm sideways within which a height beside a wall counts as met: what path and rounding may be off."""
+
+MARGIN = 12
+"""Cells round a grid in which the part's surface is looked for too; as `judge_kernels.MOST_RINGS`."""
+
+MOST_REACH = 32
+"""Cells from the middle of a profile to its rim; work grows with the square."""
 
 STRIPS = 32
 """Parts in which a field is worked through."""
@@ -31,15 +37,20 @@ class Target:
     """Heights that are wanted over a grid, program coordinates, (rows, cols) each, mm.
 
     Attributes:
-        wanted: the part at the cells' centres; -infinite where there is none.
+        around: the part at the cells' centres, MOST_RINGS cells wider than the grid on each side; -infinite where there is none.
         low: metal that is lower is gouged. high: metal that is higher is left. Infinite where the part says nothing.
             Beside walls they lie apart, so that a cell on a wall may fall to either side.
     """
 
     grid: Grid
-    wanted: Heights
+    around: Heights
     low: Heights
     high: Heights
+
+    @property
+    def wanted(self) -> Heights:
+        """(rows, cols) the part at the cells' centres."""
+        return self.around[MARGIN:-MARGIN, MARGIN:-MARGIN]
 
     def deviation(self, heights: Heights) -> Heights:
         """Return how far heights are above high (> 0) or below low (< 0), mm."""
@@ -53,16 +64,44 @@ def solid_target(solid: SolidStock, grid: Grid, leave: float = 0.0, progress: Pr
         ParameterError: the grid does not fit into memory.
         Cancelled: the job was asked to stop.
     """
-    wanted, low, high = _part_over(solid, grid)
+    if leave > MOST_REACH * grid.pitch:
+        return _sampled(solid_target(solid, _coarser(grid, leave), leave, progress), grid)
+    wide = _wider(grid, MARGIN + int(leave / grid.pitch) + 1)
+    around, low, high = _part_over(solid, wide)
     for dx, dy in ((-RIM, -RIM), (-RIM, RIM), (RIM, -RIM), (RIM, RIM)):
         progress.step(0.0, "Laying the part over the grid")
-        _, below, above = _part_over(solid, Grid(grid.x0 + dx, grid.y0 + dy, grid.pitch, grid.rows, grid.cols))
+        _, below, above = _part_over(solid, Grid(wide.x0 + dx, wide.y0 + dy, wide.pitch, wide.rows, wide.cols))
         np.minimum(low, below, out=low)
         np.maximum(high, above, out=high)
     if leave:
         thick = _ball(leave, grid.pitch)
-        wanted, low, high = (dilated(field, thick) for field in (wanted, low, high))
-    return Target(grid, wanted, low, high)
+        around, low, high = (dilated(field, thick) for field in (around, low, high))
+    more = (wide.rows - grid.rows) // 2
+    rim, own = (slice(more - MARGIN, MARGIN - more or None), slice(more, -more))
+    return Target(grid, around[rim, rim].copy(), low[own, own].copy(), high[own, own].copy())
+
+
+def _wider(grid: Grid, cells: int) -> Grid:
+    """Return a grid with so many cells more on each side."""
+    return Grid(grid.x0 - cells * grid.pitch, grid.y0 - cells * grid.pitch, grid.pitch, grid.rows + 2 * cells, grid.cols + 2 * cells)
+
+
+def _coarser(grid: Grid, leave: float) -> Grid:
+    """Return a grid over the same place, and some more, whose cells are no finer than stock to leave needs."""
+    pitch = leave / MOST_REACH
+    x0, y0, x1, y1 = grid.box
+    return Grid(x0 - 2 * pitch, y0 - 2 * pitch, pitch, int((y1 - y0) / pitch) + 5, int((x1 - x0) / pitch) + 5)
+
+
+def _sampled(coarse: Target, grid: Grid) -> Target:
+    """Return a target on finer cells; low and high are those of the coarse cells around, so that nothing is told too early."""
+    kernel = np.ones((3, 3), np.uint8)
+    low, high = cv2.erode(coarse.low, kernel), cv2.dilate(coarse.high, kernel)
+    rows, cols = (np.clip(((at - start) / coarse.grid.pitch).astype(np.int64), 0, most - 1)
+                  for at, start, most in ((grid.ys(), coarse.grid.y0, coarse.grid.rows), (grid.xs(), coarse.grid.x0, coarse.grid.cols)))
+    fields = (np.asarray(field, np.float32)[np.ix_(rows, cols)] for field in (coarse.wanted, low, high))
+    around, low, high = fields
+    return Target(grid, np.pad(around, MARGIN, mode="edge"), low, high)
 
 
 def _part_over(solid: SolidStock, grid: Grid) -> tuple[Heights, Heights, Heights]:
@@ -102,26 +141,6 @@ def dilated(heights: Heights, profile: Heights, progress: Progress = NO_PROGRESS
     out = np.empty_like(source)
     by_strips(len(out), lambda first, last: dilate(source, form, out, first, last), progress)
     return out
-
-
-def within_reach(wanted: Heights, cutters: Iterable[Cutter], pitch: float, progress: Progress = NO_PROGRESS) -> Heights:
-    """Return (rows, cols) the lowest height that any of some cutters surely reaches without touching the part.
-
-    A cutter is led where it would stay clear of the part even if it were wider by half a cell's diagonal, so metal beside a
-    steep wall may count as out of reach though it is not, up to that width.
-
-    Args:
-        wanted: the part. cutters: that may be used. pitch: mm.
-
-    Raises:
-        Cancelled: the job was asked to stop.
-    """
-    lowest = np.full(wanted.shape, np.inf, np.float32)
-    half = pitch / math.sqrt(2.0)
-    for cutter in cutters:
-        tip = dilated(wanted, cutter_profile(cutter.grown(half), pitch), progress)
-        np.minimum(lowest, -dilated(-tip, cutter_profile(cutter, pitch), progress), out=lowest)
-    return lowest
 
 
 def by_strips(rows: int, work: Callable[[int, int], T], progress: Progress = NO_PROGRESS) -> list[T]:

@@ -49,7 +49,7 @@ def certify(before: Workpiece, part: Wanted, cutters: Mapping[int, Cutter], trim
     progress.step(0.0, "Looking between the cells")
     low = trimming(wide, TrimOptions(Rapids.CUT), progress.part(0.0, 0.4))
     high = trimming(slim, TrimOptions(Rapids.IGNORED), progress.part(0.4, 0.8))
-    wanted, stock = _frozen(part.target.wanted), _frozen(before.heights)
+    wanted, stock = _frozen(part.target.around), _frozen(before.heights)
     spoken = _frozen(np.where(part.reach, part.target.high, np.float32(np.inf)))
 
     def worst(heights: Heights, counts: Heights, sign: int) -> float:

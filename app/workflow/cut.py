@@ -153,7 +153,8 @@ class _Run:
         part = self.setup.part
         assert part is not None
         used = {number for known in self.courses for number in np.unique(known.course.tool).tolist()}
-        wanted = wanted_over(part, cut, tuple(self.cutters[k] for k in sorted(used & set(self.cutters))), progress.part(0.0, 0.3))
+        cutters = tuple(self.cutters[number] for number in sorted(used & set(self.cutters)))
+        wanted = wanted_over(part, cut, self.setup.stock, cutters, progress.part(0.0, 0.3))
         if exact is None and self.options.judge and isinstance(part, FlatPart):
             exact = exact_of(part, [known.course for known in self.courses], self.setup.stock.box, progress.part(0.3, 0.7))
         certificate = certify(self.workpiece, wanted, self.cutters, self.trimmed, progress.part(0.7, 1.0)) if self.options.judge else None

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
 from app.dexel.outline import inside
-from app.dexel.target import Target
+from app.dexel.target import MARGIN, Target
 from app.dexel.workpiece import Grid
 from app.toolpath.coverage import CHORD, areas_of
 from app.toolpath.flat import grown
@@ -38,14 +38,14 @@ def flat_target(part: FlatPart, grid: Grid) -> FlatTarget:
     wanted, low = np.full(shape, top, np.float32), np.full(shape, top, np.float32)
     high, reach = np.full(shape, np.inf, np.float32), np.zeros(shape, bool)
     if areas is None:
-        return FlatTarget(Target(grid, wanted, low, high), reach)
+        return FlatTarget(Target(grid, np.pad(wanted, MARGIN, mode="edge"), low, high), reach)
     deepest = max(operation.cut.depth for operation in part.job.operations if operation.cut.enabled)
     floor, slack = top - np.float32(areas.depth), part.wall_tolerance + CHORD
     wanted[_cells(areas.floor, part, grid)] = floor
     low[_cells(grown(areas.floor, slack, CHORD), part, grid)] = top - np.float32(deepest)
     high[_cells(shapely.union(grown(areas.wanted, -slack, CHORD), _unreached(areas.floor, areas.reach, slack)), part, grid)] = floor
     reach = _cells(grown(areas.reach, -slack, CHORD), part, grid)
-    return FlatTarget(Target(grid, wanted, low, high), reach)
+    return FlatTarget(Target(grid, np.pad(wanted, MARGIN, mode="edge"), low, high), reach)
 
 
 def _unreached(floor: Shape, reach: Shape, slack: float) -> Shape:

@@ -6,6 +6,7 @@ them, and a gouge that only the cells show counts too. For a solid, and where a 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -13,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.dexel.cutter import Cutter
-from app.dexel.target import Target, solid_target, within_reach
+from app.dexel.reach import reach_of, reachable
+from app.dexel.target import Target, solid_target
 from app.dexel.trim import Cut
-from app.dexel.workpiece import Grid
+from app.dexel.workpiece import Grid, Stock
 from app.progress import NO_PROGRESS, Progress
 from app.toolpath.coverage import Place
 from app.workflow.exact import Exact
@@ -23,7 +25,7 @@ from app.workflow.flat_target import flat_target
 from app.workflow.judgement import BANDS, Band, Certificate, Judgement, Spot, SpotKind
 from app.workflow.parts import FlatPart, Part, SolidPart
 from app.workflow.places import CellPlace, places_of
-from app.workflow.solid_depth import depth_in_solid
+from app.workflow.solid_depth import DepthInSolid
 from app.workflow.verdict import Gouge
 
 Mask = NDArray[np.bool_]
@@ -44,32 +46,37 @@ class Wanted:
 
     Attributes:
         target: heights.
-        reach: (rows, cols) where some tool that cuts gets down to the part.
+        reach: (rows, cols) where some tool that cuts gets down to the part; of a solid, of what is left.
     """
 
     target: Target
     reach: Mask
 
 
-def wanted_over(part: Part, cut: Cut, cutters: tuple[Cutter, ...], progress: Progress = NO_PROGRESS) -> Wanted:
+def wanted_over(part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...], progress: Progress = NO_PROGRESS) -> Wanted:
     """Return the part over the grid of a cut; metal that was not there is not gouged.
 
     Args:
+        stock: all of it, where the grid may be a window.
         cutters: that may cut.
 
     Raises:
         ParameterError: the grid does not fit into memory.
         Cancelled: the job was asked to stop.
     """
-    grid, stock = cut.before.grid, cut.before.heights
+    grid = cut.before.grid
     if isinstance(part, FlatPart):
         flat = flat_target(part, grid)
         target, reach = flat.target, flat.reach
     else:
         target = solid_target(part.solid, grid, part.leave, progress)
-        lowest = within_reach(target.wanted, cutters, grid.pitch, progress)
-        reach = lowest <= np.maximum(target.high, target.wanted) + np.float32(part.tolerance)
-    return Wanted(replace(target, low=np.minimum(target.low, stock)), reach)
+        left = target.deviation(cut.heights) > part.tolerance
+        reach = ~left
+        if left.any() and cutters:
+            lowest = reach_of(part.solid, part.leave, stock.box, cutters, progress)
+            sure, possible = (height <= target.high + np.float32(part.tolerance) for height in lowest.over(grid))
+            reach |= reachable(left, sure, possible, max(3, math.ceil(3 * lowest.grid.pitch / grid.pitch)))
+    return Wanted(replace(target, low=np.minimum(target.low, cut.before.heights)), reach)
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +135,8 @@ def _gouges(judging: Judging, deviation: NDArray[np.float32]) -> Iterator[Spot]:
     part = judging.part
     exact = tuple(_exact_gouges(judging))
     cells = () if exact else places_of(deviation < -part.tolerance, -deviation, judging.grid)
-    others = (spot for place in cells if (spot := _gouge_of_cells(judging, place)).depth_mm > part.tolerance)
+    depth_in = DepthInSolid(part.solid, part.leave) if isinstance(part, SolidPart) and cells else None
+    others = (spot for place in cells if (spot := _gouge_of_cells(judging, place, depth_in)).depth_mm > part.tolerance)
     yield from sorted((*exact, *others), key=lambda spot: -spot.depth_mm)
 
 
@@ -147,29 +155,30 @@ def _exact_gouges(judging: Judging) -> Iterator[Spot]:
             yield Spot(SpotKind.GOUGE, x, y, z, float(depths.depth[k]), 0.0, 0.0, int(judging.lines[motion]), motion)
 
 
-def _gouge_of_cells(judging: Judging, place: CellPlace) -> Spot:
+def _gouge_of_cells(judging: Judging, place: CellPlace, depth_in: DepthInSolid | None) -> Spot:
     """Return a gouge as the cells show it; its depth is the way out of the part, not straight up."""
     from app.dexel.judge_kernels import ways_out
 
     target, grid, depths = judging.wanted.target, judging.grid, np.zeros(len(place.cells))
-    ways_out(_frozen(target.wanted), _frozen(judging.cut.heights), place.cells, (grid.pitch, 0.0), depths)
+    ways_out(_frozen(target.around), _frozen(judging.cut.heights), place.cells, (grid.pitch, 0.0), depths)
     worst = int(np.argmax(depths))
     depth = float(depths[worst])
-    if isinstance(judging.part, SolidPart) and not judging.part.leave:
-        likely = np.flatnonzero(depths > LIKELY * depth)
-        asked = likely[:: 1 + len(likely) // MOST_ASKED].tolist()
-        depth, worst = max((_exact_depth(judging, judging.part, int(place.cells[k])), k) for k in asked)
+    if depth_in is not None:
+        likely = np.flatnonzero(depths >= LIKELY * depth)
+        order = likely[np.argsort(-depths[likely], kind="stable")]
+        asked = np.unique(np.concatenate([order[:MOST_ASKED], order[:: 1 + len(order) // MOST_ASKED]])).tolist()
+        depth, worst = max((_exact_depth(judging, depth_in, int(place.cells[k]), depths[k]), k) for k in asked)
     row, col = divmod(int(place.cells[worst]), grid.cols)
     x, y = grid.place(int(place.cells[worst]))
     line, motion = judging.line_at(row, col)
     return Spot(SpotKind.GOUGE, x, y, float(judging.cut.heights[row, col]), depth, place.area_mm2, place.disc_mm, line, motion)
 
 
-def _exact_depth(judging: Judging, part: SolidPart, cell: int) -> float:
+def _exact_depth(judging: Judging, depth_in: DepthInSolid, cell: int, rough: float) -> float:
     """Return how deep in the solid metal was cut over a cell's centre, mm."""
     row, col = divmod(cell, judging.grid.cols)
-    low = max(float(judging.cut.heights[row, col]), float(part.solid.triangles[..., 2].min()))
-    return depth_in_solid(part.solid, judging.grid.place(cell), low, float(judging.wanted.target.wanted[row, col]))
+    low, high = float(judging.cut.heights[row, col]), float(judging.wanted.target.wanted[row, col])
+    return depth_in.over(judging.grid.place(cell), (low, high), rough)
 
 
 def _frozen(field: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -213,7 +222,7 @@ def _measured(judging: Judging, place: Place) -> Spot:
     around = (slice(max(row - 1, 0), row + 2), slice(max(col - 1, 0), col + 2))
     over = float(np.max(judging.cut.heights[around] - judging.wanted.target.wanted[around], initial=0.0))
     wanted = float(judging.wanted.target.wanted[around].min())
-    if over <= judging.part.tolerance:  # narrower than the cells: as high as the stock was
+    if over <= judging.part.tolerance and place.disc_mm < 3 * grid.pitch:  # narrower than the cells: as high as the stock was
         over = max(float(judging.cut.before.heights[around].max()) - wanted, 0.0)
     return Spot(kind, x, y, wanted + over, over, place.area_mm2, place.disc_mm, *judging.line_at(row, col))
 

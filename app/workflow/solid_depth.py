@@ -2,38 +2,67 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from itertools import pairwise
 
 import numpy as np
+import shapely
 
 from app.dexel.solid import SolidStock
 from app.model.motion import Floats
 
 STEPS = 5
-"""Points of the metal that was cut over a cell that are asked."""
+"""Points of the metal that was cut over a cell that are asked, in each stretch of the solid."""
 
 
-def depth_in_solid(solid: SolidStock, place: tuple[float, float], low: float, high: float) -> float:
-    """Return how deep the deepest of some points on a vertical line lies in a solid, mm.
+class DepthInSolid:
+    """Answers how deep vertical lines lie in a solid with stock to leave on it."""
 
-    Args:
-        solid: closed.
-        place: x, y of the line, mm.
-        low, high: of the line in the solid, mm; the points are spread over it.
-    """
-    from trimesh import triangles
+    def __init__(self, solid: SolidStock, leave: float = 0.0) -> None:
+        self._corners, self._leave = solid.triangles, leave
+        low, high = self._corners.min(axis=1), self._corners.max(axis=1)
+        self._boxes = shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
 
-    closest_point: Callable[[Floats, Floats], Floats] = triangles.closest_point
-    z = np.linspace(low, high, STEPS)
-    points = np.column_stack([np.full(STEPS, place[0]), np.full(STEPS, place[1]), z])
-    corners = solid.triangles
-    least, most = corners.min(axis=1), corners.max(axis=1)
-    box = np.maximum(np.maximum(least - points[:, None], points[:, None] - most), 0.0)
-    far = np.linalg.norm(box, axis=2)  # no triangle is nearer than its box
-    vertex = np.min(np.linalg.norm(corners.reshape(1, -1, 3) - points[:, None], axis=2), axis=1)
-    deepest = 0.0
-    for point, boxes, known in zip(points, far, vertex, strict=True):
-        near = corners[boxes <= known]
-        there = closest_point(near, np.broadcast_to(point, (len(near), 3)))
-        deepest = max(deepest, float(np.min(np.linalg.norm(there - point, axis=1))))
-    return deepest
+    def over(self, place: tuple[float, float], span: tuple[float, float], rough: float) -> float:
+        """Return how deep the deepest of some points on a vertical line lies below the surface, mm, >= 0.
+
+        Args:
+            place: x, y of the line, mm.
+            span: its low and its high end, mm; only what of it lies in the solid, and stock to leave above it, is asked.
+            rough: about how deep that is, mm; twice as far away no triangle is looked for.
+        """
+        deepest = 0.0
+        for low, high in self._stretches(place, span):
+            deepest = max(deepest, *(self._leave + self._distance((*place, z), rough) for z in np.linspace(low, high, STEPS).tolist()))
+        if self._leave and deepest == 0.0:  # only stock to leave was cut
+            deepest = max(0.0, self._leave - self._distance((*place, span[0]), rough + self._leave))
+        return deepest
+
+    def _stretches(self, place: tuple[float, float], span: tuple[float, float]) -> Iterator[tuple[float, float]]:
+        """Yield the parts of a vertical line that lie in the solid."""
+        x, y = place
+        a, b, c = np.moveaxis(self._corners[self._boxes.query(shapely.Point(x, y))], 1, 0)
+        sides = [(q[:, 0] - p[:, 0]) * (y - p[:, 1]) - (q[:, 1] - p[:, 1]) * (x - p[:, 0]) for p, q in ((b, c), (c, a), (a, b))]
+        total = sides[0] + sides[1] + sides[2]
+        met = (total != 0) & ~np.any([side * np.sign(total) < 0 for side in sides], axis=0)
+        heights = (sides[0] * a[:, 2] + sides[1] * b[:, 2] + sides[2] * c[:, 2])[met] / total[met]
+        crossings = np.unique(heights.round(9))
+        for k, (low, high) in enumerate(pairwise(crossings.tolist())):
+            if k % 2 == 0 and min(high, span[1]) > max(low, span[0]):
+                yield max(low, span[0]), min(high, span[1])
+
+    def _distance(self, point: tuple[float, float, float], rough: float) -> float:
+        """Return the distance to the nearest triangle, mm."""
+        from trimesh import triangles
+
+        closest_point: Callable[[Floats, Floats], Floats] = triangles.closest_point
+        x, y, _ = point
+        far = 2 * rough + 1e-6
+        while True:
+            near = self._corners[self._boxes.query(shapely.box(x - far, y - far, x + far, y + far))]
+            if len(near):
+                there = closest_point(near, np.broadcast_to(np.array(point), (len(near), 3)))
+                least = float(np.min(np.linalg.norm(there - np.array(point), axis=1)))
+                if least <= far or len(near) == len(self._corners):
+                    return least
+            far *= 2

@@ -9,9 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.dexel.cutter import Cutter
+from app.dexel.judge_kernels import MOST_RINGS
 from app.dexel.outline import inside
+from app.dexel.reach import reach_of, reachable
 from app.dexel.solid import SolidStock
-from app.dexel.target import RIM, cutter_profile, dilated, solid_target, within_reach
+from app.dexel.target import MARGIN, RIM, cutter_profile, dilated, solid_target
 from app.dexel.workpiece import Grid
 from tests.dexel.courses import CUTTERS
 
@@ -89,19 +91,29 @@ def test_the_radius_at_a_height_is_the_profile_turned_round(name: str) -> None:
     assert cutter.radius_at(-0.1) == 0.0
 
 
-def test_a_slot_that_is_too_narrow_is_out_of_reach() -> None:
-    grid = Grid(0.0, 0.0, 0.1, 60, 100)
-    xs, ys = centres(grid)
-    wanted = np.where((np.abs(ys - 3.0) < 1.0) & (xs > 1), -2.0, 0.0).astype(np.float32)
-    narrow = np.abs(ys - 3.0) < 0.4
-    wanted[narrow & (xs < 5)] = -2.0
-    wanted[~narrow & (xs < 5)] = 0.0
-    lowest = within_reach(wanted, [Cutter(0.7, 0.7)], grid.pitch)
-    wide = (xs > 6.0) & (xs < 9) & (np.abs(ys - 3) < 0.8)
-    assert np.all(lowest[wide] == -2.0)
-    assert np.all(lowest[(xs < 4.5)] == 0.0)
-    both = within_reach(wanted, [Cutter(0.7, 0.7), Cutter(0.2, 0.2)], grid.pitch)
-    assert np.all(both[(xs > 1) & (xs < 4) & (np.abs(ys - 3) < 0.25)] == -2)
+def slotted(width: float) -> SolidStock:
+    """A block of 60 x 40 with a slot along X, 5 deep, and a rabbet of 2 along its side at Y 40."""
+    import trimesh
+
+    parts = [((0, 0, -20), (60, 40, -5)), ((0, 0, -5), (60, 20 - width / 2, 0)), ((0, 20 + width / 2, -5), (60, 38, 0))]
+    return SolidStock(np.concatenate([trimesh.creation.box(bounds=each).triangles for each in parts]))
+
+
+@pytest.mark.parametrize(("width", "reached"), [(5.0, False), (5.7, False), (6.0, True), (6.1, True), (8.0, True)])
+def test_a_slot_is_within_reach_from_the_width_of_the_tool_on(width: float, reached: bool) -> None:
+    grid, solid = Grid.over((0, 0, 60, 40), 512), slotted(width)
+    lowest = reach_of(solid, 0.0, grid.box, [Cutter(3.0, 3.0)])
+    target = solid_target(solid, grid)
+    left = target.deviation(np.zeros((grid.rows, grid.cols), np.float32)) > 0.01
+    sure, possible = (heights <= target.high + np.float32(0.01) for heights in lowest.over(grid))
+    within = reachable(left, sure, possible, 3)
+    _, ys = centres(grid)
+    assert np.all(within[np.abs(ys - 20) < width / 2 - 0.2] == reached)
+    assert np.all(within[(ys > 38.2) & (ys < 39.9)])  # the rabbet: from beside the stock
+
+
+def test_the_margin_is_as_wide_as_the_kernels_look() -> None:
+    assert MARGIN == MOST_RINGS
 
 
 def test_a_solid_is_wanted_as_it_is_and_its_walls_may_fall_to_either_side() -> None:
