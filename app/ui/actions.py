@@ -129,6 +129,7 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
     )),
     ("&Help", (
         Spec("keys", "&Keys", "F1"),
+        Spec("session_1986", "A 1986 &session"),
         Spec("about", "&About Hitofude"),
     )),
 )

@@ -27,6 +27,7 @@ from app.ui.nc.reading import Shown
 from app.ui.nc.wiring import NcWiring
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.tool_exchange import ToolExchange
+from app.ui.session1986.opening import SessionOpening
 from app.ui.showing import Showing
 from app.ui.stages.picturing import Picturing
 from app.ui.stages.staging import Staging
@@ -65,6 +66,7 @@ class Wiring(QObject):
         self.files = Files(window, self.showing, self.log, Openers(self.nc.open, self.picturing.open))
         self.tools = ToolExchange(window, self.log)
         self.cut_saving = CutSaving(window, self.log)
+        self.session_1986 = SessionOpening(window, self.compute)
         self._connect_stages()
         self._connect_files()
         self._connect_edit()
@@ -154,6 +156,7 @@ class Wiring(QObject):
         for choice in ThemeChoice:
             self._on(f"theme_{choice.value}", partial(choose_theme, self.window_, choice))
         self._on("keys", lambda: show_keys(self.window_))
+        self._on("session_1986", self.session_1986.open)
         self._on("about", lambda: show_about(self.window_))
 
     def _connect_job(self) -> None:

@@ -1,0 +1,1 @@
+"""A 1986 session: the workstation of the text as its operator saw it."""

@@ -1,0 +1,54 @@
+"""Opens a session over the window, and hands what was made in it to the modern views."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QObject
+
+from app.model.job import Job
+from app.ui.main_window import MainWindow
+from app.ui.session1986.session import Session
+from app.ui.session1986.tube import Tube
+
+
+class SessionOpening(QObject):
+    """One session at a time; left in the middle, it is there again when it is opened the next time.
+
+    Attributes:
+        session: the one that was begun last; None before the first. tube: what shows it.
+    """
+
+    def __init__(self, window: MainWindow, compute: Callable[[], None]) -> None:
+        """Have `compute` compute the job and show its paths."""
+        super().__init__(window)
+        self._window, self._compute = window, compute
+        self.session: Session | None = None
+        self.tube: Tube | None = None
+
+    def open(self) -> None:
+        """Show the session, from where it was left."""
+        if self.tube is None:
+            self.session = Session(lambda: self._window.document.job, self)
+            self.tube = Tube(self.session, self._window)
+            self.tube.left.connect(self.leave)
+            self.session.handed.connect(self._take)
+            self._window.closed.connect(self.session.finish)
+        self.tube.show()
+
+    def leave(self) -> None:
+        """Show the window again; what is computed is broken off, every answer is kept."""
+        if self.session is not None and self.tube is not None:
+            self.session.rest()
+            self.tube.hide()
+            self._window.views.take_focus()
+
+    def _take(self, job: Job) -> None:
+        """Make the session's job the document's, by a change that can be undone, and compute it exactly."""
+        other = job.part is not self._window.document.part
+        self.leave()
+        self._window.document.change_job("1986 session", job)
+        if other:
+            self._window.computation.forget()
+        self._compute()
+        self._window.canvas.fit()
