@@ -46,3 +46,9 @@ def test_figures_for_people():
     assert grouped(12000.5, 1) == "12\u2009000.5"
     assert [clock(s) for s in (5, 252.4, 3725)] == ["0:05", "4:12", "1:02:05"]
     assert [counted(1, "pass", "passes"), counted(3, "pass", "passes")] == ["1 pass", "3 passes"]
+
+
+@pytest.mark.parametrize("kind", FindingKind)
+def test_every_kind_of_finding_has_its_place_and_its_name(kind):
+    finding = Finding(kind, "Something.", 1.0, 2.0, amount=0.5)
+    assert worst_first((finding, CORNER)) and len(short(finding)) > 5

@@ -19,6 +19,7 @@ from app.ui.samples import Switch
 from app.ui.stages.preview import ASSUMED_DPI, Measure, Preview, Reading
 
 _LIST_PX = 96
+_KINDS = {Shows.LINES: "Read as lines: what they enclose is machined.", Shows.AREAS: "Read as areas: the ink itself is machined."}
 
 
 class See(Enum):
@@ -68,13 +69,13 @@ class ImportPanel(QWidget):
         self.measure = ChoiceField("Size by", [(by, by.value) for by in By])
         self.dpi = NumberField(Spec("Resolution", "dpi", 1, 99_999, 2, False, "Pixels an inch."))
         self.apart = NumberField(Spec("Apart", "mm", 0.001, 99_999, tip="How far the two points are from one another."))
-        self.told, self.doubts, self.list, self.wrong = muted(), heading("Doubtful places"), QListWidget(), QLabel()
+        self.kind, self.told, self.doubts, self.list, self.wrong = muted(), muted(), heading("Doubtful places"), QListWidget(), QLabel()
         self.take, self.leave = QPushButton("Use it as the part"), QPushButton("Leave it")
         self._lay_out()
         self._connect()
 
     def _lay_out(self) -> None:
-        for label in (self.about, self.told, self.wrong):
+        for label in (self.about, self.kind, self.told, self.wrong):
             label.setWordWrap(True)
         self.wrong.setProperty("role", "error")
         self.otsu.setProperty("role", "link")
@@ -89,7 +90,8 @@ class ImportPanel(QWidget):
         column = QVBoxLayout(inner)
         column.setContentsMargins(EDGE, 0, EDGE, 8)
         column.setSpacing(6)
-        groups = ((self.see,), (heading("Ink"), self._threshold_row(), self._row("Light on dark", self.invert), self.despeckle, self.ink),
+        groups = ((self.see,), (heading("Ink"), self._threshold_row(), self._row("Light on dark", self.invert), self.despeckle, self.ink,
+                   self.kind),
                   (heading("Size"), self.measure, self.dpi, self.apart, self.told), (self.doubts, self.list))
         for k, group in enumerate(groups):
             if k:
@@ -185,7 +187,7 @@ class ImportPanel(QWidget):
         self.otsu.setEnabled(options.threshold is not None)
         self.despeckle.show_value(options.despeckle)
         self.ink.show_value(options.shows)
-        self.ink.setToolTip(f"Read as {preview.kind.value}")
+        self.kind.setText(_KINDS[preview.kind])
         with QSignalBlocker(self.list):
             self.list.clear()
             self.list.addItems([f"{place.doubt.value[0].upper()}{place.doubt.value[1:]}" for place in preview.places])

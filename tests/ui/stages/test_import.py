@@ -1,0 +1,187 @@
+"""Pictures as parts: opened, dropped, read otherwise, measured, and machined."""
+
+import cv2
+import numpy as np
+import pytest
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import QApplication
+
+from app.bitmap.codes import PixelCode
+from app.bitmap.picture import Shows
+from app.ui.computation import State
+from app.ui.figures import TIMES
+from app.ui.stages.import_panel import By, See
+from app.ui.stages.inks import inks
+from app.ui.theme import LIGHT
+from app.ui.views import View
+from tests.ui.conftest import WAIT_MS
+from tests.ui.stages.conftest import show_stages
+from tests.ui.stages.test_stages_view import type_value
+
+LEFT = Qt.MouseButton.LeftButton
+DARK_INK, PAPER = 40, 230
+
+
+def scan(path, params=()):
+    """A frame with a ring in it, a bar from the frame to the ring (two T junctions), and a square beside it, all of lines 2 px wide."""
+    picture = np.full((240, 360), PAPER, np.uint8)
+    cv2.rectangle(picture, (20, 20), (220, 220), DARK_INK, 2)
+    cv2.circle(picture, (120, 120), 50, DARK_INK, 2)
+    cv2.line(picture, (120, 20), (120, 70), DARK_INK, 2)
+    cv2.line(picture, (120, 170), (120, 220), DARK_INK, 2)
+    cv2.rectangle(picture, (260, 40), (340, 120), DARK_INK, 2)
+    cv2.imwrite(str(path), picture, params)
+    return path
+
+
+@pytest.fixture
+def opened(qtbot, wiring, tmp_path):
+    wiring.files.open_file(scan(tmp_path / "scan.png"))
+    qtbot.waitUntil(lambda: wiring.picturing.preview is not None, timeout=WAIT_MS)
+    return wiring
+
+
+def read(qtbot, wiring):
+    """Wait until the picture was read as the panel says."""
+    qtbot.waitUntil(lambda: wiring.picturing.preview.reading is wiring.window_.import_panel.reading, timeout=WAIT_MS)
+    return wiring.picturing.preview
+
+
+def on_screen(wiring, col, row):
+    """Where a place of the picture, px, lies on the screen."""
+    pixels = wiring.window_.views.stages.pixels
+    x, y = pixels.pixels.frame.to_mm(np.array([(float(col), float(row))]))[0].tolist()
+    return pixels.view.to_screen((x, y)).toPoint()
+
+
+def test_a_picture_is_shown_as_it_is_read(opened):
+    window, panel = opened.window_, opened.window_.import_panel
+    assert opened.showing.view is View.STAGES and panel.isVisible() and not window.stages_panel.isVisible()
+    view = window.views.stages
+    assert not view.rail.isVisible() and not view.player.isVisible() and not window.views.empty.isVisible()
+    image, colours = view.pixels.grab().toImage(), inks(LIGHT)
+    for (col, row), code in (((300.5, 80.5), PixelCode.INSIDE), ((240.5, 150.5), PixelCode.EMPTY), ((20.5, 150.5), PixelCode.CONTOUR)):
+        assert image.pixelColor(on_screen(opened, col, row)).name() == colours[code].name(), (col, row)
+    assert panel.about.text().startswith(f"360 {TIMES} 240 px") and "300 dpi is a guess" in panel.told.text()
+
+
+def test_doubtful_places_are_listed_marked_and_gone_to(qtbot, opened):
+    window, panel = opened.window_, opened.window_.import_panel
+    places = opened.picturing.preview.places
+    assert len(places) == panel.list.count() >= 4 and panel.doubts.text() == f"{len(places)} doubtful places"
+    pixels = window.views.stages.pixels
+    assert len(pixels.marks) == len(places)
+    before = pixels.view.scale
+    qtbot.mouseClick(panel.list.viewport(), LEFT, pos=panel.list.visualItemRect(panel.list.item(1)).center())
+    qtbot.waitUntil(lambda: pixels.view.scale > 3 * before, timeout=WAIT_MS)
+    assert [mark.strong for mark in pixels.marks] == [k == 1 for k in range(len(places))]
+    assert pixels.marks[1].at == pytest.approx(opened.picturing.preview.at(places[1]))
+
+
+def test_ink_can_be_told_otherwise(qtbot, opened):
+    panel = opened.window_.import_panel
+    otsu = panel.threshold.value()
+    assert DARK_INK < otsu <= PAPER and not panel.otsu.isEnabled()
+    panel.threshold.setValue(20)
+    assert not read(qtbot, opened).picture.ink.any()
+    qtbot.mouseClick(panel.otsu, LEFT)
+    lines = read(qtbot, opened)
+    assert panel.threshold.value() == otsu and lines.kind is Shows.LINES
+    qtbot.mouseClick(panel.invert, LEFT)
+    assert np.array_equal(read(qtbot, opened).picture.ink, ~lines.picture.ink)
+    qtbot.mouseClick(panel.invert, LEFT)
+    qtbot.mouseClick(panel.ink.buttons[Shows.AREAS], LEFT)
+    areas = read(qtbot, opened)
+    assert "ink itself is machined" in panel.kind.text()
+    assert areas.kind is Shows.AREAS and np.array_equal(areas.plane == PixelCode.INSIDE, lines.picture.ink) and not areas.places
+    type_value(qtbot, panel.despeckle, "5000")
+    assert read(qtbot, opened).picture.ink.sum() < lines.picture.ink.sum()
+
+
+def test_size_comes_from_the_resolution_or_from_two_points(qtbot, opened):
+    panel, pixels = opened.window_.import_panel, opened.window_.views.stages.pixels
+    type_value(qtbot, panel.dpi, "254")
+    assert read(qtbot, opened).reading.frame.pitch == pytest.approx(0.1) and not panel.told.text()
+    qtbot.mouseClick(panel.measure.buttons[By.POINTS], LEFT)
+    read(qtbot, opened)
+    assert "first point" in panel.told.text() and panel.apart.isVisible() and not panel.dpi.isVisible()
+    for col, row in ((20, 120), (220, 120)):
+        qtbot.mouseClick(pixels, LEFT, pos=on_screen(opened, col, row))
+        read(qtbot, opened)
+    assert "how far apart" in panel.told.text() and sum(mark.strong for mark in pixels.marks) == 2
+    type_value(qtbot, panel.apart, "100")
+    assert read(qtbot, opened).reading.frame.pitch == pytest.approx(0.5, rel=0.01)
+    assert float(panel.about.text().split()[4]) == pytest.approx(180, rel=0.01)
+
+
+def test_the_photograph_itself_can_be_seen(qtbot, opened):
+    qtbot.mouseClick(opened.window_.import_panel.see.buttons[See.PICTURE], LEFT)
+    image = opened.window_.views.stages.pixels.grab().toImage()
+    grey = image.pixelColor(on_screen(opened, 300.5, 80.5))
+    assert (grey.red(), grey.green(), grey.blue()) == (PAPER, PAPER, PAPER)
+
+
+def test_a_used_picture_is_the_part_on_its_own_pixels(qtbot, opened):
+    window, panel = opened.window_, opened.window_.import_panel
+    tools = opened.document.job.tools
+    type_value(qtbot, panel.dpi, "63.5")
+    panel.take.click()
+    show_stages(qtbot, opened)
+    view = window.views.stages
+    assert view.rail.isVisible() and not panel.isVisible() and view.film.shape == (242, 362)
+    assert opened.document.job.tools == tools and opened.document.part.entities and window.file_label.text() == "scan.png"
+    assert f"picture's own 362 {TIMES} 242 px" in window.stages_panel.bitmap.text() and not window.stages_panel.points.isVisible()
+    opened.compute()
+    qtbot.waitUntil(lambda: opened.computation.state is State.CURRENT, timeout=60_000)
+    made = opened.computation.made
+    assert made.program.pitch_mm == pytest.approx(0.4)
+    assert not any(finding.kind.name == "GOUGE" for finding in made.findings)
+    assert any(finding.kind.name == "AMBIGUOUS" for finding in made.findings)
+
+
+def test_a_picture_that_was_drawn_in_is_a_drawing(qtbot, opened):
+    type_value(qtbot, opened.window_.import_panel.dpi, "63.5")
+    opened.window_.import_panel.take.click()
+    show_stages(qtbot, opened)
+    part = opened.document.part
+    assert opened.computation.pixels_of(part) is not None
+    opened.run("circle 200,200 5")
+    assert opened.computation.pixels_of(opened.document.part) is None
+    opened.document.undo()
+    assert opened.computation.pixels_of(opened.document.part) is not None
+
+
+def test_what_gives_no_part_is_said_in_the_panel(qtbot, opened):
+    panel = opened.window_.import_panel
+    panel.threshold.setValue(20)
+    panel.take.click()
+    qtbot.waitUntil(panel.wrong.isVisible, timeout=WAIT_MS)
+    assert "nothing in the picture" in panel.wrong.text() and opened.document.part.entities == ()
+    panel.leave.click()
+    assert not panel.isVisible() and opened.picturing.preview is None
+    assert opened.window_.views.empty.isVisible()
+
+
+def test_a_dropped_picture_is_taken_and_a_damaged_one_refused(qtbot, wiring, tmp_path):
+    window, path = wiring.window_, scan(tmp_path / "Scan.JPG")
+    mime = QMimeData()
+    mime.setUrls([QUrl.fromLocalFile(str(path))])
+    copy, none = Qt.DropAction.CopyAction, Qt.KeyboardModifier.NoModifier
+    enter = QDragEnterEvent(QPoint(50, 50), copy, mime, LEFT, none)
+    QApplication.sendEvent(window, enter)
+    assert enter.isAccepted()
+    QApplication.sendEvent(window, QDropEvent(QPointF(50, 50), copy, mime, LEFT, none))
+    qtbot.waitUntil(lambda: wiring.picturing.preview is not None, timeout=WAIT_MS)
+    wiring.picturing.leave()
+    (tmp_path / "cut.png").write_bytes(scan(tmp_path / "whole.png").read_bytes()[:60])
+    wiring.files.open_file(tmp_path / "cut.png")
+    qtbot.waitUntil(lambda: window.notice.isVisible() and "cut.png" in window.notice.text.text(), timeout=WAIT_MS)
+    assert wiring.picturing.preview is None
+
+
+def test_another_drawing_takes_the_place_of_the_picture(qtbot, opened, samples):
+    opened.files.open_file(samples / "fig2.dxf")
+    qtbot.waitUntil(lambda: bool(opened.document.part.entities), timeout=WAIT_MS)
+    assert opened.picturing.preview is None and not opened.window_.import_panel.isVisible()
+    assert opened.computation.pixels_of(opened.document.part) is None
