@@ -107,7 +107,7 @@ class BitmapProgram:
         program: moves, regions and findings, as the exact way gives them.
         paths: of each operation, in the order of cutting.
         given_up: measured from the part's own walls.
-        unsmoothed: paths that stay lines from pixel to pixel, since nothing smoother kept clear of the walls.
+        unsmoothed: paths that stay lines from pixel to pixel: of three pixels or fewer, or nothing smoother kept clear.
     """
 
     program: Program

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -103,18 +103,18 @@ class Keep:
 def pixel_path(points: Floats, keep: Keep, options: SmoothOptions) -> Smoothed:
     """Return the path along a chain's points, as near to its level as pixels allow (steps 401-407).
 
-    Where no smoothed path keeps the least distance, it stays a line from pixel to pixel, which does.
+    Where no smoothed path keeps the least distance, not even a less smooth one, it stays a line from pixel to pixel, which does.
 
     Args:
         points: (n, 2) centres of pixels that keep clear of the walls, mm.
         keep: what to keep from the walls.
         options: tolerance and long lines, mm.
     """
-    path = smooth(points, options)
     if len(points) == 1:
-        return _spot(path, keep.pitch)
-    if path.exact:
-        out = _moved_out(path, points, keep, options.tolerance)
+        return _spot(as_it_is(points), keep.pitch)
+    for tolerance in (options.tolerance, options.tolerance / 2, options.tolerance / 4):
+        path = smooth(points, replace(options, tolerance=tolerance))
+        out = _moved_out(path, points, keep, options.tolerance) if path.exact else None
         if out is not None:
             return out
     return as_it_is(points)
