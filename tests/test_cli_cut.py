@@ -159,6 +159,12 @@ def test_tools_of_a_job_file(slot: Path, tmp_path: Path) -> None:
     assert cut(slot, STOCK, "--job", job) == 2
 
 
+def test_a_job_file_may_be_a_list_of_tools(slot: Path, tmp_path: Path) -> None:
+    job = tmp_path / "tools.toml"
+    job.write_text("[[tool]]\nnumber = 1\ndiameter = 6\n[[tool]]\nnumber = 7\ndiameter = 3\n")
+    assert report_of(tmp_path, slot, STOCK, "--job", job)["tools"][0]["from"] == "the job file"
+
+
 def test_tools_and_their_lengths_of_a_tool_table(slot: Path, tmp_path: Path) -> None:
     table, library = tmp_path / "t.tbl", tmp_path / "t.toml"
     table.write_text("T1 P1 Z0.5 D0.25\nT2 P2 Z1\n")

@@ -14,6 +14,9 @@ from app.errors import InputError
 CHUNK = 20_000
 """Triangles that are laid over the grid at a time."""
 
+HEADER, TRIANGLE = 84, 50
+"""Bytes of a binary STL file: its header with the number of triangles, and each triangle."""
+
 
 @dataclass(frozen=True, eq=False)
 class SolidStock:
@@ -61,13 +64,19 @@ def read_solid(name: str, data: bytes) -> SolidStock:
     import trimesh
 
     try:
-        mesh = trimesh.load_mesh(io.BytesIO(data), file_type="stl")
+        mesh = trimesh.load_mesh(io.BytesIO(_plain(data)), file_type="stl")
         triangles = np.array(mesh.triangles, np.float64, order="C")
     except Exception as error:  # the library lets through whatever its parsers trip over
-        raise InputError(f"{name}: this is no STL file that can be read ({error}); export the solid again, as binary STL.") from error
+        raise InputError(f"{name}: this is no STL file, or it is damaged; export the solid again, as binary STL.") from error
     if not len(triangles) or not np.isfinite(triangles).all():
         raise InputError(f"{name}: the STL file holds no triangles; export the solid again.")
     if not mesh.is_watertight:
         raise InputError(f"{name}: the solid's surface is not closed, so nobody can say where its metal is; "
                          "repair it, or export it as one closed solid.")
     return SolidStock(triangles)
+
+
+def _plain(data: bytes) -> bytes:
+    """Return the file for the library's parsers: of a text only plain letters, as names may be spelled in any code page."""
+    text = data.lstrip()[:5].lower() == b"solid" and len(data) != HEADER + TRIANGLE * int.from_bytes(data[HEADER - 4 : HEADER], "little")
+    return data.decode("latin-1").encode("ascii", "replace") if text else data

@@ -218,7 +218,7 @@ class _Reader:
         job = self._built("stock", 0, lambda: replace(Job(Part()), **values, **drawing, **self._stock()))
         tools, operations = self._tool_list(job), self._operation_list(job)
         job = replace(job, tools=tools, operations=operations)
-        for index, operation in enumerate(operations):
+        for index, operation in enumerate(operations if "operation" in self._tree else ()):
             self._built("operation", index, lambda number=operation.cut.tool: job.tool(number))  # type: ignore[misc]
         return JobFile(job, units, frozenset(self._tree))
 

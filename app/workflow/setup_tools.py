@@ -152,6 +152,9 @@ def _by(told: ToolsTold, number: int) -> KnownTool:
     assumed = ""
     if told.shapeless:
         assumed = f"T{number}: {told.source} tells no shapes, so it is taken to be flat, {tool.diameter:g} mm; --tool says otherwise."
+    elif tool.kind is ToolKind.DRILL and not tool.tip_angle:
+        assumed = (f"T{number}: {told.source} tells a drill of {tool.diameter:g} mm but no angle; it is taken to have "
+                   f"{np.degrees(DRILL_ANGLE):g} degrees; --tool {number}=drill:{tool.diameter:g}:ANGLE says otherwise.")
     return KnownTool(tool, told.source, assumed)
 
 

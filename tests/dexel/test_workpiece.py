@@ -109,6 +109,19 @@ def test_files_that_hold_no_solid(data: bytes, said: str) -> None:
         read_solid("part.stl", data)
 
 
+@pytest.mark.parametrize("name", ["Gehäuse".encode("latin-1"), "Gehäuse".encode(), bytes(range(128, 256)), b""])
+def test_a_solid_in_letters_may_have_any_name(name: bytes) -> None:
+    text = trimesh.creation.box(extents=(4, 6, 8)).export(file_type="stl_ascii").split("\n", 1)[1].encode("ascii")
+    low, high = (getattr(read_solid("s.stl", b"solid " + name + b"\r\n" + text).triangles, side)(axis=(0, 1)) for side in ("min", "max"))
+    assert (low.tolist(), high.tolist()) == ([-2, -3, -4], [2, 3, 4])
+
+
+def test_what_is_no_solid_is_told_without_the_innards_of_a_library() -> None:
+    with pytest.raises(InputError) as told:
+        read_solid("s.stl", bytes(range(256)) * 12)
+    assert str(told.value) == "s.stl: this is no STL file, or it is damaged; export the solid again, as binary STL."
+
+
 def test_an_open_surface_is_no_solid() -> None:
     mesh = trimesh.creation.box()
     mesh.update_faces(np.arange(len(mesh.faces)) > 1)

@@ -95,6 +95,16 @@ def test_comments_that_make_no_tool(comment: str, words: str) -> None:
         ready(f"{comment}\nT1 M6\n{CUT}")
 
 
+def test_the_angle_of_a_drill_is_said_where_it_is_assumed() -> None:
+    def told(angle: float) -> str:
+        tool = Tool(3, 8.0, ToolKind.DRILL, tip_angle=angle)
+        return ready(f"T3 M6\n{CUT}", wishes=Wishes(tools=(ToolsTold("--tool", {3: tool}),))).tools[3].assumed
+
+    assert told(0.0) == ("T3: --tool tells a drill of 8 mm but no angle; it is taken to have 118 degrees; "
+                         "--tool 3=drill:8:ANGLE says otherwise.")
+    assert told(math.radians(90)) == ""
+
+
 def test_a_table_without_shapes_is_said() -> None:
     made = ready(f"T3 M6\n{CUT}", wishes=Wishes(tools=(ToolsTold("tool.tbl", {3: Tool(3, 8.0)}, shapeless=True),)))
     assert made.findings[0].text == "T3: tool.tbl tells no shapes, so it is taken to be flat, 8 mm; --tool says otherwise."
