@@ -16,6 +16,10 @@ from app.model.moves import Moves, Purpose
 from app.tolerances import LEVEL
 
 
+STIR = 1e-6
+"""mm; the library that measures areas overlooks lines of no length at all."""
+
+
 @dataclass(frozen=True, eq=False)
 class MotionMoves:
     """Moves, and the row of the motion that each belongs to, (n,)."""
@@ -27,7 +31,8 @@ class MotionMoves:
 def moves_of(course: Course, job: Job, origin: tuple[float, float, float]) -> MotionMoves:
     """Return a course as moves of a job.
 
-    Motions that are left out are not among them. A way that does not begin where the one before ends begins with a rapid there.
+    Motions that are left out are not among them. A way that does not begin where the one before ends begins with a rapid there. One
+    that sinks ends with a move of next to no length, since at its end the cutter stands whole at that depth.
     Arcs of up to a full turn in the XY plane stay arcs; other curves become chords within 1 um (`app.dexel.pieces`).
 
     Args:
@@ -39,11 +44,13 @@ def moves_of(course: Course, job: Job, origin: tuple[float, float, float]) -> Mo
     rows = ways.rows
     jumps = np.ones(len(rows), bool)
     jumps[1:] = np.any(ways.start[1:] != ways.end[:-1], axis=1)
-    order = np.repeat(np.arange(len(rows)), 1 + jumps)
-    jump = jumps[order] & np.concatenate([np.ones(1, bool), order[1:] != order[:-1]])[: len(order)]
-    end = np.where(jump[:, None], ways.start[order], ways.end[order]) + np.array(origin)
-    kind = np.where(jump, MotionKind.RAPID, ways.kind[order]).astype(np.uint8)
-    centre = np.where(jump[:, None], np.nan, ways.centre[order] + np.array(origin[:2]))
+    sinks = (ways.end[:, 2] < ways.start[:, 2]) & (ways.kind != MotionKind.RAPID)
+    order = np.repeat(np.arange(len(rows)), 1 + jumps + sinks)
+    nth = np.arange(len(order)) - np.repeat(np.cumsum(1 + jumps + sinks) - (1 + jumps + sinks), 1 + jumps + sinks)
+    jump, stop = jumps[order] & (nth == 0), sinks[order] & (nth == jumps[order] + 1)
+    end = np.where(jump[:, None], ways.start[order], ways.end[order]) + np.array(origin) + stop[:, None] * np.array((STIR, 0, 0))
+    kind = np.where(jump, MotionKind.RAPID, np.where(stop, MotionKind.LINE, ways.kind[order])).astype(np.uint8)
+    centre = np.where((jump | stop)[:, None], np.nan, ways.centre[order] + np.array(origin[:2]))
     tool, rapid = course.tool[rows[order]].astype(np.int16), kind == MotionKind.RAPID
     operation = np.zeros(len(order), np.int16)
     for number in np.unique(tool).tolist():
