@@ -37,14 +37,6 @@ def peels(area: Mask, count: int, *, keep_ends: bool = False) -> Iterator[tuple[
         yield left, borders
 
 
-def peeled(area: Mask, count: int) -> Mask:
-    """Return what is left of an area after some peels; see `peels`."""
-    left = area
-    for after, _ in peels(area, count):
-        left = after
-    return left
-
-
 def _turns_back(chain: Chain) -> NDArray[np.bool_]:
     """Return for each pixel of a chain whether it is left the way it was entered."""
     into = np.roll(chain.directions, 1)
@@ -96,8 +88,3 @@ def correct_by_circles(left: Mask, area: Mask, radius: float) -> Mask:
     """
     corrected: Mask = left & (np.rint(distance_px(area, frame_pixels(area)).astype(np.float64) ** 2) > radius * radius)
     return corrected
-
-
-def shrink(area: Mask, radius: float) -> Mask:
-    """Return an area shrunk by a radius, px, measured from its frame: steps 301-307."""
-    return correct_by_circles(peeled(area, int(radius)), area, radius)

@@ -10,8 +10,6 @@ import math
 
 from app.jit import kernel
 
-SUMS = 8
-
 
 @kernel("void(float64[:, ::1], int64, int64, int64, float64[:, ::1])")
 def add_up(points, origin, first, stop, sums):
