@@ -66,7 +66,7 @@ class Wiring(QObject):
         self.files = Files(window, self.showing, self.log, Openers(self.nc.open, self.picturing.open))
         self.tools = ToolExchange(window, self.log)
         self.cut_saving = CutSaving(window, self.log)
-        self.session_1986 = SessionOpening(window, self.compute)
+        self.session_1986 = SessionOpening(window, self.showing, self.log)
         self._connect_stages()
         self._connect_files()
         self._connect_edit()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from app.edit.errors import CommandError
@@ -44,7 +46,7 @@ def amount(text: str, low: float, high: float) -> float:
 
     Args:
         text: a number, with or without a unit.
-        low, high: the least and the most, mm.
+        low, high: the least and the most, mm, > 0.
 
     Raises:
         InputError: it is no length, or out of its range; in the terminal's words.
@@ -54,8 +56,14 @@ def amount(text: str, low: float, high: float) -> float:
     except CommandError as error:
         raise InputError(f"? {error.reason}") from error
     if not low <= value <= high:
-        raise InputError(f"? {value:g} mm is out of range. Enter {low:.3g} to {high:.3g} mm.")
+        raise InputError(f"? {value:g} mm is out of range. Enter {_inwards(low, math.ceil)} to {_inwards(high, math.floor)} mm.")
     return value
+
+
+def _inwards(value: float, towards: Callable[[float], int]) -> str:
+    """Return a limit with three figures, rounded so that it is still allowed."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return f"{towards(value / unit) * unit:.6g}"
 
 
 def job_of(job: Job, given: Offsets) -> Job:

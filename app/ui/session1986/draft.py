@@ -51,8 +51,11 @@ class Draft:
         Raises:
             InputError: it cannot be carried out; nothing has changed.
         """
+        if line.strip().upper() == "CLEAR":
+            self._document.run("select all")
+            line = "delete"
         if command_word(line) not in WORDS:
-            raise InputError(f"'{line.split()[0]}' is not known here. Use {', '.join(WORDS)} or end.")
+            raise InputError(f"'{line.split()[0]}' is not known here. Use {', '.join(WORDS)}, clear or end.")
         reply = self._document.run(line.lower())
         box = union([SHEET, *(bounds(entity.curve) for entity in self.part.entities)])
         self.frame = ScreenSize().frame(box or SHEET)
@@ -70,8 +73,8 @@ class Draft:
         return picture
 
     def point(self, place: Place) -> str:
-        """Return the words for the middle of a display point, as the language takes them."""
-        x, y = self.frame.to_mm(np.array([(place[1] + 0.5, place[0] + 0.5)]))[0].tolist()
+        """Return the words for the upper left corner of a display point, as the language takes them."""
+        x, y = self.frame.to_mm(np.array([(place[1], place[0])], dtype=np.float64))[0].tolist()
         digits = max(0, 1 - math.floor(math.log10(self.frame.pitch)))
         return f"{round(x, digits):g},{round(y, digits):g}"
 

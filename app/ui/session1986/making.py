@@ -84,7 +84,7 @@ class Paths:
 
     Attributes:
         job: with both tools. stills: of steps 141-148, 301-307, 140 and 401-407. listing: the NC program's lines.
-        notes: sentences about what is wrong with the paths.
+        notes: sentences about the paths.
     """
 
     job: Job
@@ -156,7 +156,8 @@ def paths_of(shape: Shape, given: Offsets, progress: Progress = NO_PROGRESS) -> 
     stills = tuple(stills_of(own, _chains(contour)))
     again = tuple(still for still in stills if still.number == 140)
     listing = tuple(line for file in files for line in file.nc.text.splitlines())
-    return Paths(job, (*stills, *again), listing, _notes(made.program.findings))
+    given_up = f"The paths keep up to {made.given_up.most_mm:.3f} mm more from the walls than asked, for the points' sake."
+    return Paths(job, (*stills, *again), listing, (*_notes(made.program.findings), given_up))
 
 
 def _chains(contour: OperationPaths) -> Sequence[Chain]:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from PySide6.QtCore import QObject
 
 from app.model.job import Job
+from app.ui.log import Log
 from app.ui.main_window import MainWindow
-from app.ui.session1986.session import Session
+from app.ui.session1986.session import Ask, Session
 from app.ui.session1986.tube import Tube
+from app.ui.showing import Showing
+from app.ui.views import View
 
 
 class SessionOpening(QObject):
@@ -19,10 +20,9 @@ class SessionOpening(QObject):
         session: the one that was begun last; None before the first. tube: what shows it.
     """
 
-    def __init__(self, window: MainWindow, compute: Callable[[], None]) -> None:
-        """Have `compute` compute the job and show its paths."""
+    def __init__(self, window: MainWindow, showing: Showing, log: Log) -> None:
         super().__init__(window)
-        self._window, self._compute = window, compute
+        self._window, self._showing, self._log = window, showing, log
         self.session: Session | None = None
         self.tube: Tube | None = None
 
@@ -34,6 +34,8 @@ class SessionOpening(QObject):
             self.tube.left.connect(self.leave)
             self.session.handed.connect(self._take)
             self._window.closed.connect(self.session.finish)
+        elif self.session is not None and self.session.ask is Ask.SHAPE:
+            self.session.begin()
         self.tube.show()
 
     def leave(self) -> None:
@@ -50,5 +52,8 @@ class SessionOpening(QObject):
         self._window.document.change_job("1986 session", job)
         if other:
             self._window.computation.forget()
-        self._compute()
+        tools = ", ".join(f"T{job.tool(each.cut.tool).number} {job.tool(each.cut.tool).label}" for each in job.operations)
+        self._log.note("1986 session", f"{tools}; undo takes it back.")
+        self._showing.show_view(View.PATHS)
         self._window.canvas.fit()
+        self._window.computation.start()

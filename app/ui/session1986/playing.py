@@ -73,7 +73,7 @@ class Playing(QObject):
     def _show(self, at: int) -> None:
         self.at, still = at, self._stills[at]
         self._screen.picture = still.picture
-        self._screen.head = (f"{still.number} {still.name}", "HELD" if self.held else "")
+        self._screen.head = (f"{still.number} {still.name}", f"{'HELD  ' if self.held else ''}{at + 1}/{len(self._stills)}")
         if self.held:
             self._clock.stop()
         else:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -9,7 +10,10 @@ import numpy as np
 from app.bitmap.frame import POINTS
 from app.ui.session1986.glyphs import CELL, Bits, line_bits, spoken, wrapped
 
-COLUMNS = POINTS // CELL
+MARGIN_PX = 4
+"""Points before the first character of a line."""
+
+COLUMNS = (POINTS - MARGIN_PX) // CELL
 """Characters in a line."""
 
 LINE_PX = CELL + 1
@@ -27,6 +31,14 @@ TALK_LINES = (POINTS - BOTTOM - 3) // LINE_PX
 PAGE_LINES = (POINTS - HEAD_PX - 4) // LINE_PX
 """Lines of a page, the one that is typed in included."""
 
+_CARD = (
+    "400 X 400 POINTS, 1 BIT", "", "",
+    "ENTER A SHAPE AND THREE AMOUNTS:", "", "110  SHAPE", "120  OFFSET OF THE CONTOUR TOOL", "140  OFFSET OF THE POCKET TOOL",
+    "     OVERLAP OF ITS PATHS", "", "",
+    "RETURN   ANSWER; GO TO THE END", "SPACE    HOLD, GO ON", "ARROWS   STEP BY STEP; CROSS HAIR; PAGE",
+    "TAB      PUT THE CROSS HAIR", "CTRL-C   BREAK", "F2       GREEN, AMBER", "ESC      LEAVE", "",
+    "BACK     THE QUESTION BEFORE", "NEW      ANOTHER SESSION",
+)
 CURSOR = "_"
 Place = tuple[int, int]
 """Row and column of a point."""
@@ -77,25 +89,32 @@ class Screen:
         if self.page is not None:
             end = len(self.page) - self.up
             asked = self.asked()
-            self._write(points, HEAD_PX + 4, [*self.page[max(end - PAGE_LINES + len(asked), 0):end], *asked])
+            write(points, HEAD_PX + 4, [*self.page[max(end - PAGE_LINES + len(asked), 0):end], *asked])
             return points
         points[TOP:BOTTOM] = self.picture[TOP:BOTTOM]
         points[BOTTOM, ::2] = True
         if self.hair is not None:
             points[TOP:BOTTOM, self.hair[1]] ^= True
             points[self.hair[0]] ^= True
-        self._write(points, BOTTOM + 3, [*self.talk, *self.asked()][-TALK_LINES:])
+        write(points, BOTTOM + 3, [*self.talk, *self.asked()][-TALK_LINES:])
         return points
 
     def _write_head(self, points: Bits) -> None:
         left, right = (spoken(text) for text in self.head)
         right = right[:COLUMNS - 1]
-        text = f"{left[:COLUMNS - len(right) - 1].ljust(COLUMNS - len(right))}{right}"
-        points[1:1 + CELL] = line_bits(text)
+        write(points, 1, [f"{left[:COLUMNS - len(right) - 1].ljust(COLUMNS - len(right))}{right}"])
         points[:HEAD_PX + 1] ^= True
 
-    @staticmethod
-    def _write(points: Bits, top: int, lines: list[str]) -> None:
-        for k, line in enumerate(lines):
-            bits = line_bits(line[:COLUMNS])
-            points[top + k * LINE_PX:top + k * LINE_PX + CELL, :bits.shape[1]] = bits
+
+def write(points: Bits, top: int, lines: Sequence[str]) -> None:
+    """Write lines of text into (400, 400) points, from row `top` on."""
+    for k, line in enumerate(lines):
+        bits = line_bits(line[:COLUMNS])
+        points[top + k * LINE_PX:top + k * LINE_PX + CELL, MARGIN_PX:MARGIN_PX + bits.shape[1]] = bits
+
+
+def card() -> Bits:
+    """Return the picture before there is a shape: which keys do what."""
+    points = np.zeros((POINTS, POINTS), np.bool_)
+    write(points, TOP + 3 * LINE_PX, [f"   {line}" for line in _CARD])
+    return points

@@ -8,6 +8,7 @@ from enum import Enum, auto
 
 from PySide6.QtCore import QObject, Signal
 
+from app.bitmap.frame import POINTS
 from app.errors import InputError
 from app.model.job import Job
 from app.progress import Progress
@@ -16,10 +17,11 @@ from app.ui.session1986.answers import amount, offered
 from app.ui.session1986.draft import Draft
 from app.ui.session1986.making import Outline, Paths, Shape, outline_of, paths_of, sample_job, shape_of
 from app.ui.session1986.playing import Listing, Playing
-from app.ui.session1986.screen import BOTTOM, TOP, Place, Screen
+from app.ui.session1986.screen import BOTTOM, TOP, Place, Screen, card
 from app.ui.session1986.stills import Still
 from app.ui.worker import Answer, Worker
 
+_MIDDLE = ((TOP + BOTTOM) // 2, POINTS // 2)
 LONGEST = 200
 """Characters of an answer."""
 
@@ -39,6 +41,7 @@ class Ask(Enum):
 
 
 _BACK = {Ask.DRAW: Ask.SHAPE, Ask.CONTOUR: Ask.SHAPE, Ask.POCKET: Ask.CONTOUR, Ask.OVERLAP: Ask.POCKET, Ask.DONE: Ask.OVERLAP}
+_LEAST_OVERLAP = 1e-3
 _BUSY = (Ask.WORK, Ask.PLAY, Ask.LIST)
 
 
@@ -65,13 +68,14 @@ class Session(QObject):
         self.draft = Draft()
         self.shape: Shape | None = None
         self.paths: Paths | None = None
+        self.outline: Outline | None = None
         self.given = offered(current())
         self._connect()
         self.begin()
 
     def _connect(self) -> None:
         self.worker.done.connect(self._on_done)
-        self.worker.failed.connect(lambda answer: self._refuse(answer.error or "", self._asked))
+        self.worker.failed.connect(self._on_failed)
         self.worker.progress.connect(lambda fraction, _: self._head(f"{round(100 * fraction)} %"))
         for clock in (self.playing, self.listing):
             clock.changed.connect(self.changed)
@@ -79,10 +83,8 @@ class Session(QObject):
 
     def begin(self) -> None:
         """Ask for the shape, with an empty display."""
-        self.screen.page = None
-        self.screen.picture[:] = False
+        self.given = offered(self._current())
         self.screen.talk.clear()
-        self.screen.say("TOOL PATH GENERATION, 400 X 400 POINTS")
         self.screen.say("1 DRAWING OF THE JOB   2 SAMPLE, FIG. 2   3 DRAW")
         self._question(Ask.SHAPE)
 
@@ -133,7 +135,7 @@ class Session(QObject):
             self.worker.cancel()
             self.playing.stop()
             self.listing.stop()
-            self._refuse("? BREAK.", self._asked)
+            self._refuse("? BREAK.", Ask.DONE if self.ask is Ask.LIST else self._asked)
 
     def finish(self) -> None:
         """End whatever runs, before the program ends."""
@@ -144,7 +146,7 @@ class Session(QObject):
     def point(self, place: Place) -> None:
         """Put the cross hair on a point of the picture."""
         row, col = place
-        self.screen.hair = (min(max(row, TOP), BOTTOM - 1), min(max(col, 0), 399)) if self.ask is Ask.DRAW else None
+        self.screen.hair = (min(max(row, TOP), BOTTOM - 1), min(max(col, 0), POINTS - 1)) if self.ask is Ask.DRAW else None
         if self.ask is Ask.DRAW:
             x, y = self.draft.point(self.screen.hair or place).split(",")
             self._head(f"X {x} Y {y}")
@@ -183,10 +185,8 @@ class Session(QObject):
 
     def _begin_draft(self) -> None:
         self.screen.say("LINE X,Y X,Y   CIRCLE X,Y R   ARC X,Y X,Y CENTRE X,Y")
-        self.screen.say("RECT X,Y X,Y   UNDO   TAB PUTS THE CROSS HAIR   END")
-        self.screen.picture = self.draft.picture()
+        self.screen.say("RECT X,Y X,Y   POLYLINE X,Y ...   UNDO   CLEAR   END")
         self._question(Ask.DRAW)
-        self.point(self.screen.hair or ((TOP + BOTTOM) // 2, 200))
 
     def _draw(self, text: str) -> None:
         if text.upper() == "END":
@@ -200,7 +200,6 @@ class Session(QObject):
             reply = self.draft.run(text)
             self._echo(text)
             self.screen.say(f"  {reply}")
-            self.screen.picture = self.draft.picture()
         self._question(Ask.DRAW)
 
     def _take_contour(self, text: str) -> None:
@@ -219,10 +218,13 @@ class Session(QObject):
         self._question(Ask.OVERLAP)
 
     def _take_overlap(self, text: str) -> None:
-        shape, most = self._shape(), 2 * self.given.pocket - self._shape().pitch
-        overlap = self._amount(text, self.given.overlap, min(shape.pitch / 1000, most), most)
+        shape = self._shape()
+        most = 2 * self.given.pocket - shape.pitch
+        overlap = self._amount(text, self.given.overlap, min(_LEAST_OVERLAP, most), most)
         self.given = given = replace(self.given, overlap=overlap)
         self._echo(f"{overlap:g}")
+        if overlap < given.pocket:
+            self.screen.say("! Less than the offset: metal may stay between the paths.")
         self._work(lambda progress: paths_of(shape, given, progress))
 
     def _end(self, text: str) -> None:
@@ -248,17 +250,20 @@ class Session(QObject):
     def _on_done(self, answer: Answer) -> None:
         value = answer.value
         if isinstance(value, Shape):
-            self.shape, self.paths = value, None
+            self.shape = value
             self._say(value.notes)
-            self.screen.picture = value.still.picture
-            self.screen.head = (f"{value.still.number} {value.still.name}", f"{value.pitch:.3g} MM A POINT")
             self._question(Ask.CONTOUR)
         elif isinstance(value, Outline):
+            self.outline = value
             self._play(value.stills)
         elif isinstance(value, Paths):
             self.paths = value
             self._say(value.notes)
             self._play(value.stills)
+
+    def _on_failed(self, answer: Answer) -> None:
+        """Ask again for what was wrong: of the pocket tool's amounts it can only be the offset."""
+        self._refuse(answer.error or "", Ask.POCKET if self._asked is Ask.OVERLAP else self._asked)
 
     def _play(self, stills: tuple[Still, ...]) -> None:
         self.ask = Ask.PLAY
@@ -272,12 +277,10 @@ class Session(QObject):
             self.ask = Ask.LIST
             self.listing.start(self.paths.listing)
         elif self.ask is Ask.LIST and self.paths is not None:
-            self.screen.head = ("END OF PROGRAM", counted(len(self.paths.listing), "block"))
             self._question(Ask.DONE)
 
     def _go_back(self, ask: Ask) -> None:
         self._echo("BACK")
-        self.screen.page = None
         if ask is Ask.SHAPE:
             self.begin()
         else:
@@ -286,9 +289,28 @@ class Session(QObject):
     def _question(self, ask: Ask) -> None:
         self.ask = ask
         self.screen.typed, self.screen.prompt = "", self._prompt(ask)
-        if ask is not Ask.DRAW:
+        self._show_ground(ask)
+        if ask is Ask.DRAW:
+            self.point(self.screen.hair or _MIDDLE)
+        else:
             self.screen.hair = None
         self.changed.emit()
+
+    def _show_ground(self, ask: Ask) -> None:
+        """Show what a question is about."""
+        screen = self.screen
+        if ask is Ask.DONE:
+            screen.head = ("END OF PROGRAM", counted(len(self.paths.listing if self.paths else ()), "block"))
+            return
+        screen.page = None
+        still = self.shape.still if ask is Ask.CONTOUR and self.shape else None
+        if ask in (Ask.POCKET, Ask.OVERLAP) and self.outline is not None:
+            still = self.outline.stills[-1]
+        if still is not None:
+            screen.picture, screen.head = still.picture, (f"{still.number} {still.name}", f"{self._shape().pitch:.3g} MM A POINT")
+        else:
+            screen.picture = self.draft.picture() if ask is Ask.DRAW else card()
+            screen.head = ("DRAW THE SHAPE" if ask is Ask.DRAW else "TOOL PATH GENERATION", "1986")
 
     def _prompt(self, ask: Ask) -> str:
         given = self.given
@@ -302,7 +324,6 @@ class Session(QObject):
     def _refuse(self, sentence: str, ask: Ask, keep: bool = False) -> None:
         """Say what is wrong and ask again; what was typed stands there to be mended where it is kept."""
         typed = self.screen.typed
-        self.screen.page = None if ask is not Ask.DONE else self.screen.page
         self._say((sentence if sentence.startswith("?") else f"? {sentence}",))
         self._question(ask)
         self.screen.typed = typed if keep else ""

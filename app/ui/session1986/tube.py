@@ -18,7 +18,8 @@ BLINK_MS = 500
 GLOW = 0.22
 """How strongly the light of a point spreads to its neighbours."""
 
-_SURROUND = QColor("#0A0B0C")
+_SURROUND, _BEZEL = QColor("#0A0B0C"), QColor("#131517")
+_BEZEL_PX = 12
 _ARROWS = {Qt.Key.Key_Up: (-1, 0), Qt.Key.Key_Down: (1, 0), Qt.Key.Key_Left: (0, -1), Qt.Key.Key_Right: (0, 1)}
 _FAST = 10
 
@@ -50,7 +51,6 @@ class Tube(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setMouseTracking(True)
-        self.setCursor(Qt.CursorShape.BlankCursor)
         self._blink = QTimer(self, interval=BLINK_MS)
         self._blink.timeout.connect(self._turn_cursor)
         session.changed.connect(self.update)
@@ -122,6 +122,7 @@ class Tube(QWidget):
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Move the cross hair."""
         self.session.point(self._place(event.position()))
+        self.setCursor(Qt.CursorShape.BlankCursor if self.session.screen.hair else Qt.CursorShape.ArrowCursor)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Put the cross hair's place into the answer."""
@@ -133,6 +134,7 @@ class Tube(QWidget):
         painter = QPainter(self)
         painter.fillRect(self.rect(), _SURROUND)
         points, place = self._image(), self.screen_rect()
+        painter.fillRect(place.adjusted(-_BEZEL_PX, -_BEZEL_PX, _BEZEL_PX, _BEZEL_PX), _BEZEL)
         if place.width() % POINTS:
             points = points.scaled(QSize(2 * POINTS, 2 * POINTS))
             painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
