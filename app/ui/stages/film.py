@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.bitmap.codes import Plane
+from app.bitmap.codes import PixelCode, Plane
 from app.bitmap.steps import STEPS, Stage
 from app.bitmap.trace import Chain
 from app.bitmap.walls import Mask
@@ -20,6 +20,9 @@ Ints = NDArray[np.int32]
 PHASES = ((110, 120), (201, 202, 203, 204, 205, 206, 207, 208, 130), (301, 302, 303, 304, 305, 306, 307, 141, 142, 143, 144),
           (145, 146, 147, 148), (140,), (401, 402, 403, 404, 405, 406, 407))  # fmt: skip
 """Steps that belong together: within one, the same codes have the same meaning."""
+
+_DASH = (6, 3)
+"""Pixels of a dash, and of the gap behind it."""
 
 _REPEATED = (2, 3)
 """Phases whose steps follow one another many times."""
@@ -83,6 +86,10 @@ class Film:
         still = self.stills[at]
         together = PHASES[still.phase] if still.phase in _REPEATED else (still.number,)
         return frozenset().union(*(self.codes.get(number, frozenset()) for number in together))
+
+    def chains_of(self, number: int) -> tuple[Chain, ...]:
+        """Return the chains of the first time that a step is done."""
+        return next((still.chains for still in self.stills if still.number == number), ())
 
     def seek_step(self, number: int, at: int) -> int:
         """Return the next stage of a step behind stage `at`, or else its first; `at` itself where there is none."""
@@ -149,6 +156,17 @@ class Projector:
         while self.at > at:
             flat[self.film.stills[self.at].pixels] = self.film.stills[self.at].before
             self.at -= 1
+
+
+def dashed(plane: Plane, chains: Sequence[Chain]) -> Plane:
+    """Return a plane whose contour pixels along some chains are dashes, as the text draws the contour tool's path."""
+    made = plane.copy()
+    for chain in chains:
+        pixels = chain.pixels()
+        gaps = pixels[np.arange(len(pixels)) % sum(_DASH) >= _DASH[0]]
+        gaps = gaps[made[tuple(gaps.T)] == PixelCode.CONTOUR]
+        made[tuple(gaps.T)] = PixelCode.EMPTY
+    return made
 
 
 def chain_at(chains: Sequence[Chain], row: int, col: int) -> int | None:

@@ -14,7 +14,7 @@ from app.bitmap.frame import Frame
 from app.ui.figures import counted
 from app.ui.stages import inks
 from app.ui.stages.code_key import CodeRow
-from app.ui.stages.film import Film, Projector, Still, chain_at
+from app.ui.stages.film import Film, Projector, Still, chain_at, dashed
 from app.ui.stages.pixel_paint import Pixels
 from app.ui.stages.pixel_view import PixelView
 from app.ui.stages.player import Player
@@ -179,7 +179,7 @@ class StagesView(QWidget):
             super().keyPressEvent(event)
 
     def _show_pixels(self) -> None:
-        """Hand the stage's pixels to the picture: the memory itself, or a copy with what is wrong marked in it."""
+        """Hand the stage's pixels to the picture: the memory itself, or a copy with what is wrong marked, or lines dashed."""
         still, plane = self.still, self.plane
         if still is None or plane is None or self.film is None or self._preview is not None:
             return
@@ -187,6 +187,8 @@ class StagesView(QWidget):
         if wrong is not None and wrong.any():
             plane = plane.copy()
             plane[wrong] = inks.WRONG
+        if still.number == 140:
+            plane = dashed(plane, self.film.chains_of(120))
         colours = inks.step_inks(self.theme, still.number)
         self.pixels.show_pixels(Pixels(self._frame, plane, inks.table(colours), inks.LETTERS, inks.rank_of_code()))
         codes = [code for code in inks.ORDER if code in self.film.codes_near(self.at)]
