@@ -32,6 +32,7 @@ class FindingKind(Enum):
     BELOW_TABLE = "below_table"
     ASSUMED = "assumed"
     HIDDEN = "hidden"
+    BEYOND_STOCK = "beyond_stock"
     AMBIGUOUS = "ambiguous"
 
 

@@ -22,7 +22,7 @@ class Level(Enum):
 
 _WORST_FIRST = (
     FindingKind.GOUGE, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK, FindingKind.PLUNGE, FindingKind.BELOW_TABLE,
-    FindingKind.LEFT_REACHABLE, FindingKind.TOLERANCE, FindingKind.MACHINE,
+    FindingKind.LEFT_REACHABLE, FindingKind.BEYOND_STOCK, FindingKind.TOLERANCE, FindingKind.MACHINE,
     FindingKind.TOOL_SHAPE, FindingKind.OPEN_CONTOUR, FindingKind.SELF_INTERSECTION, FindingKind.OVERLAP, FindingKind.REGION_TOO_SMALL,
     FindingKind.NECK_TOO_NARROW, FindingKind.ENGAGEMENT, FindingKind.AMBIGUOUS, FindingKind.UNITS_ASSUMED, FindingKind.GAP_CLOSED,
     FindingKind.TINY_ENTITY, FindingKind.LEFT_OUT, FindingKind.ASSUMED, FindingKind.HIDDEN, FindingKind.LEFT_UNREACHABLE,
@@ -40,7 +40,8 @@ _NAMES = {
     FindingKind.UNITS_ASSUMED: "units assumed", FindingKind.MACHINE: "beyond the machine",
     FindingKind.TOOL_SHAPE: "a tool of another shape", FindingKind.START_IN_STOCK: "start in the stock",
     FindingKind.PLUNGE: "plunge in metal", FindingKind.BELOW_TABLE: "cut into the table", FindingKind.ASSUMED: "assumed",
-    FindingKind.HIDDEN: "metal below metal", FindingKind.AMBIGUOUS: "doubtful place in the picture",
+    FindingKind.HIDDEN: "metal below metal", FindingKind.BEYOND_STOCK: "part beyond the stock",
+    FindingKind.AMBIGUOUS: "doubtful place in the picture",
 }
 
 

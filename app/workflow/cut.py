@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
@@ -12,6 +13,7 @@ from app.dexel.cutter import Cutter, cutter_of
 from app.dexel.trim import Cut, TrimOptions, trim
 from app.dexel.workpiece import Grid, Heights, Stock, Workpiece, ensure_memory
 from app.model.finding import Finding, worst_first
+from app.model.stock_box import StockBox
 from app.model.tool import Tool
 from app.nc.read.program import NcProgram
 from app.progress import NO_PROGRESS, Progress
@@ -21,7 +23,7 @@ from app.workflow.course import KnownCourse, course_of
 from app.workflow.exact import Exact, exact_of
 from app.workflow.judge import Judging, judge, wanted_over
 from app.workflow.judgement import Judgement, findings_of
-from app.workflow.parts import FlatPart, Part
+from app.workflow.parts import FlatPart, Part, beyond
 
 CELLS = 1024
 """Along the stock's longer side, as on the text's screen."""
@@ -106,7 +108,8 @@ def cut(setup: CutSetup, options: CutOptions = CutOptions(), progress: Progress 
     run = _Run.of(setup, options)
     result, accidents = run.cut(progress.part(0.0, 0.4))
     judgement = run.judged(result, exact, progress.part(0.4, 1.0)) if setup.part is not None else None
-    findings = worst_first((*accidents, *(findings_of(judgement) if judgement is not None else ())))
+    outside = beyond(setup.part, run.box()) if setup.part is not None and options.judge else ()
+    findings = worst_first((*accidents, *outside, *(findings_of(judgement) if judgement is not None else ())))
     return CutProgram(setup, options, result, float(run.workpiece.heights.max()), run.workpiece.floor, judgement, findings)
 
 
@@ -141,6 +144,12 @@ class _Run:
         assert cut is not None
         return cut, tuple(told)
 
+    def box(self) -> StockBox:
+        """Return the box round all of the stock, program coordinates; of a window nobody knows how high the rest is."""
+        x0, y0, x1, y1 = self.setup.stock.box
+        top = float(self.workpiece.heights.max()) if self.options.window is None else math.inf
+        return StockBox(x0, y0, self.workpiece.floor, x1, y1, top)
+
     def trimmed(self, cutters: Mapping[int, Cutter], options: TrimOptions, progress: Progress) -> Heights:
         """Return what all programs leave when they are cut with other cutters."""
         workpiece, count = self.workpiece, len(self.courses)
@@ -156,7 +165,7 @@ class _Run:
         cutters = tuple(self.cutters[number] for number in sorted(used & set(self.cutters)))
         wanted = wanted_over(part, cut, self.setup.stock, cutters, progress.part(0.0, 0.3))
         if exact is None and self.options.judge and isinstance(part, FlatPart):
-            exact = exact_of(part, [known.course for known in self.courses], self.setup.stock.box, progress.part(0.3, 0.7))
+            exact = exact_of(part, [known.course for known in self.courses], self.box(), progress.part(0.3, 0.7))
         certificate = certify(self.workpiece, wanted, self.cutters, self.trimmed, progress.part(0.7, 1.0)) if self.options.judge else None
         return judge(Judging(part, cut, wanted, exact, self.setup.lines()), certificate)
 

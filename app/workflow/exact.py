@@ -11,6 +11,7 @@ import numpy as np
 from app.dexel.trim import Course
 from app.model.job import Job
 from app.model.moves import Moves, Program
+from app.model.stock_box import StockBox
 from app.model.tool import ToolKind
 from app.progress import NO_PROGRESS, Progress
 from app.toolpath.coverage import Coverage, measure
@@ -32,12 +33,12 @@ class Exact:
     coverage: Coverage | None
 
 
-def exact_of(part: FlatPart, courses: Sequence[Course], stock: tuple[float, float, float, float],
+def exact_of(part: FlatPart, courses: Sequence[Course], stock: StockBox,
              progress: Progress = NO_PROGRESS) -> Exact:  # fmt: skip
     """Measure programs that were cut one after the other.
 
     Args:
-        stock: x0, y0, x1, y1, mm, program coordinates; beside it nothing is cut.
+        stock: program coordinates; beside it and above it nothing is cut.
 
     Raises:
         Cancelled: the job was asked to stop.
@@ -48,8 +49,9 @@ def exact_of(part: FlatPart, courses: Sequence[Course], stock: tuple[float, floa
     motion = np.concatenate([each.motion + count for each, count in zip(found, before.tolist(), strict=False)])
     program = Program(moves, part.regions)
     progress.step(0.0, "Checking clearance")
-    x, y, _ = part.origin
-    depths = gouge_depths(program, part.job, (stock[0] + x, stock[1] + y, stock[2] + x, stock[3] + y))
+    x, y, z = part.origin
+    box = StockBox(stock.x0 + x, stock.y0 + y, stock.z0 + z, stock.x1 + x, stock.y1 + y, stock.z1 + z)
+    depths = gouge_depths(program, part.job, box)
     flat = _flat(moves, part.job)
     coverage = measure(program, part.job, progress.part(0.2, 1.0), part.tolerance) if flat else None
     return Exact(replace(depths, move=motion[depths.move]), coverage)

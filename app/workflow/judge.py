@@ -111,33 +111,39 @@ def judge(judging: Judging, certificate: Certificate | None) -> Judgement:
     deviation = judging.wanted.target.deviation(judging.cut.heights)
     left = deviation > tolerance
     unreachable = left & ~judging.wanted.reach
-    gouges = tuple(_gouges(judging, deviation))
-    gouge = _worst(judging, gouges)
+    gouges, gouged = _gouges(judging, deviation)
+    gouge = _worst(judging, gouges, gouged)
     masks = {SpotKind.LEFT: left & ~unreachable, SpotKind.UNREACHABLE: unreachable}
-    left_spots = tuple(spot for kind, mask in masks.items() for spot in _left(judging, mask, deviation, kind))
     coverage = judging.exact.coverage if judging.exact is not None else None
     if coverage is not None:
         reachable_mm2, unreachable_mm2 = coverage.reachable_left_mm2, coverage.unreachable_mm2
-        left_spots = tuple(_measured(judging, place) for place in coverage.places)
+        left_spots = [_measured(judging, place) for place in coverage.places]
+        counts = {kind: sum(spot.kind is kind for spot in left_spots) for kind in masks}
     else:
         cell = judging.grid.pitch**2
         reachable_mm2, unreachable_mm2 = (float(np.count_nonzero(mask)) * cell for mask in masks.values())
+        found = {kind: places_of(mask, deviation, judging.grid) for kind, mask in masks.items()}
+        left_spots = [_left(judging, place, kind) for kind, (places, _) in found.items() for place in places]
+        counts = {kind: count for kind, (_, count) in found.items()}
     discs = (spot.disc_mm for spot in left_spots if spot.kind is SpotKind.UNREACHABLE)
     line = int(judging.lines[gouge.move]) if gouge.move >= 0 else 0
     return Judgement(
         deviation, unreachable, gouge, line, reachable_mm2, unreachable_mm2, max(discs, default=0.0), (*gouges, *left_spots),
-        tuple(_bands(judging, deviation)), certificate, isinstance(part, FlatPart), tolerance,
+        counts | {SpotKind.GOUGE: gouged}, tuple(_bands(judging, deviation)), certificate, isinstance(part, FlatPart), tolerance,
     )  # fmt: skip
 
 
-def _gouges(judging: Judging, deviation: NDArray[np.float32]) -> Iterator[Spot]:
-    """Yield the gouges, the deepest first: by closed forms, or where these know of none, those that the cells show."""
+def _gouges(judging: Judging, deviation: NDArray[np.float32]) -> tuple[tuple[Spot, ...], int]:
+    """Return the gouges, the deepest first, and how many: by closed forms, or where these know of none, those that the cells show."""
     part = judging.part
     exact = tuple(_exact_gouges(judging))
-    cells = () if exact else places_of(deviation < -part.tolerance, -deviation, judging.grid)
-    depth_in = DepthInSolid(part.solid, part.leave) if isinstance(part, SolidPart) and cells else None
-    others = (spot for place in cells if (spot := _gouge_of_cells(judging, place, depth_in)).depth_mm > part.tolerance)
-    yield from sorted((*exact, *others), key=lambda spot: -spot.depth_mm)
+    if exact:
+        return exact, len(exact)
+    places, count = places_of(deviation < -part.tolerance, -deviation, judging.grid)
+    depth_in = DepthInSolid(part.solid, part.leave) if isinstance(part, SolidPart) and places else None
+    spots = [_gouge_of_cells(judging, place, depth_in) for place in places]
+    deep = [spot for spot in spots if spot.depth_mm > part.tolerance]
+    return tuple(sorted(deep, key=lambda spot: -spot.depth_mm)), len(deep) + count - len(places)
 
 
 def _exact_gouges(judging: Judging) -> Iterator[Spot]:
@@ -187,14 +193,14 @@ def _frozen(field: NDArray[np.float32]) -> NDArray[np.float32]:
     return view
 
 
-def _worst(judging: Judging, spots: tuple[Spot, ...]) -> Gouge:
-    """Return the deepest gouge; where there is none, how little the path keeps from one."""
+def _worst(judging: Judging, spots: tuple[Spot, ...], gouged: int) -> Gouge:
+    """Return the deepest gouge, of so many; where there is none, how little the path keeps from one."""
     part, worst = judging.part, spots[0] if spots else None
     if judging.exact is None or not isinstance(part, FlatPart):
-        return Gouge(worst.depth_mm, worst.x, worst.y, worst.z, worst.motion, len(spots)) if worst else Gouge()
+        return Gouge(worst.depth_mm, worst.x, worst.y, worst.z, worst.motion, gouged) if worst else Gouge()
     depths = judging.exact.depths
     if worst:
-        count = max(len(spots), int(np.sum(depths.depth > part.wall_tolerance)))
+        count = max(gouged, int(np.sum(depths.depth > part.wall_tolerance)))
         return Gouge(worst.depth_mm, worst.x, worst.y, worst.z, worst.motion, count)
     if not len(depths.depth) or depths.depth.max() <= 0:
         return Gouge()
@@ -203,13 +209,12 @@ def _worst(judging: Judging, spots: tuple[Spot, ...]) -> Gouge:
     return Gouge(float(depths.depth[k]), x, y, z, int(depths.move[k]), 0)
 
 
-def _left(judging: Judging, mask: Mask, deviation: NDArray[np.float32], kind: SpotKind) -> Iterator[Spot]:
-    """Yield places of metal left, the highest first."""
-    for place in places_of(mask, deviation, judging.grid):
-        row, col = place.cell
-        x, y = judging.grid.place(row * judging.grid.cols + col)
-        line, motion = judging.line_at(row, col)
-        yield Spot(kind, x, y, float(judging.cut.heights[row, col]), place.worst, place.area_mm2, place.disc_mm, line, motion)
+def _left(judging: Judging, place: CellPlace, kind: SpotKind) -> Spot:
+    """Return a place of metal left."""
+    row, col = place.cell
+    x, y = judging.grid.place(row * judging.grid.cols + col)
+    line, motion = judging.line_at(row, col)
+    return Spot(kind, x, y, float(judging.cut.heights[row, col]), place.worst, place.area_mm2, place.disc_mm, line, motion)
 
 
 def _measured(judging: Judging, place: Place) -> Spot:

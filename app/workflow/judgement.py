@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
@@ -84,7 +84,7 @@ class Judgement:
         gouge_line: its NC line, 0 = none.
         reachable_mm2, unreachable_mm2: area of the metal left, seen from above.
         largest_disc_mm: diameter of the largest disc that fits where no tool reaches.
-        spots: the worst places, gouges first, then left, then unreachable; each kind worst first.
+        spots: the worst places, gouges first, then left, then unreachable; each kind worst first. counts: of all there are.
         bands: areas by deviation, from the lowest to the highest.
         certificate: what holds between the cells; None where only the cells were looked at.
         exact: gouge and areas were measured on the motions themselves, and the cells confirm them; else on the cells.
@@ -99,6 +99,7 @@ class Judgement:
     unreachable_mm2: float
     largest_disc_mm: float
     spots: tuple[Spot, ...]
+    counts: Mapping[SpotKind, int]
     bands: tuple[Band, ...]
     certificate: Certificate | None
     exact: bool
@@ -124,11 +125,12 @@ def _told(judgement: Judgement) -> Iterator[Finding]:
                 f"{spot.y:.3f}, {spot.z:.3f}){line}; do not run this program.")
         yield Finding(FindingKind.GOUGE, text, spot.x, spot.y, amount=spot.depth_mm, line=spot.line)
     for spot in left[:1]:
-        text = (f"{judgement.reachable_mm2:.3f} mm2 of metal within reach is left in {_places(len(left))}, the worst "
+        text = (f"{judgement.reachable_mm2:.3f} mm2 of metal within reach is left in {_places(judgement.counts[SpotKind.LEFT])}, the worst "
                 f"{spot.depth_mm:.3f} mm high and {spot.disc_mm:.3f} mm wide at ({spot.x:.3f}, {spot.y:.3f}).")
         yield Finding(FindingKind.LEFT_REACHABLE, text, spot.x, spot.y, amount=judgement.reachable_mm2, line=spot.line)
     for spot in beyond[:1]:
-        text = (f"{judgement.unreachable_mm2:.3f} mm2 in {_places(len(beyond))} is out of reach of every tool; a disc of "
+        places = _places(judgement.counts[SpotKind.UNREACHABLE])
+        text = (f"{judgement.unreachable_mm2:.3f} mm2 in {places} is out of reach of every tool; a disc of "
                 f"{judgement.largest_disc_mm:.3f} mm would fit; a smaller tool reaches farther.")
         yield Finding(FindingKind.LEFT_UNREACHABLE, text, spot.x, spot.y, counts=False, amount=judgement.unreachable_mm2)
 

@@ -15,7 +15,6 @@ from app.model.motion_path import arc_paths
 from app.model.moves import Moves, Purpose
 from app.tolerances import LEVEL
 
-
 STIR = 1e-6
 """mm; the library that measures areas overlooks lines of no length at all."""
 

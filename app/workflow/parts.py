@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from app.dexel.solid import SolidStock
+from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.part import Region
+from app.model.stock_box import StockBox, extent
 
 TOLERANCE = 0.01
 """mm; metal within this of the part is neither gouged nor left."""
@@ -47,3 +50,34 @@ class SolidPart:
 
 
 Part = FlatPart | SolidPart
+
+
+def part_box(part: Part) -> StockBox | None:
+    """Return the box round a part, program coordinates: what of it is machined, for a drawing; None where that is nothing."""
+    if isinstance(part, SolidPart):
+        low, high = part.solid.triangles.min(axis=(0, 1)).tolist(), part.solid.triangles.max(axis=(0, 1)).tolist()
+        return StockBox(*low, *high)
+    box = extent(contour for region in part.regions for contour in region.contours)
+    if box is None:
+        return None
+    (x, y, z), depth = part.origin, max((each.cut.depth for each in part.job.operations if each.cut.enabled), default=0.0)
+    return StockBox(box[0] - x, box[1] - y, -depth - z, box[2] - x, box[3] - y, -z)
+
+
+def beyond(part: Part, stock: StockBox) -> Iterator[Finding]:
+    """Yield how far a part reaches beyond its stock, if it does; a drawing's top and the metal under it do not count.
+
+    Args:
+        stock: the box round all of it, program coordinates.
+    """
+    box = part_box(part)
+    if box is None:
+        return
+    sides = {"-X": stock.x0 - box.x0, "+X": box.x1 - stock.x1, "-Y": stock.y0 - box.y0, "+Y": box.y1 - stock.y1}
+    if isinstance(part, SolidPart):
+        sides |= {"-Z": stock.z0 - box.z0, "+Z": box.z1 - stock.z1}
+    side, far = max(sides.items(), key=lambda item: item[1])
+    if far > part.tolerance:
+        text = (f"The part reaches {far:.3f} mm beyond the stock towards {side}, and there nothing can be judged; check the stock, and "
+                "where the part's zero lies (its origin and units).")
+        yield Finding(FindingKind.BEYOND_STOCK, text, amount=far)

@@ -35,15 +35,15 @@ class CellPlace:
     disc_mm: float
 
 
-def places_of(mask: NDArray[np.bool_], value: NDArray[np.float32], grid: Grid) -> tuple[CellPlace, ...]:
-    """Return the connected places of a mask, that with the largest value first, not more than MOST.
+def places_of(mask: NDArray[np.bool_], value: NDArray[np.float32], grid: Grid) -> tuple[tuple[CellPlace, ...], int]:
+    """Return the connected places of a mask, that with the largest value first, not more than MOST, and how many there are.
 
     Args:
         mask: (rows, cols). value: (rows, cols), of which the largest is the worst.
     """
     count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=8)
     if count <= 1:
-        return ()
+        return (), 0
     cells = np.flatnonzero(labels)
     label, worth = labels.ravel()[cells], value.ravel()[cells]
     order = np.lexsort((worth, label))
@@ -58,4 +58,4 @@ def places_of(mask: NDArray[np.bool_], value: NDArray[np.float32], grid: Grid) -
         disc = (2 * float(inner[mine].max()) - 1) * grid.pitch
         asked = np.concatenate([mine[:ASKED], mine[ASKED :: 1 + len(mine) // ASKED]])
         found.append(CellPlace(asked, divmod(int(mine[0]), grid.cols), float(worst[k]), area, disc))
-    return tuple(found)
+    return tuple(found), count - 1

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from app.dexel.cutter import cutter_of
 from app.geometry.near import near
-from app.geometry.primitives import contour_rows
+from app.geometry.primitives import TURN, contour_rows
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program
+from app.model.stock_box import StockBox
 from app.model.tool import ToolKind
 from app.tolerances import LEVEL
 from app.toolpath.flat import lines, move_rows, region_shapes
@@ -56,9 +57,9 @@ class RapidInMaterial:
     move: int
 
 
-def in_stock(moves: Moves) -> NDArray[np.bool_]:
-    """Return (n,) whether a move gets below the stock's top, Z 0."""
-    return np.minimum(moves.start[:, 2], moves.end[:, 2]) < -_SURFACE
+def in_stock(moves: Moves, top: float = 0.0) -> NDArray[np.bool_]:
+    """Return (n,) whether a move gets below the stock's top, mm."""
+    return np.minimum(moves.start[:, 2], moves.end[:, 2]) < top - _SURFACE
 
 
 def required_clearance(moves: Moves, job: Job) -> Floats:
@@ -93,21 +94,24 @@ class Depths:
     places: Floats
 
 
-def gouge_depths(program: Program, job: Job, stock: tuple[float, float, float, float] | None = None) -> Depths:
+def gouge_depths(program: Program, job: Job, stock: StockBox | None = None) -> Depths:
     """Return how deep each move in the stock cuts into walls, by exact distances, or below the floor of its tool's operations.
 
     Args:
         program: its regions' contours are the walls; what lies outside of all regions is part.
         job: its tools and its stock to leave are what the path must keep clear of.
-        stock: x0, y0, x1, y1, mm: moves that keep off it by their cutter's radius cut nothing; None = moves may be anywhere.
+        stock: moves above it, and those that keep off it by their cutter's radius, cut nothing; straight ones count up to where they
+            leave it. None = it is everywhere below Z 0.
     """
     moves = program.moves
-    chosen = np.flatnonzero(in_stock(moves)) if program.regions else np.zeros(0, np.int64)
+    top = min(0.0, stock.z1) if stock is not None else 0.0
+    chosen = np.flatnonzero(in_stock(moves, top)) if program.regions else np.zeros(0, np.int64)
     if stock is not None and len(chosen):
         chosen = chosen[_touches(moves, job, stock)[chosen]]
     if not len(chosen):
         return Depths(chosen, np.zeros(0), np.zeros((0, 3)))
     rows, need = move_rows(moves)[chosen], required_clearance(moves, job)[chosen]
+    rows = _clipped(rows, stock) if stock is not None else rows
     walls = np.concatenate([contour_rows(contour) for region in program.regions for contour in region.contours])
     depth, places = _depths(rows, need, walls)
     outside, beyond = _outside(rows, program)
@@ -119,11 +123,27 @@ def gouge_depths(program: Program, job: Job, stock: tuple[float, float, float, f
     return Depths(chosen, depth, np.column_stack([places, low]))
 
 
-def _touches(moves: Moves, job: Job, stock: tuple[float, float, float, float]) -> NDArray[np.bool_]:
-    """Return (n,) whether the cutter comes nearer to a rectangle than its radius on a move."""
+def _touches(moves: Moves, job: Job, stock: StockBox) -> NDArray[np.bool_]:
+    """Return (n,) whether the cutter, seen from above, comes into the stock on a move."""
     radius = {tool.number: tool.radius for tool in job.tools}
     wide = np.array([radius[number] for number in moves.tool.tolist()])
-    return np.asarray(shapely.distance(shapely.box(*stock), lines(move_rows(moves), _CHORD)) < wide)
+    rectangle = shapely.box(stock.x0, stock.y0, stock.x1, stock.y1)
+    return np.asarray(shapely.distance(rectangle, lines(move_rows(moves), _CHORD)) < wide)
+
+
+def _clipped(rows: Floats, stock: StockBox) -> Floats:
+    """Return rows of which straight ones that go through the stock, seen from above, begin and end in it or on its rim."""
+    rows = rows.copy()
+    way = rows[:, 2:4] - rows[:, :2]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        sides = [(np.array(side) - rows[:, :2]) / way for side in ((stock.x0, stock.y0), (stock.x1, stock.y1))]
+    still = way == 0
+    enter = np.where(still, 0.0, np.minimum(*sides)).max(axis=1).clip(0.0, 1.0)
+    leave = np.where(still, 1.0, np.maximum(*sides)).min(axis=1).clip(0.0, 1.0)
+    through = (rows[:, TURN] == 0) & (enter < leave)
+    first, last = (rows[:, :2] + way * share[:, None] for share in (enter, leave))
+    rows[through, :2], rows[through, 2:4] = first[through], last[through]
+    return rows
 
 
 def gouge(program: Program, job: Job) -> Gouge:

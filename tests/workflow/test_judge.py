@@ -111,6 +111,8 @@ def test_a_rapid_through_metal() -> None:
 def test_beside_the_stock_nothing_is_cut() -> None:
     assert kinds(again("M5\n(T2 flat", "G0 X120 Y120\nZ-1\nX130\nZ5\nM5\n(T2 flat")) == set()
     assert FindingKind.GOUGE in kinds(again("M5\n(T2 flat", "G0 X98 Y98\nG1 Z-1 F100\nX99\nG0 Z5\nM5\n(T2 flat"))
+    through = again("M5\n(T2 flat", "G0 X84 Y84\nG1 Z-1 F100\nY40\nX140\nG0 Z5\nM5\n(T2 flat").judgement
+    assert through is not None and through.gouge.x is not None and through.gouge.x <= 96
 
 
 def test_a_start_in_the_metal_is_told_and_cuts_no_way_to_it() -> None:
