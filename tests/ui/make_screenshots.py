@@ -26,6 +26,7 @@ from app.ui.nc.motion_shapes import Side
 from app.ui.start import build
 from app.ui.views import View
 from app.ui.wiring import Wiring
+from tests.ui.stages.scan import scan
 
 SIZES = ((1280, 800), (1920, 1080))
 PROGRAMS = Path(__file__).resolve().parents[1] / "data" / "nc"
@@ -141,6 +142,35 @@ def cut_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
     return {"place": place, "foreign": foreign, "asked": lambda: program("tux.ngc")}
 
 
+def stage_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
+    """Return what the Stages view is photographed with: traced lines, a peel, paths, fitted lines, letters, a picture taken in."""
+    view, panel = wiring.window_.views.stages, wiring.window_.stages_panel
+    path = scan(folder / "scan.png")
+
+    def step(number: int) -> None:
+        wiring.picturing.leave()
+        wiring.showing.show_view(View.STAGES)
+        wait_until(lambda: view.film is not None and not wiring.staging.worker.busy)
+        view.show_stage(view.film.seek_step(number, -1) if view.film is not None else 0)
+        view.pixels.fit_now()
+
+    def traced() -> None:
+        step(203)
+        panel.chains.list.setCurrentRow(0)
+
+    def letters() -> None:
+        step(206)
+        view.pixels.go_to((46.0, 68.0), 13)
+
+    def picture() -> None:
+        wiring.picturing.open(path)
+        wait_until(lambda: wiring.picturing.preview is not None and not wiring.picturing.worker.busy)
+        wiring.window_.import_panel.list.setCurrentRow(-1)
+
+    return {"traced": traced, "peel": lambda: step(304), "frame": lambda: step(143), "paths": lambda: step(140),
+            "fitted": lambda: step(406), "letters": letters, "picture": picture}
+
+
 def main() -> None:
     """Take the pictures."""
     os.environ["HITOFUDE_CONFIG"] = tempfile.mkdtemp()
@@ -160,9 +190,15 @@ def main() -> None:
                 wiring.showing.show_view(view)
                 wait(50)
                 wiring.window_.canvas.fit()
+                if view is View.STAGES:
+                    wait_until(lambda: wiring.window_.views.stages.film is not None)
                 if view is View.CUT:
                     wait_until(lambda: wiring.window_.views.cut.painting.fine)
                 take(wiring, folder / f"{view.name.lower()}-{theme.value}-{width}.png")
+            for name, arrange in stage_states(wiring, Path(os.environ["HITOFUDE_CONFIG"])).items():
+                arrange()
+                take(wiring, folder / f"stages-{name}-{theme.value}-{width}.png")
+            wiring.picturing.leave()
             for name, arrange in nc_states(wiring, Path(os.environ["HITOFUDE_CONFIG"])).items():
                 arrange()
                 take(wiring, folder / f"nc-{name}-{theme.value}-{width}.png")

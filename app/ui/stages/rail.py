@@ -12,7 +12,7 @@ from app.ui.stages.film import PHASES
 from app.ui.theme import LIGHT, Theme
 
 WIDTH = 260
-_ROW_PX, _BREAK_PX = 26, 8
+_ROW_PX, _BREAK_PX, _AROUND = 26, 8, 2
 _STEP = Qt.ItemDataRole.UserRole
 _FIRSTS = {numbers[0] for numbers in PHASES[1:]}
 
@@ -83,7 +83,9 @@ class Rail(QListWidget):
         if number != self._now and number in self._items:
             self._now = number
             self.setCurrentItem(self._items[number])
-            self.scrollToItem(self._items[number], QAbstractItemView.ScrollHint.EnsureVisible)
+            row = self.currentRow()
+            for near in (max(row - _AROUND, 0), min(row + _AROUND, self.count() - 1), row):
+                self.scrollToItem(self.item(near), QAbstractItemView.ScrollHint.EnsureVisible)
 
     def set_theme(self, theme: Theme) -> None:
         """Draw the ticks in another theme."""

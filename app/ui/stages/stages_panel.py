@@ -124,7 +124,7 @@ class StagesPanel(QScrollArea):
         self.pitch.show_value(frame.pitch)
         self.bitmap.setVisible(picture)
         self.bitmap.setText(f"The picture's own {grouped(frame.cols, 0)} {TIMES} {grouped(frame.rows, 0)} px of {frame.pitch:.4g} mm")
-        self.given_up.setText(f"What never gouging costs: up to {given_up.most_mm:.3f} mm too far from the walls, "
+        self.given_up.setText(f"Never gouging costs up to {given_up.most_mm:.3f} mm at the walls, "
                               f"{given_up.mean_mm:.3f} mm in the mean.{_rough(reel.made.unsmoothed)}")
 
     def _show_wrong(self, reel: Reel) -> None:

@@ -51,6 +51,7 @@ NOTES: Mapping[int, str] = {
     404: "Averages of five vectors shift with the pixel they begin at. Settled: a corner is where two fitted pieces cross.",
     405: "The same test as in 403, from corner to corner.",
     406: "The centre comes from a fit to all pixels of the stretch, no longer from eight of them.",
-    407: "A path never comes nearer to the walls than its tool allows; where a fit would, it stays the line from pixel to pixel.",
+    407: "Fitted paths lie up to a pixel nearer to the walls than their pixels, as near as the pixels' squares allow, and never nearer "
+         "than the tool does.",
 }  # fmt: skip
 """Two or three sentences for each step."""

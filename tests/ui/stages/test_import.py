@@ -1,6 +1,5 @@
 """Pictures as parts: opened, dropped, read otherwise, measured, and machined."""
 
-import cv2
 import numpy as np
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
@@ -17,24 +16,10 @@ from app.ui.theme import LIGHT
 from app.ui.views import View
 from tests.ui.conftest import WAIT_MS
 from tests.ui.stages.conftest import show_stages
+from tests.ui.stages.scan import DARK_INK, PAPER, scan
 from tests.ui.stages.test_stages_view import type_value
 
 LEFT = Qt.MouseButton.LeftButton
-DARK_INK, PAPER = 40, 230
-
-
-def scan(path, params=()):
-    """A frame with a ring in it, a bar from the frame to the ring (two T junctions), and a square beside it, all of lines 2 px wide."""
-    picture = np.full((240, 360), PAPER, np.uint8)
-    cv2.rectangle(picture, (20, 20), (220, 220), DARK_INK, 2)
-    cv2.circle(picture, (120, 120), 50, DARK_INK, 2)
-    cv2.line(picture, (120, 20), (120, 70), DARK_INK, 2)
-    cv2.line(picture, (120, 170), (120, 220), DARK_INK, 2)
-    cv2.rectangle(picture, (260, 40), (340, 120), DARK_INK, 2)
-    cv2.imwrite(str(path), picture, params)
-    return path
-
-
 @pytest.fixture
 def opened(qtbot, wiring, tmp_path):
     wiring.files.open_file(scan(tmp_path / "scan.png"))
@@ -70,6 +55,7 @@ def test_doubtful_places_are_listed_marked_and_gone_to(qtbot, opened):
     window, panel = opened.window_, opened.window_.import_panel
     places = opened.picturing.preview.places
     assert len(places) == panel.list.count() >= 4 and panel.doubts.text() == f"{len(places)} doubtful places"
+    assert panel.list.item(0).text().startswith("Lines meet at column 12") and "more than two areas" in panel.list.item(0).toolTip()
     pixels = window.views.stages.pixels
     assert len(pixels.marks) == len(places)
     before = pixels.view.scale

@@ -1,5 +1,7 @@
 """The Stages view with mouse and keys."""
 
+import time
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
@@ -180,7 +182,7 @@ def test_published_rules_are_marked_where_they_err_and_counted(qtbot, wiring):
 
 def test_resolution_and_pitch_and_what_they_cost(qtbot, staged):
     panel, view = staged.window_.stages_panel, staged.window_.views.stages
-    assert "mm too far from the walls" in panel.given_up.text() and panel.points.edit.text() == "400"
+    assert "mm at the walls, " in panel.given_up.text() and panel.points.edit.text() == "400"
     type_value(qtbot, panel.points, "200")
     qtbot.waitUntil(lambda: view.film is not None and view.film.shape == (200, 200), timeout=WAIT_MS)
     assert float(panel.pitch.edit.text()) == pytest.approx(52 / 196, abs=1e-4)
@@ -236,3 +238,17 @@ def test_both_themes(qtbot, staged):
     light = view.pixels.grab().toImage()
     middle = screen(view, 3, 3)
     assert dark.pixelColor(middle).lightness() < 40 and light.pixelColor(middle).lightness() > 240
+
+
+def test_more_than_30_stages_are_shown_in_a_second(qtbot, staged):
+    view = staged.window_.views.stages
+    assert view.film.shape == (400, 400)
+
+    def rate():
+        begun = time.perf_counter()
+        for at in range(40):
+            view.show_stage(at)
+            view.pixels.repaint()
+        return 40 / (time.perf_counter() - begun)
+
+    assert max(rate() for _ in range(3)) >= 30
