@@ -1,151 +1,195 @@
-"""What goes wrong on the way, whatever the part is: rapids in metal, a start in it, plunges, the table."""
+"""What goes wrong on the way, whatever the part is: rapids in metal, a start in it, plunges, places nobody knows, the table."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from app.dexel.cutter import Cutter
-from app.dexel.trim import Course, Cut, Rapids, TrimOptions, trim
+from app.dexel.trim import Cut, RapidHit
 from app.dexel.workpiece import Workpiece
 from app.model.finding import Finding, FindingKind
 from app.model.motion import MotionKind, Motions
 from app.model.motion_path import reach
 from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
+from app.workflow.closer import Metal, Way
 from app.workflow.course import KnownCourse
+from app.workflow.narrow_rapids import Looked, narrow_rapids
+from app.workflow.plunges import plunges
 
 NAMED = 50
 """Accidents of one kind that are told one by one."""
 
-UPRIGHT = 1e-3
-"""mm sideways per mm down, up to which a motion goes straight down."""
-
-PIN = 0.25
-"""Part of a cutter's radius, round its axis, in which it does not cut if it does not cut at its centre."""
+ALMOST = 1e-3
+"""mm sideways, up to which a tool goes straight down."""
 
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """One program of a setup: what it is cut along, out of what, with what, and what it leaves."""
+    """One program of a setup: what it is cut along, out of what, with what, and what it leaves.
+
+    Attributes:
+        metal: of the setup, as it is at any time of this program.
+        where: words for the place of a motion in the text, such as "NC line 7", by its row.
+    """
 
     known: KnownCourse
     before: Workpiece
     cut: Cut
-    cutters: Mapping[int, Cutter]
+    metal: Metal
+    where: Callable[[int], str]
 
     @property
     def motions(self) -> Motions:
         """Of the program."""
         return self.known.course.motions
 
+    @property
+    def cutters(self) -> Mapping[int, Cutter]:
+        """By T number."""
+        return self.metal.cutters
 
-def accidents(stage: Stage, progress: Progress = NO_PROGRESS) -> tuple[Finding, ...]:
-    """Return what goes wrong while a program is cut; places in program coordinates.
+    @property
+    def top(self) -> float:
+        """No metal is higher before the program, mm."""
+        return float(self.before.heights.max())
+
+    def told(self, kind: FindingKind, text: str, row: int, place: tuple[float, float], amount: float) -> Finding:
+        """Return an accident of a motion."""
+        x, y = place
+        return Finding(kind, text, x, y, amount=amount, line=int(self.motions.line[row]))
+
+
+@dataclass(frozen=True)
+class Accidents:
+    """What goes wrong in a program.
+
+    Attributes:
+        findings: in words; places in program coordinates.
+        rapids: that go through metal, also those that no cell has seen.
+    """
+
+    findings: tuple[Finding, ...]
+    rapids: tuple[RapidHit, ...]
+
+
+def accidents(stage: Stage, progress: Progress = NO_PROGRESS) -> Accidents:
+    """Return what goes wrong while a program is cut.
 
     Raises:
         Cancelled: the job was asked to stop.
     """
-    return (*_start(stage), *_rapids(stage), *_plunges(stage, progress), *_below_table(stage))
+    looked = narrow_rapids(stage.known.course, stage.metal, stage.before, stage.cut.rapids, progress.part(0.0, 0.5))
+    findings = (*_start(stage), *_rapids(stage, looked), *_sideways_out(stage), *_at_unknown_places(stage),
+                *_plunges(stage, progress.part(0.5, 1.0)), *_below_table(stage))  # fmt: skip
+    return Accidents(findings, looked.rapids)
 
 
 def _start(stage: Stage) -> Iterator[Finding]:
     """Yield that the program begins with the tool in the metal."""
     first, course = stage.known.first, stage.known.course
-    if first == len(stage.motions):
+    cutter = stage.cutters.get(int(course.tool[first])) if first < len(stage.motions) else None
+    if cutter is None:
         return
-    cutter = stage.cutters.get(int(course.tool[first]))
-    place = stage.motions.end[first]
-    depth = _depth_at(stage.before, cutter, place) if cutter is not None else 0.0
-    if depth > LEVEL:
-        x, y, z = place.tolist()
-        line = int(stage.motions.line[first])
-        text = (f"The first place that the program names, X {x:.3f} Y {y:.3f} Z {z:.3f} in NC line {line}, is {depth:.3f} mm deep in the "
-                "stock; go above the stock first (G0 Z...), or tell the stock as it is.")
-        yield Finding(FindingKind.START_IN_STOCK, text, x, y, amount=depth, line=line)
+    hit = stage.metal.met(Way(first, stage.motions.end[first : first + 1], cutter), stage.top, stage.before.grid.pitch)
+    if hit is not None:
+        x, y, z = stage.motions.end[first].tolist()
+        text = (f"The first place that the program names, X {x:.3f} Y {y:.3f} Z {z:.3f} in {stage.where(first)}, is {hit.depth:.3f} mm "
+                "deep in the stock; go above the stock first (G0 Z...), or tell the stock as it is.")
+        yield stage.told(FindingKind.START_IN_STOCK, text, first, (x, y), hit.depth)
 
 
-def _depth_at(workpiece: Workpiece, cutter: Cutter, place: np.ndarray) -> float:
-    """Return how deep a cutter that stands at a place is in the metal, mm."""
-    grid = workpiece.grid
-    across, up = (np.abs(centres - at) <= cutter.radius for centres, at in ((grid.xs(), place[0]), (grid.ys(), place[1])))
-    if not across.any() or not up.any():
-        return 0.0
-    radii = np.hypot(grid.xs()[across][None, :] - place[0], grid.ys()[up][:, None] - place[1])
-    metal = workpiece.heights[np.ix_(up, across)]
-    return max(0.0, float(np.max(np.where(metal > workpiece.floor, metal - (place[2] + cutter.heights(radii)), 0.0))))
-
-
-def _rapids(stage: Stage) -> Iterator[Finding]:
+def _rapids(stage: Stage, looked: Looked) -> Iterator[Finding]:
     """Yield the rapids that go through metal, the first ones one by one."""
-    motions, hits = stage.motions, stage.cut.rapids
+    hits = looked.rapids
     for hit in hits[:NAMED]:
-        line = int(motions.line[hit.motion])
-        text = (f"A rapid goes through metal, {hit.depth:.3f} mm deep at ({hit.x:.3f}, {hit.y:.3f}, {hit.z:.3f}), NC line {line}; "
-                "do not run this program.")
-        yield Finding(FindingKind.RAPID_IN_MATERIAL, text, hit.x, hit.y, amount=hit.depth, line=line)
+        text = (f"A rapid goes through metal, {hit.depth:.3f} mm deep at ({hit.x:.3f}, {hit.y:.3f}, {hit.z:.3f}), "
+                f"{stage.where(hit.motion)}; do not run this program.")
+        yield stage.told(FindingKind.RAPID_IN_MATERIAL, text, hit.motion, (hit.x, hit.y), hit.depth)
     if len(hits) > NAMED:
         yield Finding(FindingKind.RAPID_IN_MATERIAL, f"{len(hits) - NAMED} more rapids go through metal; do not run this program.",
                       amount=float(len(hits) - NAMED))  # fmt: skip
+    if looked.unseen:
+        yield Finding(FindingKind.TOLERANCE, f"{looked.unseen} rapids of cutters narrower than {stage.before.grid.pitch:.3g} mm cells, the "
+                      "last ones, were not looked at between the cells; use more cells (--grid).", counts=False,
+                      amount=float(looked.unseen))  # fmt: skip
+
+
+def _sideways_out(stage: Stage) -> Iterator[Finding]:
+    """Yield the rapids that set out for a place of the machine beside while metal stands higher than the tool."""
+    motions, nowhere = stage.motions, stage.known.nowhere
+    known_before = np.concatenate([[False], ~nowhere[:-1].any(axis=1)])
+    rows = np.flatnonzero((motions.kind == MotionKind.RAPID) & nowhere[:, :2].any(axis=1) & known_before)
+    for row in rows.tolist():
+        cutter, place = stage.cutters.get(int(stage.known.course.tool[row])), motions.end[row - 1]
+        depth = 0.0 if cutter is None or place[2] >= stage.top - LEVEL else _beside(stage, row, place, cutter.radius)
+        if depth > LEVEL:
+            x, y, z = place.tolist()
+            text = (f"The rapid in {stage.where(row)} sets out sideways from ({x:.3f}, {y:.3f}, {z:.3f}) for a place that nobody knows, "
+                    f"and the metal there stands {depth:.3f} mm higher than the tool; lift it first, such as by G53 G0 Z0.")
+            yield stage.told(FindingKind.RAPID_IN_MATERIAL, text, row, (x, y), depth)
+
+
+def _beside(stage: Stage, row: int, place: np.ndarray, radius: float) -> float:
+    """Return how much higher than a tool over the stock the metal stands that it may meet on its way, mm."""
+    x0, y0, x1, y1 = stage.metal.stock.box
+    if not (x0 - radius < place[0] < x1 + radius and y0 - radius < place[1] < y1 + radius):
+        return 0.0
+    metal = stage.metal.over(stage.before.grid, row)
+    heights, grid, (free_x, free_y) = metal.heights, metal.grid, stage.known.nowhere[row, :2]
+    if not free_x:
+        heights = heights[:, np.abs(grid.xs() - place[0]) <= radius + grid.pitch]
+    if not free_y:
+        heights = heights[np.abs(grid.ys() - place[1]) <= radius + grid.pitch]
+    return float(heights.max(initial=metal.floor)) - float(place[2])
+
+
+def _at_unknown_places(stage: Stage) -> Iterator[Finding]:
+    """Yield that motions at feed rate are not cut as nobody knows where they are, unless they surely stay above the stock."""
+    motions, known = stage.motions, stage.known
+    left_out = np.isin(np.arange(len(motions)), known.course.left_out) & (motions.kind != MotionKind.RAPID)
+    above = ~known.nowhere[:, 2] & (reach(motions)[0][:, 2] >= stage.top - LEVEL)
+    lifts = known.home[:, 2] & ~known.nowhere[:, :2].any(axis=1) & np.all(motions.start[:, :2] == motions.end[:, :2], axis=1)
+    rows = np.flatnonzero(left_out & ~above & ~lifts)
+    if not len(rows):
+        return
+    row = int(rows[0])
+    unknown = known.nowhere[row] | known.nowhere[max(row - 1, 0)]
+    axes = " and ".join(name for name, one in zip("XYZ", unknown.tolist(), strict=True) if one)
+    others = "" if len(rows) == 1 else f", the first of {len(rows)} such motions"
+    text = (f"{stage.where(row)} cuts at a place that the program has not told{others}: {axes} {'is' if len(axes) == 1 else 'are'} "
+            "not known there, so it is not cut here; go to a place that is told first (G0 X... Y... Z...).")
+    yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(rows)), line=int(motions.line[row]))
 
 
 def _plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
-    """Yield the motions straight down into metal of mills that do not cut at their centre."""
-    motions, course = stage.motions, stage.known.course
-    blunt = [number for number, cutter in stage.cutters.items() if not cutter.centre_cutting]
-    way = motions.end - motions.start
-    down = (motions.kind == MotionKind.LINE) & (way[:, 2] < 0) & (np.hypot(way[:, 0], way[:, 1]) <= UPRIGHT * -way[:, 2])
-    down &= np.isin(course.tool, blunt)
-    down[list(course.left_out)] = False
-    if len(stage.cut.engaged):
-        down &= stage.cut.engaged > 0
-    rows = np.flatnonzero(down)
-    if not len(rows):
-        return
-    asked = _with_pins(course, rows, int(max(stage.cutters)) + 1)
-    pins = {int(max(stage.cutters)) + 1 + k: Cutter(stage.cutters[k].radius * PIN, stage.cutters[k].radius * PIN) for k in blunt}
-    hits = trim(stage.before, asked, {**stage.cutters, **pins}, TrimOptions(Rapids.ASKED), progress).rapids
-    inserted = rows + np.arange(len(rows))
-    for hit in hits:
-        at = int(np.searchsorted(inserted, hit.motion))
-        if at == len(rows) or inserted[at] != hit.motion:
-            continue
-        row = int(rows[at])
-        line, number = int(motions.line[row]), int(course.tool[row])
-        x, y, _ = motions.end[row].tolist()
-        text = (f"T{number} goes straight down into metal at ({x:.3f}, {y:.3f}), NC line {line}, and does not cut at its centre; "
-                "ramp in, or use a cutter that does.")
-        yield Finding(FindingKind.PLUNGE, text, x, y, amount=hit.depth, line=line)
-
-
-def _with_pins(course: Course, rows: np.ndarray, first: int) -> Course:
-    """Return the course with each of some motions asked, before it is cut, by the dead centre of its cutter: T `first` + its T."""
-    motions, count = course.motions, len(course.motions)
-    order = np.insert(np.arange(count), rows, rows)
-    pins = np.zeros(len(order), bool)
-    pins[rows + np.arange(len(rows))] = True
-    place = np.flatnonzero(~pins)
-    columns = {name: getattr(motions, name)[order] for name in ("start", "end", "centre", "plane", "turns", "feed", "line", "state")}
-    kind = np.where(pins, MotionKind.RAPID, motions.kind[order]).astype(np.uint8)
-    splines = {int(place[row]): spline for row, spline in motions.splines.items()}
-    tool = (course.tool[order] + np.where(pins, first, 0)).astype(np.int32)
-    return Course(replace(motions, kind=kind, splines=splines, **columns), tool, tuple(place[list(course.left_out)].tolist()))
+    """Yield the ways down into metal of mills that do not cut at their centre, the first ones one by one."""
+    found = list(plunges(stage.metal, stage.before, progress))
+    for each in found[:NAMED]:
+        aside = "straight down" if each.aside <= ALMOST else f"down, sideways by only {each.aside:.3f} mm,"
+        text = (f"T{each.tool} goes {aside} into metal at ({each.x:.3f}, {each.y:.3f}), {stage.where(each.motion)}, and does not cut "
+                "at its centre; ramp in, or use a cutter that does.")
+        yield stage.told(FindingKind.PLUNGE, text, each.motion, (each.x, each.y), each.depth)
+    if len(found) > NAMED:
+        yield Finding(FindingKind.PLUNGE, f"{len(found) - NAMED} more times a mill goes down into metal that does not cut at its centre.",
+                      amount=float(len(found) - NAMED))  # fmt: skip
 
 
 def _below_table(stage: Stage) -> Iterator[Finding]:
-    """Yield that the tool goes below the stock, where the table is."""
+    """Yield that the tool goes below the stock, where the table is; place and line are those of the deepest motion."""
     low = reach(stage.motions)[0][:, 2].copy()
     low[list(stage.known.course.left_out)] = np.inf
     floor = stage.before.floor
     below = np.flatnonzero(low < floor - LEVEL)
     if not len(below):
         return
-    row = int(np.argmin(low))
+    row, first = int(np.argmin(low)), int(below[0])
     x, y, _ = stage.motions.end[row].tolist()
-    line, depth = int(stage.motions.line[below[0]]), floor - float(low[row])
-    motions = "1 motion goes" if len(below) == 1 else f"{len(below)} motions go"
-    text = (f"{motions} below the stock's underside, Z {floor:.3f}, where the table is: {depth:.3f} mm at ({x:.3f}, {y:.3f}), the first in "
-            f"NC line {line}; put something under the stock, or cut less deep.")
-    yield Finding(FindingKind.BELOW_TABLE, text, x, y, amount=depth, line=line)
+    depth = floor - float(low[row])
+    motions = "A motion goes" if len(below) == 1 else f"{len(below)} motions, the first in {stage.where(first)}, go"
+    text = (f"{motions} below the stock's underside, Z {floor:.3f}, where the table is{'' if len(below) == 1 else ', the deepest'} "
+            f"{depth:.3f} mm at ({x:.3f}, {y:.3f}), {stage.where(row)}; put something under the stock, or cut less deep.")
+    yield stage.told(FindingKind.BELOW_TABLE, text, row, (x, y), depth)

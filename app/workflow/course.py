@@ -5,11 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.dexel.trim import Course
 from app.model.motion import MotionKind
-from app.nc.extent import nowhere_of
+from app.nc.extent import at_home, nowhere_of
 from app.nc.read.program import NcProgram
+
+COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
+"""Of motions, a row for each."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,10 +24,14 @@ class KnownCourse:
         course: motions that begin, along an axis, at a place that nobody knows, begin where they end along it. Left out are
             those that end at such a place, curves that begin at one, and the rapid that first comes to a known place.
         first: row of the motion that first ends at a known place; the number of motions where none does.
+        nowhere: (n, 3) whether each motion ends, along an axis, at a place that nobody knows.
+        home: (n, 3) whether that is because it is a place of the machine.
     """
 
     course: Course
     first: int
+    nowhere: NDArray[np.bool_]
+    home: NDArray[np.bool_]
 
 
 def course_of(program: NcProgram) -> KnownCourse:
@@ -39,4 +47,13 @@ def course_of(program: NcProgram) -> KnownCourse:
         left_out[first] = True
     motions = replace(motions, start=start, known_from=(0, 0, 0))
     tools = tuple(state.tool for state in program.states)
-    return KnownCourse(Course.of(motions, tools, tuple(np.flatnonzero(left_out).tolist())), first)
+    return KnownCourse(Course.of(motions, tools, tuple(np.flatnonzero(left_out).tolist())), first, nowhere, at_home(program))
+
+
+def picked(course: Course, rows: NDArray[np.intp]) -> Course:
+    """Return some motions of a course, in their order; `rows` rise."""
+    motions = course.motions
+    columns = {name: getattr(motions, name)[rows] for name in COLUMNS}
+    splines = {int(np.searchsorted(rows, row)): motions.splines[row] for row in set(motions.splines).intersection(rows.tolist())}
+    left_out = np.flatnonzero(np.isin(rows, course.left_out))
+    return Course(replace(motions, splines=splines, **columns), course.tool[rows], tuple(left_out.tolist()))

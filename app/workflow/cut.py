@@ -10,20 +10,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.dexel.cutter import Cutter, cutter_of
+from app.dexel.probe import lowest
 from app.dexel.trim import Cut, TrimOptions, trim
 from app.dexel.workpiece import Grid, Heights, Stock, Workpiece, ensure_memory
 from app.model.finding import Finding, worst_first
+from app.model.motion import Floats
 from app.model.stock_box import StockBox
 from app.model.tool import Tool
 from app.nc.read.program import NcProgram
 from app.progress import NO_PROGRESS, Progress
 from app.workflow.accidents import Stage, accidents
 from app.workflow.certify import certify
+from app.workflow.closer import Metal
 from app.workflow.course import KnownCourse, course_of
 from app.workflow.exact import Exact, exact_of
 from app.workflow.judge import Judging, judge, wanted_over
 from app.workflow.judgement import Judgement, findings_of
-from app.workflow.parts import FlatPart, Part, beyond
+from app.workflow.parts import FlatPart, Part, SolidPart, beyond
+from app.workflow.wall_probe import WallProbe
 
 CELLS = 1024
 """Along the stock's longer side, as on the text's screen."""
@@ -41,12 +45,23 @@ class CutSetup:
         tools: by T number; 0 stands for the tool of a program that names none.
         stock: the metal, program coordinates.
         part: what is to come out; None = nobody has said.
+        names: of the programs' files.
     """
 
     programs: tuple[NcProgram, ...]
     tools: Mapping[int, Tool]
     stock: Stock
     part: Part | None = None
+    names: tuple[str, ...] = ()
+
+    def where(self, motion: int) -> str:
+        """Return words for the place of a motion, counted through all programs; of several programs also which one."""
+        ends = np.cumsum([len(program.motions) for program in self.programs])
+        file = int(np.searchsorted(ends, motion, "right"))
+        line = f"NC line {int(self.lines()[motion])}"
+        if len(self.programs) == 1:
+            return line
+        return f"{line} of {self.names[file] if self.names else f'program {file + 1}'}"
 
     def lines(self) -> NDArray[np.int32]:
         """Return the line of each motion of all programs, in its own file."""
@@ -65,7 +80,8 @@ class CutOptions:
         cells: along the longer side of the stock, or of the window.
         window: x0, y0, x1, y1, mm: only this part of the stock; None = all of it.
         trace: note who cut each cell last, and what each motion took.
-        judge: measure on the motions and certify; else the cells alone are compared with the part, which is quick.
+        judge: measure on the motions and certify, and look on the whole stock for what goes wrong on the way; else the cells alone are
+            compared with the part, which is quick.
     """
 
     cells: int = CELLS
@@ -131,18 +147,33 @@ class _Run:
         return _Run(setup, options, courses, {n: cutter_of(tool) for n, tool in setup.tools.items()}, setup.stock.over(grid))
 
     def cut(self, progress: Progress) -> tuple[Cut, tuple[Finding, ...]]:
-        """Cut all programs, and look for what goes wrong on the way."""
+        """Cut all programs, and look for what goes wrong on the way: on the whole stock, whatever the window is."""
+        if self.options.window is None or not self.options.judge:
+            return self._cut(progress)
+        setup, options = replace(self.setup, part=None), replace(self.options, window=None, trace=False)
+        whole, told = _Run.of(setup, replace(options, cells=min(options.cells, CELLS)))._cut(progress.part(0.0, 0.5))
+        seen, _ = replace(self, options=replace(self.options, judge=False))._cut(progress.part(0.5, 1.0))
+        return replace(seen, rapids=whole.rapids), told
+
+    def _cut(self, progress: Progress) -> tuple[Cut, tuple[Finding, ...]]:
         told: list[Finding] = []
         cut: Cut | None = None
         done, count = 0, len(self.courses)
         for k, known in enumerate(self.courses):
             part, before = progress.part(k / count, (k + 1) / count), self.workpiece if cut is None else cut.workpiece
             after = trim(before, known.course, self.cutters, TrimOptions(trace=self.options.trace), part.part(0.0, 0.8))
-            told += accidents(Stage(known, before, after, self.cutters), part.part(0.8, 1.0))
+            if self.options.judge:
+                found = accidents(self._stage(k, before, after, done), part.part(0.8, 1.0))
+                told, after = [*told, *found.findings], replace(after, rapids=found.rapids)
             cut = after if cut is None else _joined(cut, after, done)
             done += len(known.course.motions)
         assert cut is not None
         return cut, tuple(told)
+
+    def _stage(self, k: int, before: Workpiece, after: Cut, done: int) -> Stage:
+        """Return a program as it was cut; `done` motions were before it."""
+        metal = Metal(self.setup.stock, tuple(known.course for known in self.courses[: k + 1]), self.cutters)
+        return Stage(self.courses[k], before, after, metal, lambda row: self.setup.where(done + row))
 
     def box(self) -> StockBox:
         """Return the box round all of the stock, program coordinates; of a window nobody knows how high the rest is."""
@@ -167,7 +198,19 @@ class _Run:
         if exact is None and self.options.judge and isinstance(part, FlatPart):
             exact = exact_of(part, [known.course for known in self.courses], self.box(), progress.part(0.3, 0.7))
         certificate = certify(self.workpiece, wanted, self.cutters, self.trimmed, progress.part(0.7, 1.0)) if self.options.judge else None
-        return judge(Judging(part, cut, wanted, exact, self.setup.lines()), certificate)
+        lines = self.setup.lines()
+        probe = WallProbe(part, self._lowest, self.workpiece, lines) if isinstance(part, SolidPart) and self.options.judge else None
+        return judge(Judging(part, cut, wanted, exact, lines, probe), certificate)
+
+    def _lowest(self, points: Floats) -> tuple[Floats, NDArray[np.int64]]:
+        """Return the lowest height that all programs reach at points, and which of all their motions."""
+        best, motion, done = np.full(len(points), np.inf), np.full(len(points), -1, np.int64), 0
+        for known in self.courses:
+            heights, rows = lowest(points, known.course, self.cutters)
+            better = heights < best
+            best[better], motion[better] = heights[better], rows[better] + done
+            done += len(known.course.motions)
+        return best, motion
 
 
 def _tools(program: NcProgram) -> NDArray[np.int32]:

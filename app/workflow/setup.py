@@ -96,7 +96,8 @@ def setup_of(programs: tuple[Examined, ...], wishes: Wishes = Wishes(), progress
     part, said = _part(programs, tools, wishes) if wishes.against is not None else (None, ())
     progress.step(0.8)
     stock = _stock(programs, tools, part, wishes)
-    setup = CutSetup(tuple(each.program for each in programs), {number: each.tool for number, each in tools.items()}, stock.stock, part)
+    setup = CutSetup(tuple(each.program for each in programs), {number: each.tool for number, each in tools.items()}, stock.stock, part,
+                     tuple(each.name for each in programs))  # fmt: skip
     found = (*assumed, *((stock.assumed,) if stock.assumed is not None else ()), *said)
     return Ready(setup, programs, tools, stock, found)
 

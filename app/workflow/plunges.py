@@ -1,0 +1,190 @@
+"""Mills that do not cut at their centre, led down into metal where their dead centre stays over the same place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.dexel.cutter import Cutter
+from app.dexel.trim import Course, trim
+from app.dexel.workpiece import Workpiece
+from app.model.motion import Floats, MotionKind, Plane
+from app.model.motion_path import arc_paths
+from app.progress import NO_PROGRESS, Progress
+from app.tolerances import LEVEL
+from app.workflow.closer import NARROW, Metal, Way
+from app.workflow.course import COLUMNS, picked
+
+PIN = 0.25
+"""Part of a cutter's radius, round its axis, in which it does not cut if it does not cut at its centre."""
+
+RAMP = 0.5
+"""mm down per mm sideways, from which on a motion is no ramp."""
+
+WINDS = 6.0
+"""Times the radius that it keeps within, that a way is long if it goes round or to and fro; once round is 2 pi times."""
+
+TURN = 32
+"""Chords of a whole turn of a helix."""
+
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True)
+class Plunge:
+    """Motions down into metal, over one place.
+
+    Attributes:
+        motion: row of the first one that goes into metal. tool: T number.
+        x, y: where they end, mm. depth: of the metal over that, mm. aside: radius that the axis keeps within in the metal, mm.
+    """
+
+    motion: int
+    tool: int
+    x: float
+    y: float
+    depth: float
+    aside: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """Motions down, one after the other.
+
+    Attributes:
+        rows: of the motions. row: the motion that each leg of the way belongs to.
+        way: of the dead centre, before they cut.
+    """
+
+    rows: range
+    row: list[int]
+    way: Way
+
+
+def plunges(metal: Metal, before: Workpiece, progress: Progress = NO_PROGRESS) -> Iterator[Plunge]:
+    """Yield where the last program of some plunges with a dead centre.
+
+    A mill that goes sideways by no more than the radius of its dead centre leaves metal under it that nothing cuts, whether it goes
+    straight, slanted, round or to and fro.
+
+    Args:
+        before: the metal before that program.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    course, top = metal.courses[-1], float(before.heights.max())
+    runs = list(_runs(course, metal.cutters, top))
+    if not runs:
+        return
+    heights = _metal_heights(metal, before, runs, progress)
+    for run, height in zip(runs, heights, strict=True):
+        if height is not None:
+            plunge = _plunge(run, height, int(course.tool[run.rows.start]))
+            if plunge.aside < run.way.cutter.radius:
+                yield plunge
+
+
+def _runs(course: Course, cutters: Mapping[int, Cutter], top: float) -> Iterator[_Run]:
+    """Yield the motions that may plunge, in their order."""
+    motions = course.motions
+    pins = np.zeros(int(course.tool.max(initial=0)) + 1)
+    for number, cutter in cutters.items():
+        if number < len(pins) and not cutter.centre_cutting:
+            pins[number] = cutter.radius * PIN
+    pin, way = pins[course.tool], motions.end - motions.start
+    down = (motions.kind != MotionKind.RAPID) & (way[:, 2] < 0) & (motions.end[:, 2] < top - LEVEL) & (pin > 0)
+    down[list(course.left_out)] = False
+    if not down.any():
+        return
+    steep = down & ((-way[:, 2] > RAMP * np.hypot(way[:, 0], way[:, 1])) | _turns_within(course, pin))
+    ends = np.concatenate([_consecutive(steep, course.tool), _consecutive(down & ~steep, course.tool)])
+    for first, last in ends[np.argsort(ends[:, 0])].tolist():
+        rows, radius = range(first, last + 1), float(pin[first])
+        if _stays(motions.start[first : last + 1], motions.end[first : last + 1], top, radius, not steep[first]):
+            yield _run(course, rows, Cutter(radius, radius))
+
+
+def _turns_within(course: Course, pin: Floats) -> Mask:
+    """Return which motions are helices that are narrower than the dead centre."""
+    motions = course.motions
+    arc = ((motions.kind == MotionKind.ARC_CW) | (motions.kind == MotionKind.ARC_CCW)) & (motions.plane == Plane.XY)
+    from_centre = np.hypot(*(motions.start - motions.centre)[:, :2].T)
+    return np.asarray(arc & (from_centre < pin))
+
+
+def _consecutive(mask: Mask, tool: NDArray[np.int32]) -> NDArray[np.intp]:
+    """Return (k, 2) first and last of the rows in unbroken runs of one tool."""
+    rows = np.flatnonzero(mask)
+    breaks = np.flatnonzero((np.diff(rows) > 1) | (np.diff(tool[rows]) != 0))
+    return np.column_stack([rows[np.concatenate([[0], breaks + 1])], rows[np.concatenate([breaks, [-1]])]]) if len(rows) else np.zeros(
+        (0, 2), np.intp)  # fmt: skip
+
+
+def _stays(start: Floats, end: Floats, top: float, radius: float, shallow: bool) -> bool:
+    """Return whether motions may keep within a radius below the top; shallow ones must go to and fro, or round, for that."""
+    part = np.clip((top - end[:, 2]) / (start[:, 2] - end[:, 2]), 0.0, 1.0)[:, None]
+    places = np.concatenate([end + (start - end) * part, end])[:, :2]
+    aside = float(np.max(places.max(axis=0) - places.min(axis=0))) / 2
+    return aside < radius and (not shallow or float(np.sum(np.hypot(*(end - start)[:, :2].T))) >= WINDS * aside)
+
+
+def _run(course: Course, rows: range, pin: Cutter) -> _Run:
+    """Return motions with the way of their axis; helices by chords."""
+    mine = picked(course, np.arange(rows.start, rows.stop))
+    arcs = arc_paths(mine.motions)
+    count = TURN * max(1, int(np.ceil(np.max(np.abs(arcs.sweep), initial=0.0) / (2 * np.pi)))) if len(arcs) else 1
+    chords = dict(zip(arcs.rows.tolist(), arcs.points(np.linspace(0.0, 1.0, count + 1)), strict=True))
+    legs = [chords[k][1:] if k in chords else mine.motions.end[k : k + 1] for k in range(len(rows))]
+    row = np.repeat(np.asarray(rows), [len(leg) for leg in legs]).tolist()
+    return _Run(rows, row, Way(rows.start, np.concatenate([mine.motions.start[:1], *legs]), pin))
+
+
+def _metal_heights(metal: Metal, before: Workpiece, runs: Sequence[_Run], progress: Progress) -> list[float | None]:
+    """Return for each run how high the metal is where the dead centre goes deepest into it, None where it meets none."""
+    course, top, pitch = metal.courses[-1], float(before.heights.max()), before.grid.pitch
+    asked, cutters, owner = _with_ways(course, metal.cutters, [run.way for run in runs])
+    found: dict[int, float] = {}
+    for hit in trim(before, asked, cutters, progress=progress).rapids:
+        if owner[hit.motion] >= 0:
+            found[owner[hit.motion]] = max(found.get(owner[hit.motion], -np.inf), hit.z + hit.depth)
+    for k, run in enumerate(runs):
+        if k not in found and run.way.cutter.radius < NARROW * pitch:
+            progress.step(1.0)
+            closer = metal.met(run.way, top, pitch)
+            if closer is not None:
+                found[k] = closer.z + closer.depth
+    return [found.get(k) for k in range(len(runs))]
+
+
+def _with_ways(course: Course, cutters: Mapping[int, Cutter], ways: Sequence[Way]) -> tuple[Course, dict[int, Cutter], list[int]]:
+    """Return a course that is asked along some ways too, all cutters, and to which way each motion belongs, -1: to none."""
+    radii = sorted({way.cutter.radius for way in ways})
+    first = int(max([*cutters, course.tool.max()])) + 1
+    all_cutters = {**cutters, **{first + k: Cutter(radius, radius) for k, radius in enumerate(radii)}}
+    parts, count = [way.course().motions for way in ways], len(course.motions)
+    sizes = [len(part) for part in parts]
+    at = np.repeat([way.row for way in ways], sizes)
+    columns = {name: np.insert(getattr(course.motions, name), at, np.concatenate([getattr(part, name) for part in parts]), axis=0)
+               for name in COLUMNS}  # fmt: skip
+    tool = np.insert(course.tool, at, np.repeat([first + radii.index(way.cutter.radius) for way in ways], sizes))
+    owner = np.insert(np.full(count, -1), at, np.repeat(np.arange(len(ways)), sizes))
+    place = np.flatnonzero(owner < 0)
+    splines = {int(place[row]): spline for row, spline in course.motions.splines.items()}
+    left_out = tuple(place[list(course.left_out)].tolist())
+    return Course(replace(course.motions, splines=splines, **columns), tool.astype(np.int32), left_out), all_cutters, owner.tolist()
+
+
+def _plunge(run: _Run, height: float, tool: int) -> Plunge:
+    """Return a run as what it is below the height of the metal."""
+    points, deep = run.way.points, run.way.points[1:, 2] < height
+    start, end = points[:-1][deep], points[1:][deep]
+    part = np.minimum((height - end[:, 2]) / np.maximum(start[:, 2] - end[:, 2], LEVEL * LEVEL), 1.0)[:, None]
+    places = np.concatenate([end + (start - end) * part, end])[:, :2]
+    middle = (places.max(axis=0) + places.min(axis=0)) / 2
+    aside = float(np.max(np.hypot(*(places - middle).T)))
+    x, y, z = points[-1].tolist()
+    return Plunge(run.row[int(np.argmax(deep))], tool, x, y, height - z, aside)
