@@ -58,7 +58,8 @@ class StagesPanel(QScrollArea):
         self.wrong, self.chains = QLabel(), ChainsPanel()
         self.points = NumberField(Spec("Resolution", "px", LEAST, MOST, 0, False, "Rows and columns of the bitmap; in 1986, 400."))
         self.pitch = NumberField(Spec("Pitch", "mm", 0.0001, 1000, 4, True, "Size of a pixel; the bitmap is then as large as it must be."))
-        self.bitmap, self.given_up = muted(), muted()
+        self.bitmap, self.given_up, self.finding = muted(), muted(), QLabel()
+        self.finding.setProperty("role", "error")
         self._told = QWidget()
         self._lines = [hairline(), hairline()]
         self._of_still: tuple[QWidget, ...] = (self.place, self.sentence, self.notes, self.rules, self.wrong, self.chains, *self._lines,
@@ -72,7 +73,7 @@ class StagesPanel(QScrollArea):
     def _lay_out(self) -> None:
         inner = QWidget()
         inner.setObjectName("sidePanel")
-        for label in (self.title, self.sentence, self.notes, self.wrong, self.bitmap, self.given_up):
+        for label in (self.title, self.sentence, self.notes, self.wrong, self.bitmap, self.given_up, self.finding):
             label.setWordWrap(True)
         self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.rules.show_value(Rules.SETTLED)
@@ -89,7 +90,7 @@ class StagesPanel(QScrollArea):
         column.addWidget(self._told)
         column.addWidget(self.rules)
         column.addWidget(self.wrong)
-        bitmap = (self.points, self.pitch, self.bitmap, self.given_up)
+        bitmap = (self.points, self.pitch, self.bitmap, self.given_up, self.finding)
         for line, group in ((self._lines[0], bitmap), (self._lines[1], (self.chains,))):
             column.addSpacing(2)
             column.addWidget(line)
@@ -103,6 +104,7 @@ class StagesPanel(QScrollArea):
         """Tell of another stage; of none, only how fine the bitmap is."""
         for widget in self._of_still:
             widget.setVisible(still is not None)
+        self.finding.setVisible(still is not None and bool(self.finding.text()))
         if still is None:
             self.title.setText("Stages")
             return
@@ -124,8 +126,11 @@ class StagesPanel(QScrollArea):
         self.pitch.show_value(frame.pitch)
         self.bitmap.setVisible(picture)
         self.bitmap.setText(f"The picture's own {grouped(frame.cols, 0)} {TIMES} {grouped(frame.rows, 0)} px of {frame.pitch:.4g} mm")
-        self.given_up.setText(f"Never gouging costs up to {given_up.most_mm:.3f} mm at the walls, "
-                              f"{given_up.mean_mm:.3f} mm in the mean.{_rough(reel.made.unsmoothed)}")
+        cost = f"Never gouging costs up to {given_up.most_mm:.3f} mm at the walls, {given_up.mean_mm:.3f} mm in the mean."
+        paths = any(each.levels for each in reel.made.paths)
+        self.given_up.setText(f"{cost}{_rough(reel.made.unsmoothed)}" if paths else "")
+        self.finding.setText(_finding(reel))
+        self.finding.setVisible(bool(self.finding.text()))
 
     def _show_wrong(self, reel: Reel) -> None:
         masks = [still.wrong for still in reel.film.stills if still.wrong is not None]
@@ -147,6 +152,15 @@ def _place(still: Still) -> str:
     region = f"Region {still.region}" if still.region else "All regions"
     what = "peel" if 301 <= still.number <= 305 else "path"
     return f"{region}, {what} {still.turn}" if still.number in (*range(301, 306), 145, 146, 147) else region
+
+
+def _finding(reel: Reel) -> str:
+    """Return what is wrong with the paths, the worst of it."""
+    if not reel.made.paths:
+        return "No operation is switched on, so there are no paths."
+    counting = [finding for finding in reel.made.program.findings if finding.counts]
+    more = f" {counted(len(counting) - 1, 'more finding')}." if len(counting) > 1 else ""
+    return f"{counting[0].text}{more}" if counting else ""
 
 
 def _rough(count: int) -> str:

@@ -252,3 +252,16 @@ def test_more_than_30_stages_are_shown_in_a_second(qtbot, staged):
         return 40 / (time.perf_counter() - begun)
 
     assert max(rate() for _ in range(3)) >= 30
+
+
+def test_what_gets_no_path_is_said(qtbot, staged):
+    panel = staged.window_.stages_panel
+    assert not panel.finding.isVisible()
+    for index in (0, 1):
+        before = staged.staging.reel
+        staged.window_.panel.operations.switched.emit(index, False)
+        qtbot.waitUntil(lambda reel=before: staged.staging.reel is not reel, timeout=WAIT_MS)
+    assert staged.window_.views.stages.rail.numbers == (110,) and "No operation" in panel.finding.text() and panel.finding.isVisible()
+    staged.window_.panel.operations.switched.emit(1, True)
+    staged.run("circle 60,5 1")
+    qtbot.waitUntil(lambda: "too small for T2" in panel.finding.text(), timeout=WAIT_MS)
