@@ -125,7 +125,7 @@ def cut(setup: CutSetup, options: CutOptions = CutOptions(), progress: Progress 
     result, accidents = run.cut(progress.part(0.0, 0.4))
     judgement = run.judged(result, exact, progress.part(0.4, 1.0)) if setup.part is not None else None
     outside = beyond(setup.part, run.box()) if setup.part is not None and options.judge else ()
-    findings = worst_first((*accidents, *outside, *(findings_of(judgement) if judgement is not None else ())))
+    findings = worst_first((*accidents, *outside, *(findings_of(judgement, setup.where) if judgement is not None else ())))
     return CutProgram(setup, options, result, float(run.workpiece.heights.max()), run.workpiece.floor, judgement, findings)
 
 

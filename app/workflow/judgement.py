@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
@@ -111,16 +111,20 @@ class Judgement:
         return self.gouge.count == 0 and self.reachable_mm2 == 0
 
 
-def findings_of(judgement: Judgement) -> tuple[Finding, ...]:
-    """Return what there is to say of a judgement, in program coordinates; what is out of reach is a remark."""
-    return tuple(_told(judgement))
+def findings_of(judgement: Judgement, where: Callable[[int], str]) -> tuple[Finding, ...]:
+    """Return what there is to say of a judgement, in program coordinates; what is out of reach is a remark.
+
+    Args:
+        where: words for the place of a motion in the text, such as "NC line 7".
+    """
+    return tuple(_told(judgement, where))
 
 
-def _told(judgement: Judgement) -> Iterator[Finding]:
+def _told(judgement: Judgement, where: Callable[[int], str]) -> Iterator[Finding]:
     by_kind = {kind: [spot for spot in judgement.spots if spot.kind is kind] for kind in SpotKind}
     gouges, left, beyond = by_kind[SpotKind.GOUGE], by_kind[SpotKind.LEFT], by_kind[SpotKind.UNREACHABLE]
     for spot in gouges[:1]:
-        line = f", NC line {spot.line}" if spot.line else ""
+        line = f", {where(spot.motion)}" if spot.motion >= 0 else ""
         text = (f"The part is gouged in {_places(judgement.gouge.count)}, the worst {spot.depth_mm:.4f} mm deep at ({spot.x:.3f}, "
                 f"{spot.y:.3f}, {spot.z:.3f}){line}; do not run this program.")
         yield Finding(FindingKind.GOUGE, text, spot.x, spot.y, amount=spot.depth_mm, line=spot.line)

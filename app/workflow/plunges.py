@@ -24,11 +24,17 @@ PIN = 0.25
 RAMP = 0.5
 """mm down per mm sideways, from which on a motion is no ramp."""
 
+UPRIGHT = 10.0
+"""mm down per mm sideways, from which on a motion counts as upright, whatever follows it."""
+
 WINDS = 6.0
 """Times the radius that it keeps within, that a way is long if it goes round or to and fro; once round is 2 pi times."""
 
 TURN = 32
 """Chords of a whole turn of a helix."""
+
+NONE = 0
+"""The sort of motions that go into no run."""
 
 Mask = NDArray[np.bool_]
 
@@ -100,12 +106,13 @@ def _runs(course: Course, cutters: Mapping[int, Cutter], top: float) -> Iterator
     down[list(course.left_out)] = False
     if not down.any():
         return
-    steep = down & ((-way[:, 2] > RAMP * np.hypot(way[:, 0], way[:, 1])) | _turns_within(course, pin))
-    ends = np.concatenate([_consecutive(steep, course.tool), _consecutive(down & ~steep, course.tool)])
-    for first, last in ends[np.argsort(ends[:, 0])].tolist():
-        rows, radius = range(first, last + 1), float(pin[first])
+    aside = np.hypot(way[:, 0], way[:, 1])
+    steep = (-way[:, 2] > RAMP * aside) | _turns_within(course, pin)
+    alike = np.select([~down, -way[:, 2] > UPRIGHT * aside, steep], [NONE, 1, 2], 3)
+    for first, last in _alike(alike, course.tool):
+        radius = float(pin[first])
         if _stays(motions.start[first : last + 1], motions.end[first : last + 1], top, radius, not steep[first]):
-            yield _run(course, rows, Cutter(radius, radius))
+            yield _run(course, range(first, last + 1), Cutter(radius, radius))
 
 
 def _turns_within(course: Course, pin: Floats) -> Mask:
@@ -116,12 +123,12 @@ def _turns_within(course: Course, pin: Floats) -> Mask:
     return np.asarray(arc & (from_centre < pin))
 
 
-def _consecutive(mask: Mask, tool: NDArray[np.int32]) -> NDArray[np.intp]:
-    """Return (k, 2) first and last of the rows in unbroken runs of one tool."""
-    rows = np.flatnonzero(mask)
-    breaks = np.flatnonzero((np.diff(rows) > 1) | (np.diff(tool[rows]) != 0))
-    return np.column_stack([rows[np.concatenate([[0], breaks + 1])], rows[np.concatenate([breaks, [-1]])]]) if len(rows) else np.zeros(
-        (0, 2), np.intp)  # fmt: skip
+def _alike(sort: NDArray[np.int64], tool: NDArray[np.int32]) -> list[tuple[int, int]]:
+    """Return the first and the last row of unbroken runs of one sort and one tool; those of no sort are left out."""
+    first = np.flatnonzero(np.concatenate([[True], (np.diff(sort) != 0) | (np.diff(tool) != 0)]))
+    last = np.concatenate([first[1:], [len(sort)]]) - 1
+    some = sort[first] != NONE
+    return list(zip(first[some].tolist(), last[some].tolist(), strict=True))
 
 
 def _stays(start: Floats, end: Floats, top: float, radius: float, shallow: bool) -> bool:
