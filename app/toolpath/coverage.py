@@ -232,6 +232,8 @@ def _solid(shape: Shape) -> Shape:
     """Return the shape without strips thinner than STRIP (an opening)."""
     thin = STRIP / 2
     kept = shapely.buffer(shape, -thin, join_style="mitre")
+    if kept.is_empty:
+        return kept  # to intersect nothing with lines and areas at once makes GEOS give up
     return shapely.intersection(shapely.buffer(kept, thin, join_style="mitre"), shape)
 
 

@@ -17,7 +17,7 @@ from app.model.job import Job
 from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.model.part import Contour, Part, Region
 from app.model.tool import Tool
-from app.toolpath.coverage import _widened, coverage_findings, measure
+from app.toolpath.coverage import _solid, _widened, coverage_findings, measure
 from app.toolpath.proven import uncertain
 from tests.nc.programs import Path, square
 
@@ -172,3 +172,10 @@ def test_a_path_that_crosses_itself_is_never_widened_to_more_than_its_swath(data
     swath = shapely.union_all(_widened(points, 0.6))
     exact = shapely.union_all([shapely.LineString(pair).buffer(0.6, quad_segs=64) for pair in pairwise(points)])
     assert swath.area == pytest.approx(exact.area, rel=2e-3)
+
+
+def test_lines_and_slivers_together_are_nothing_that_is_left() -> None:
+    sliver, corner = shapely.box(0, 0, 1e-9, 5), shapely.box(7, 0, 9, 2)
+    line = shapely.LineString([(2, 0), (5, 5)])
+    assert _solid(shapely.GeometryCollection([line, sliver])).is_empty
+    assert _solid(shapely.GeometryCollection([line, sliver, corner])).area == pytest.approx(4)
