@@ -7,7 +7,7 @@ them, and a gouge that only the cells show counts too. For a solid, and where a 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -27,6 +27,7 @@ from app.workflow.parts import FlatPart, Part, SolidPart
 from app.workflow.places import CellPlace, places_of
 from app.workflow.solid_depth import DepthInSolid
 from app.workflow.verdict import Gouge
+from app.workflow.wall_probe import WallProbe
 
 Mask = NDArray[np.bool_]
 
@@ -81,13 +82,14 @@ def wanted_over(part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...],
 
 @dataclass(frozen=True, eq=False)
 class Judging:
-    """What a judgement is made of: the cut, the part over it, what closed forms say, and the lines of the motions."""
+    """What a judgement is made of: the cut, the part over it, what closed forms say, the lines of the motions, who asks walls."""
 
     part: Part
     cut: Cut
     wanted: Wanted
     exact: Exact | None
     lines: NDArray[np.int32]
+    probe: WallProbe | None = None
 
     @property
     def grid(self) -> Grid:
@@ -140,10 +142,31 @@ def _gouges(judging: Judging, deviation: NDArray[np.float32]) -> tuple[tuple[Spo
     if exact:
         return exact, len(exact)
     places, count = places_of(deviation < -part.tolerance, -deviation, judging.grid)
-    depth_in = DepthInSolid(part.solid, part.leave) if isinstance(part, SolidPart) and places else None
+    narrow = list(_apart(judging.probe.spots())) if judging.probe is not None else []
+    depth_in = DepthInSolid(part.solid, part.leave) if isinstance(part, SolidPart) and (places or narrow) else None
+    if depth_in is not None:
+        narrow = [replace(spot, depth_mm=depth_in.over((spot.x, spot.y), (spot.z, math.inf), spot.depth_mm)) for spot in narrow]
     spots = [_gouge_of_cells(judging, place, depth_in) for place in places]
     deep = [spot for spot in spots if spot.depth_mm > part.tolerance]
-    return tuple(sorted(deep, key=lambda spot: -spot.depth_mm)), len(deep) + count - len(places)
+    told = [spot for spot in narrow if spot.depth_mm > part.tolerance and not _near(spot, [each for each in deep if each.depth_mm > APART])]
+    deep = [spot for spot in deep if not _near(spot, told)]
+    return tuple(sorted((*deep, *told), key=lambda spot: -spot.depth_mm)), len(deep) + len(told) + count - len(places)
+
+
+def _near(spot: Spot, others: Sequence[Spot]) -> bool:
+    """Return whether a spot is one of others, but for a little way."""
+    return any(np.hypot(spot.x - other.x, spot.y - other.y) <= APART for other in others)
+
+
+def _apart(spots: Iterator[Spot]) -> Iterator[Spot]:
+    """Yield spots but for those near an earlier one, not too many."""
+    told: list[Spot] = []
+    for spot in spots:
+        if not _near(spot, told):
+            told.append(spot)
+            yield spot
+        if len(told) == MOST_GOUGES:
+            return
 
 
 def _exact_gouges(judging: Judging) -> Iterator[Spot]:

@@ -1,0 +1,145 @@
+"""Gouges in a solid's walls that are narrower than the cells: points just inside each wall are asked one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from app.dexel.solid import SolidStock
+from app.dexel.workpiece import Workpiece
+from app.model.motion import Floats
+from app.workflow.judgement import Spot, SpotKind
+from app.workflow.parts import SolidPart
+
+STEEP = 0.45
+"""Z of a triangle's normal up to which it is a wall: 63 degrees and more."""
+
+MOST_POINTS = 60_000
+DOUBLINGS, HALVINGS = 6, 12
+"""How a gouge's depth is found: from a quarter of a cell on twice as deep each time, then between the last two."""
+
+ASIDE = 1e-4
+"""mm from a wall at which its top is asked."""
+
+Probe = Callable[[Floats], tuple[Floats, NDArray[np.int64]]]
+"""Gives the height that is left at points (m, 2), and the motion that cut it, -1 = none."""
+
+
+@dataclass(frozen=True, eq=False)
+class WallProbe:
+    """What a probe of walls needs.
+
+    Attributes:
+        part: whose walls. lowest: gives the height that is cut down to, and by whom.
+        before: the stock; on its grid, half a cell apart, lie the points.
+        lines: NC line of each motion.
+    """
+
+    part: SolidPart
+    lowest: Probe
+    before: Workpiece
+    lines: NDArray[np.int32]
+
+    def spots(self) -> Iterator[Spot]:
+        """Yield the gouges at the walls, one for each point that is gouged, the deepest first."""
+        part, pitch = self.part, self.before.grid.pitch
+        asking = _Asking(*wall_points(part.solid, pitch), self, Tops(part.solid))
+        start = part.tolerance - part.leave
+        heights, motion, gouged = asking.at(np.full(len(asking.points), start))
+        if not gouged.any():
+            return
+        asking = asking.only(gouged)
+        heights, motion = heights[gouged], motion[gouged]
+        known, beyond = np.full(len(heights), start), np.full(len(heights), np.nan)
+        for k in range(1, DOUBLINGS + 1):
+            depth = np.full(len(heights), start + pitch * 2.0 ** (k - 3))
+            still, open_ = asking.at(depth)[2], np.isnan(beyond)
+            known, beyond = np.where(open_ & still, depth, known), np.where(open_ & ~still, depth, beyond)
+        beyond = np.where(np.isnan(beyond), known, beyond)
+        for _ in range(HALVINGS):
+            middle = (known + beyond) / 2
+            still = asking.at(middle)[2]
+            known, beyond = np.where(still, middle, known), np.where(still, beyond, middle)
+        places = asking.points + asking.inwards * known[:, None]
+        for k in np.argsort(-known, kind="stable").tolist():
+            x, y = places[k].tolist()
+            depth_mm, line = float(known[k]) + part.leave, int(self.lines[motion[k]])
+            yield Spot(SpotKind.GOUGE, x, y, float(heights[k]), depth_mm, 0.0, 0.0, line, int(motion[k]))
+
+
+@dataclass(frozen=True, eq=False)
+class _Asking:
+    """Points on walls, the way into the solid there, and whom to ask."""
+
+    points: Floats
+    inwards: Floats
+    probe: WallProbe
+    tops: Tops
+
+    def only(self, chosen: NDArray[np.bool_]) -> _Asking:
+        """Return some of the points."""
+        return _Asking(self.points[chosen], self.inwards[chosen], self.probe, self.tops)
+
+    def at(self, depth: Floats) -> tuple[Floats, NDArray[np.int64], NDArray[np.bool_]]:
+        """Return the heights that are cut down to at depths (m,) in the solid, < 0 beside it, by whom, and whether that is a gouge."""
+        places = self.points + self.inwards * depth[:, None]
+        heights, motion = self.probe.lowest(places)
+        wanted = self.tops.over(self.points + self.inwards * np.maximum(depth, ASIDE)[:, None])
+        metal = np.minimum(wanted, self._stock(places))
+        return heights, motion, (motion >= 0) & (heights < metal - self.probe.part.tolerance)
+
+    def _stock(self, places: Floats) -> Floats:
+        """Return the stock's height at places; -infinite beside its grid."""
+        grid, heights = self.probe.before.grid, self.probe.before.heights
+        cols, rows = (np.floor((places[:, axis] - start) / grid.pitch).astype(np.int64) for axis, start in ((0, grid.x0), (1, grid.y0)))
+        beside = (rows < 0) | (rows >= grid.rows) | (cols < 0) | (cols >= grid.cols)
+        there = heights[np.clip(rows, 0, grid.rows - 1), np.clip(cols, 0, grid.cols - 1)].astype(np.float64)
+        return np.where(beside, -np.inf, there)
+
+
+def wall_points(solid: SolidStock, pitch: float) -> tuple[Floats, Floats]:
+    """Return points (m, 2) on a solid's walls seen from above, half a cell apart, and the way into the solid there, of length 1."""
+    a, b, c = np.moveaxis(solid.triangles, 1, 0)
+    normal = np.cross(b - a, c - a)
+    size = np.linalg.norm(normal, axis=1)
+    wall = (size > 0) & (np.abs(normal[:, 2]) < STEEP * size)
+    corners, normal = solid.triangles[wall], normal[wall]
+    if not len(corners):
+        return np.zeros((0, 2)), np.zeros((0, 2))
+    inwards = -normal[:, :2] / np.hypot(normal[:, 0], normal[:, 1])[:, None]
+    along = np.column_stack([-inwards[:, 1], inwards[:, 0]])
+    spread = np.einsum("ijk,ik->ij", corners[..., :2], along)
+    first, last = np.argmin(spread, axis=1), np.argmax(spread, axis=1)
+    each = np.arange(len(corners))
+    begin, end = corners[each, first, :2], corners[each, last, :2]
+    length = np.hypot(*(end - begin).T)
+    step = max(pitch / 2, float(length.sum()) / MOST_POINTS)
+    counts = np.maximum(1, np.ceil(length / step)).astype(np.int64)
+    owner = np.repeat(each, counts)
+    share = (np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts) + 0.5) / counts[owner]
+    return begin[owner] + (end - begin)[owner] * share[:, None], inwards[owner]
+
+
+class Tops:
+    """Answers how high a solid stands over points."""
+
+    def __init__(self, solid: SolidStock) -> None:
+        self._corners = solid.triangles
+        low, high = self._corners.min(axis=1), self._corners.max(axis=1)
+        self._boxes = shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
+
+    def over(self, points: Floats) -> Floats:
+        """Return the solid's top (m,) over points (m, 2), mm; -infinite beside it."""
+        point, triangle = self._boxes.query(shapely.points(points))
+        a, b, c = np.moveaxis(self._corners[triangle], 1, 0)
+        x, y = points[point].T
+        sides = [(q[:, 0] - p[:, 0]) * (y - p[:, 1]) - (q[:, 1] - p[:, 1]) * (x - p[:, 0]) for p, q in ((b, c), (c, a), (a, b))]
+        total = sides[0] + sides[1] + sides[2]
+        met = (total != 0) & ~np.any([side * np.sign(total) < 0 for side in sides], axis=0)
+        heights = np.full(len(points), -np.inf)
+        np.maximum.at(heights, point[met], (sides[0] * a[:, 2] + sides[1] * b[:, 2] + sides[2] * c[:, 2])[met] / total[met])
+        return heights
