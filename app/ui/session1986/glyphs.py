@@ -98,7 +98,7 @@ _CELLS = _read_shapes()
 
 def spoken(text: str) -> str:
     """Return a text in the characters that the terminal has: capitals, figures and signs; what it lacks becomes "?"."""
-    capitals = text.upper().translate(_OTHERS).upper()
+    capitals = text.translate(_OTHERS).upper()
     return "".join(each if _FIRST <= ord(each) < _FIRST + len(_CELLS) else "?" for each in capitals)
 
 

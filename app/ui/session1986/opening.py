@@ -7,7 +7,8 @@ from PySide6.QtCore import QObject
 from app.model.job import Job
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
-from app.ui.session1986.session import Ask, Session
+from app.ui.session1986.questions import Ask
+from app.ui.session1986.session import Session
 from app.ui.session1986.tube import Tube
 from app.ui.showing import Showing
 from app.ui.views import View

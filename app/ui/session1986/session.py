@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from enum import Enum, auto
 
 from PySide6.QtCore import QObject, Signal
 
@@ -17,6 +16,7 @@ from app.ui.session1986.answers import amount, offered
 from app.ui.session1986.draft import Draft
 from app.ui.session1986.making import Outline, Paths, Shape, outline_of, paths_of, sample_job, shape_of
 from app.ui.session1986.playing import Listing, Playing
+from app.ui.session1986.questions import BACK, BUSY, Ask, prompt
 from app.ui.session1986.screen import BOTTOM, TOP, Place, Screen, card
 from app.ui.session1986.stills import Still
 from app.ui.worker import Answer, Worker
@@ -26,23 +26,7 @@ LONGEST = 200
 """Characters of an answer."""
 
 
-class Ask(Enum):
-    """Which question the operator is at, or what goes on."""
-
-    SHAPE = auto()
-    DRAW = auto()
-    CONTOUR = auto()
-    POCKET = auto()
-    OVERLAP = auto()
-    WORK = auto()
-    PLAY = auto()
-    LIST = auto()
-    DONE = auto()
-
-
-_BACK = {Ask.DRAW: Ask.SHAPE, Ask.CONTOUR: Ask.SHAPE, Ask.POCKET: Ask.CONTOUR, Ask.OVERLAP: Ask.POCKET, Ask.DONE: Ask.OVERLAP}
 _LEAST_OVERLAP = 1e-3
-_BUSY = (Ask.WORK, Ask.PLAY, Ask.LIST)
 
 
 class Session(QObject):
@@ -90,7 +74,7 @@ class Session(QObject):
 
     def type(self, text: str) -> None:
         """Take characters from the keyboard."""
-        if self.ask not in _BUSY:
+        if self.ask not in BUSY:
             self.screen.typed = (self.screen.typed + text)[:LONGEST]
             self.changed.emit()
 
@@ -131,7 +115,7 @@ class Session(QObject):
 
     def interrupt(self) -> None:
         """Break off what goes on and ask again; every answer is kept."""
-        if self.ask in _BUSY:
+        if self.ask in BUSY:
             self.worker.cancel()
             self.playing.stop()
             self.listing.stop()
@@ -159,8 +143,8 @@ class Session(QObject):
 
     def _answer(self, text: str) -> None:
         word = text.upper()
-        if word == "BACK" and self.ask in _BACK:
-            self._go_back(_BACK[self.ask])
+        if word == "BACK" and self.ask in BACK:
+            self._go_back(BACK[self.ask])
         elif word == "NEW":
             self.begin()
         else:
@@ -288,7 +272,7 @@ class Session(QObject):
 
     def _question(self, ask: Ask) -> None:
         self.ask = ask
-        self.screen.typed, self.screen.prompt = "", self._prompt(ask)
+        self.screen.typed, self.screen.prompt = "", prompt(ask, self.given, bool(self._current().part.entities))
         self._show_ground(ask)
         if ask is Ask.DRAW:
             self.point(self.screen.hair or _MIDDLE)
@@ -311,15 +295,6 @@ class Session(QObject):
         else:
             screen.picture = self.draft.picture() if ask is Ask.DRAW else card()
             screen.head = ("DRAW THE SHAPE" if ask is Ask.DRAW else "TOOL PATH GENERATION", "1986")
-
-    def _prompt(self, ask: Ask) -> str:
-        given = self.given
-        return {
-            Ask.SHAPE: f"SHAPE [{1 if self._current().part.entities else 2}]?", Ask.DRAW: "DRAW?",
-            Ask.CONTOUR: f"CONTOUR TOOL OFFSET, MM [{given.contour:.6g}]?",
-            Ask.POCKET: f"POCKET TOOL OFFSET, MM [{given.pocket:.6g}]?",
-            Ask.OVERLAP: f"POCKET TOOL OVERLAP, MM [{given.overlap:.6g}]?",
-        }.get(ask, "RETURN FOR THE MODERN VIEWS, BACK, NEW?")
 
     def _refuse(self, sentence: str, ask: Ask, keep: bool = False) -> None:
         """Say what is wrong and ask again; what was typed stands there to be mended where it is kept."""

@@ -7,12 +7,13 @@ from enum import Enum
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QPointF, QRect, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QHideEvent, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QShowEvent
+from PySide6.QtGui import QColor, QFocusEvent, QHideEvent, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QShowEvent
 from PySide6.QtWidgets import QWidget
 
 from app.bitmap.frame import POINTS
+from app.ui.session1986.questions import Ask
 from app.ui.session1986.screen import PAGE_LINES, Place
-from app.ui.session1986.session import Ask, Session
+from app.ui.session1986.session import Session
 
 BLINK_MS = 500
 GLOW = 0.22
@@ -22,6 +23,7 @@ _SURROUND, _BEZEL = QColor("#0A0B0C"), QColor("#131517")
 _BEZEL_PX = 12
 _ARROWS = {Qt.Key.Key_Up: (-1, 0), Qt.Key.Key_Down: (1, 0), Qt.Key.Key_Left: (0, -1), Qt.Key.Key_Right: (0, 1)}
 _FAST = 10
+_COMMANDS = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.MetaModifier
 
 
 class Phosphor(Enum):
@@ -95,6 +97,12 @@ class Tube(QWidget):
             return True
         return super().event(event)
 
+    def focusOutEvent(self, event: QFocusEvent) -> None:  # noqa: N802 (Qt's name)
+        """Take the keys back from what is underneath."""
+        super().focusOutEvent(event)
+        if self.isVisible() and event.reason() is Qt.FocusReason.OtherFocusReason:
+            QTimer.singleShot(0, self.setFocus)
+
     def focusNextPrevChild(self, onwards: bool) -> bool:  # noqa: N802 (Qt's name)
         """Keep Tab: it puts the cross hair."""
         return False
@@ -116,7 +124,7 @@ class Tube(QWidget):
             self._arrow(_ARROWS[Qt.Key(key)], bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
         elif session.ask in (Ask.PLAY, Ask.LIST) and key == Qt.Key.Key_Space:
             session.hold()
-        elif event.text().isprintable() and event.text():
+        elif event.text().isprintable() and not event.modifiers() & _COMMANDS:
             session.type(event.text())
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)

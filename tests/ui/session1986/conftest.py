@@ -1,0 +1,57 @@
+"""A session over a real window, driven by keys."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import Qt
+
+from app.ui.session1986.questions import Ask
+from tests.ui.conftest import WAIT_MS
+
+
+class Operator:
+    """Types on the terminal's keyboard and looks at its screen."""
+
+    def __init__(self, qtbot, wiring) -> None:
+        self.bot, self.wiring = qtbot, wiring
+        wiring.window_.actions_["session_1986"].trigger()
+        self.opening = wiring.session_1986
+        self.session, self.tube = self.opening.session, self.opening.tube
+
+    @property
+    def screen(self):
+        return self.session.screen
+
+    def key(self, key, modifiers=Qt.KeyboardModifier.NoModifier) -> None:
+        self.bot.keyClick(self.tube, key, modifiers)
+
+    def answer(self, text: str = "") -> None:
+        self.bot.keyClicks(self.tube, text)
+        self.key(Qt.Key.Key_Return)
+
+    def until(self, ask: Ask) -> None:
+        self.bot.waitUntil(lambda: self.session.ask is ask, timeout=WAIT_MS)
+
+    def see_all(self, ask: Ask) -> None:
+        """Have what is shown go to its end, until this is asked."""
+        self.until(Ask.PLAY)
+        while self.session.ask is not ask:
+            self.key(Qt.Key.Key_Return)
+
+    def to_pocket(self, shape: str = "2") -> None:
+        """Answer up to the pocket tool's offset."""
+        self.answer(shape)
+        self.until(Ask.CONTOUR)
+        self.answer("1.5")
+        self.see_all(Ask.POCKET)
+
+    def said(self) -> str:
+        return " ".join(self.screen.talk)
+
+
+@pytest.fixture
+def operator(qtbot, wiring):
+    """An operator at the first question, over an empty window."""
+    made = Operator(qtbot, wiring)
+    yield made
+    made.session.finish()
