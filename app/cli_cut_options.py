@@ -24,7 +24,8 @@ EPILOG = """\
 Tools that are not given with --tool are looked for in the job file, in the tool table, in the program's comments; the stock in
 the job file (with --against DRAWING), in the comments, or else it is a box round the cuts, which is said. A program that `make` has
 written tells everything. Coordinates are those of the program, tool lengths taken off. Several programs are cut one after the other.
-D is a diameter: 6, 6mm, 0.25in, 1/4in. Lengths are mm unless a unit is written. Exit status 0: done and clean; 1: with findings
+D is a diameter: 6, 6mm, 0.25in, 1/4in. Lengths are mm unless a unit is written. Mills given by --tool have two flutes and cut at
+their centre; a job file tells of others. Exit status 0: done and clean; 1: with findings
 (gouge, metal left within reach, rapid in material, a start in the stock, …); 2: something cannot be used; 130: cancelled.
 """
 
@@ -158,7 +159,8 @@ def _program_options(group: argparse._ArgumentGroup) -> None:
 def _look_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--grid", metavar="N", type=typed(_cells), default=CELLS,
                        help=f"square cells along the longer side (default {CELLS})")
-    group.add_argument("--window", metavar="X0,Y0,X1,Y1", type=typed(window_given), help="only this part of the stock, as finely")
+    group.add_argument("--window", metavar="X0,Y0,X1,Y1", type=typed(window_given),
+                       help="only this part of the stock, as finely; what goes wrong on the way is told of all of it")
     group.add_argument("--engine", choices=["auto", "cpu", *LATER_ENGINES], default="auto", help="what computes (default auto: cpu)")
 
 

@@ -112,10 +112,15 @@ def _rapids(stage: Stage, looked: Looked) -> Iterator[Finding]:
     if len(hits) > NAMED:
         yield Finding(FindingKind.RAPID_IN_MATERIAL, f"{len(hits) - NAMED} more rapids go through metal; do not run this program.",
                       amount=float(len(hits) - NAMED))  # fmt: skip
-    if looked.unseen:
-        yield Finding(FindingKind.TOLERANCE, f"{looked.unseen} rapids of cutters narrower than {stage.before.grid.pitch:.3g} mm cells, the "
-                      "last ones, were not looked at between the cells; use more cells (--grid).", counts=False,
-                      amount=float(looked.unseen))  # fmt: skip
+    yield from _unseen(stage, looked.unseen, "rapids")
+
+
+def _unseen(stage: Stage, count: int, what: str) -> Iterator[Finding]:
+    """Yield a remark where there was too much to look at between the cells."""
+    if count:
+        text = (f"{count} {what} of narrow cutters, the last ones, were not looked at between the cells, {stage.before.grid.pitch:.3g} mm "
+                "wide; use more cells (--grid).")
+        yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=float(count))
 
 
 def _sideways_out(stage: Stage) -> Iterator[Finding]:
@@ -167,7 +172,8 @@ def _at_unknown_places(stage: Stage) -> Iterator[Finding]:
 
 def _plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
     """Yield the ways down into metal of mills that do not cut at their centre, the first ones one by one."""
-    found = list(plunges(stage.metal, stage.before, progress))
+    all_found = plunges(stage.metal, stage.before, progress)
+    found = all_found.found
     for each in found[:NAMED]:
         aside = "straight down" if each.aside <= ALMOST else f"down, sideways by only {each.aside:.3f} mm,"
         text = (f"T{each.tool} goes {aside} into metal at ({each.x:.3f}, {each.y:.3f}), {stage.where(each.motion)}, and does not cut "
@@ -176,6 +182,7 @@ def _plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
     if len(found) > NAMED:
         yield Finding(FindingKind.PLUNGE, f"{len(found) - NAMED} more times a mill goes down into metal that does not cut at its centre.",
                       amount=float(len(found) - NAMED))  # fmt: skip
+    yield from _unseen(stage, all_found.unseen, "ways down")
 
 
 def _below_table(stage: Stage) -> Iterator[Finding]:

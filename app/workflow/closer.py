@@ -30,6 +30,9 @@ SIDE, LONG = 192, 20_000
 LOOKS = 256
 """Looks at one way, at most; a longer one is looked at in as many places, evenly spread."""
 
+MOST = 3000
+"""Ways of one kind that are looked at closer in a program."""
+
 Box = tuple[float, float, float, float]
 
 

@@ -15,10 +15,7 @@ from app.model.motion import MotionKind
 from app.model.motion_path import reach
 from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
-from app.workflow.closer import NARROW, Metal, Way
-
-MOST = 3000
-"""Rapids that are looked at closer in a program."""
+from app.workflow.closer import MOST, NARROW, Metal, Way
 
 Mask = NDArray[np.bool_]
 

@@ -15,7 +15,7 @@ from app.model.motion import Floats, MotionKind, Plane
 from app.model.motion_path import arc_paths
 from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
-from app.workflow.closer import NARROW, Metal, Way
+from app.workflow.closer import MOST, NARROW, Metal, Way
 from app.workflow.course import COLUMNS, picked
 
 PIN = 0.25
@@ -56,6 +56,14 @@ class Plunge:
     aside: float
 
 
+@dataclass(frozen=True)
+class Plunges:
+    """Those of a program, in their order, and how many ways down could not be looked at closer."""
+
+    found: tuple[Plunge, ...]
+    unseen: int = 0
+
+
 @dataclass(frozen=True, eq=False)
 class _Run:
     """Motions down, one after the other.
@@ -70,8 +78,8 @@ class _Run:
     way: Way
 
 
-def plunges(metal: Metal, before: Workpiece, progress: Progress = NO_PROGRESS) -> Iterator[Plunge]:
-    """Yield where the last program of some plunges with a dead centre.
+def plunges(metal: Metal, before: Workpiece, progress: Progress = NO_PROGRESS) -> Plunges:
+    """Return where the last program of some plunges with a dead centre.
 
     A mill that goes sideways by no more than the radius of its dead centre leaves metal under it that nothing cuts, whether it goes
     straight, slanted, round or to and fro.
@@ -82,16 +90,13 @@ def plunges(metal: Metal, before: Workpiece, progress: Progress = NO_PROGRESS) -
     Raises:
         Cancelled: the job was asked to stop.
     """
-    course, top = metal.courses[-1], float(before.heights.max())
-    runs = list(_runs(course, metal.cutters, top))
+    course = metal.courses[-1]
+    runs = list(_runs(course, metal.cutters, float(before.heights.max())))
     if not runs:
-        return
-    heights = _metal_heights(metal, before, runs, progress)
-    for run, height in zip(runs, heights, strict=True):
-        if height is not None:
-            plunge = _plunge(run, height, int(course.tool[run.rows.start]))
-            if plunge.aside < run.way.cutter.radius:
-                yield plunge
+        return Plunges(())
+    heights, unseen = _metal_heights(metal, before, runs, progress)
+    found = [_plunge(runs[k], height, int(course.tool[runs[k].rows.start])) for k, height in sorted(heights.items())]
+    return Plunges(tuple(each for each in found if each.aside < metal.cutters[each.tool].radius * PIN), unseen)
 
 
 def _runs(course: Course, cutters: Mapping[int, Cutter], top: float) -> Iterator[_Run]:
@@ -150,21 +155,21 @@ def _run(course: Course, rows: range, pin: Cutter) -> _Run:
     return _Run(rows, row, Way(rows.start, np.concatenate([mine.motions.start[:1], *legs]), pin))
 
 
-def _metal_heights(metal: Metal, before: Workpiece, runs: Sequence[_Run], progress: Progress) -> list[float | None]:
-    """Return for each run how high the metal is where the dead centre goes deepest into it, None where it meets none."""
-    course, top, pitch = metal.courses[-1], float(before.heights.max()), before.grid.pitch
-    asked, cutters, owner = _with_ways(course, metal.cutters, [run.way for run in runs])
+def _metal_heights(metal: Metal, before: Workpiece, runs: Sequence[_Run], progress: Progress) -> tuple[dict[int, float], int]:
+    """Return, by run, how high the metal is that the dead centre goes into, and how many runs could not be looked at closer."""
+    top, pitch = float(before.heights.max()), before.grid.pitch
+    asked, cutters, owner = _with_ways(metal.courses[-1], metal.cutters, [run.way for run in runs])
     found: dict[int, float] = {}
-    for hit in trim(before, asked, cutters, progress=progress).rapids:
+    for hit in trim(before, asked, cutters, progress=progress.part(0.0, 0.5)).rapids:
         if owner[hit.motion] >= 0:
             found[owner[hit.motion]] = max(found.get(owner[hit.motion], -np.inf), hit.z + hit.depth)
-    for k, run in enumerate(runs):
-        if k not in found and run.way.cutter.radius < NARROW * pitch:
-            progress.step(1.0)
-            closer = metal.met(run.way, top, pitch)
-            if closer is not None:
-                found[k] = closer.z + closer.depth
-    return [found.get(k) for k in range(len(runs))]
+    narrow = [k for k, run in enumerate(runs) if k not in found and run.way.cutter.radius < NARROW * pitch]
+    for done, k in enumerate(narrow[:MOST]):
+        progress.step(0.5 + 0.5 * done / len(narrow), "Looking at plunges")
+        closer = metal.met(runs[k].way, top, pitch)
+        if closer is not None:
+            found[k] = closer.z + closer.depth
+    return found, max(0, len(narrow) - MOST)
 
 
 def _with_ways(course: Course, cutters: Mapping[int, Cutter], ways: Sequence[Way]) -> tuple[Course, dict[int, Cutter], list[int]]:
