@@ -35,7 +35,7 @@ def test_a_whole_session_by_keys(qtbot, operator) -> None:
     operator.key(Qt.Key.Key_Space)
     operator.until(Ask.LIST)
     operator.key(Qt.Key.Key_Return)
-    operator.until(Ask.DONE)
+    assert operator.session.ask is Ask.DONE
     assert [line for line in operator.screen.page if line][-1] == "M2"
     operator.answer()
     assert operator.tube.isHidden()
