@@ -130,7 +130,7 @@ def _sideways_out(stage: Stage) -> Iterator[Finding]:
     rows = np.flatnonzero((motions.kind == MotionKind.RAPID) & nowhere[:, :2].any(axis=1) & known_before)
     for row in rows.tolist():
         cutter, place = stage.cutters.get(int(stage.known.course.tool[row])), motions.end[row - 1]
-        depth = 0.0 if cutter is None or place[2] >= stage.top - LEVEL else _beside(stage, row, place, cutter.radius)
+        depth = 0.0 if cutter is None or place[2] >= stage.top - LEVEL else _beside(stage, row, place, cutter)
         if depth > LEVEL:
             x, y, z = place.tolist()
             text = (f"The rapid in {stage.where(row)} sets out sideways from ({x:.3f}, {y:.3f}, {z:.3f}) for a place that nobody knows, "
@@ -138,18 +138,18 @@ def _sideways_out(stage: Stage) -> Iterator[Finding]:
             yield stage.told(FindingKind.RAPID_IN_MATERIAL, text, row, (x, y), depth)
 
 
-def _beside(stage: Stage, row: int, place: np.ndarray, radius: float) -> float:
+def _beside(stage: Stage, row: int, place: np.ndarray, cutter: Cutter) -> float:
     """Return how much higher than a tool over the stock the metal stands that it may meet on its way, mm."""
     x0, y0, x1, y1 = stage.metal.stock.box
-    if not (x0 - radius < place[0] < x1 + radius and y0 - radius < place[1] < y1 + radius):
+    if not (x0 - cutter.radius < place[0] < x1 + cutter.radius and y0 - cutter.radius < place[1] < y1 + cutter.radius):
         return 0.0
-    metal = stage.metal.over(stage.before.grid, row)
-    heights, grid, (free_x, free_y) = metal.heights, metal.grid, stage.known.nowhere[row, :2]
-    if not free_x:
-        heights = heights[:, np.abs(grid.xs() - place[0]) <= radius + grid.pitch]
-    if not free_y:
-        heights = heights[np.abs(grid.ys() - place[1]) <= radius + grid.pitch]
-    return float(heights.max(initial=metal.floor)) - float(place[2])
+    free = stage.known.nowhere[row, :2]
+    if free.all():
+        return float(stage.metal.over(stage.before.grid, row).heights.max()) - float(place[2])
+    ends = np.array([place, place])
+    ends[:, 0 if free[0] else 1] = (x0, x1) if free[0] else (y0, y1)
+    hit = stage.metal.met(Way(row, ends, cutter), stage.top, stage.before.grid.pitch)
+    return hit.depth if hit is not None else 0.0
 
 
 def _at_unknown_places(stage: Stage) -> Iterator[Finding]:

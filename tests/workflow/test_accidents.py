@@ -104,6 +104,8 @@ DOWN = {
     "narrow helix of chords": (helix(0.5, chords=True), True),
     "to and fro": ("X50 Y50\nG1 Z0 F100\n" + "X50.5 Z-0.1\nX50 Z-0.2\nX50.5 Z-0.3\nX50 Z-0.4\n", True),
     "then a ramp": ("X50 Y50\nG1 Z-1 F100\nX60 Z-2\n", True),
+    "then a steep ramp": ("X50 Y50\nG1 Z-1 F100\nX54 Z-4\n", True),
+    "narrow helix of half turns": ("X50.5 Y50\nG1 Z0 F100\nG3 X49.5 I-0.5 Z-0.4\nX50.5 I0.5 Z-0.8\n", True),
     "helix": (helix(2.0, chords=False), False),
     "helix of chords": (helix(2.0, chords=True), False),
     "ramp": ("X50 Y50\nG1 Z0 F100\nX70 Z-2\n", False),
@@ -144,13 +146,20 @@ HOME = "G0 Z5\nX50 Y50\nG1 Z-2 F100\nX80\n{}G53 G0 {}\n"
 
 @pytest.mark.parametrize(("before", "to", "told"), [
     ("", "X0 Y0", True), ("", "X0", True), ("", "X0 Y0 Z0", True), ("", "Z0\nG53 G0 X0 Y0", False), ("G0 Z1\n", "X0 Y0", False),
-    ("X400\n", "X0 Y0", False), ("X-20\nX320\n", "X0", False), ("X-20\nX280\n", "Y0", True),
+    ("X400\n", "X0 Y0", False), ("X-20\nX320\nX80\n", "X0", False), ("X-20\nX320\nX80\n", "Y0", True),
+    ("Y-20\nY320\nY50\n", "Y0", False), ("Y-20\nY320\nY50\n", "X0", True),
 ])  # fmt: skip
 def test_ways_out_of_the_metal_to_places_that_nobody_knows(before: str, to: str, told: bool) -> None:
     found = rapids(HOME.format(before, to), tool=Tool(1, 10.0))
     assert [finding.line for finding in found] == ([8 + before.count("\n")] if told else [])
     if told:
         assert found[0].amount == pytest.approx(2.0)
+
+
+def test_ways_out_over_what_was_faced() -> None:
+    assert not rapids("G0 Z5\nX150 Y150\nG1 Z-2 F100\nG53 G0 X0 Y0\n", tool=Tool(1, 500.0))
+    (finding,) = rapids("G0 Z5\nX150 Y150\nG1 Z-2 F100\nZ-3 X130\nG53 G0 X0 Y0\nX150 Y150 Z5\n", tool=Tool(1, 400.0))
+    assert (finding.line, finding.amount) == (8, pytest.approx(3.0))
 
 
 @pytest.mark.parametrize(("body", "line", "words", "count"), [
