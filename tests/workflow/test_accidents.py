@@ -158,7 +158,7 @@ def test_ways_out_of_the_metal_to_places_that_nobody_knows(before: str, to: str,
 
 def test_ways_out_over_what_was_faced() -> None:
     assert not rapids("G0 Z5\nX150 Y150\nG1 Z-2 F100\nG53 G0 X0 Y0\n", tool=Tool(1, 500.0))
-    (finding,) = rapids("G0 Z5\nX150 Y150\nG1 Z-2 F100\nZ-3 X130\nG53 G0 X0 Y0\nX150 Y150 Z5\n", tool=Tool(1, 400.0))
+    (finding,) = rapids("G0 Z5\nX150 Y150\nG1 Z-2 F100\nZ-3 X130\nG53 G0 X0 Y0\n", tool=Tool(1, 400.0))
     assert (finding.line, finding.amount) == (8, pytest.approx(3.0))
 
 
