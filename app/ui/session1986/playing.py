@@ -16,6 +16,9 @@ LINE_MS = 40
 LONGEST_S = 8.0
 """No listing scrolls longer: of a long one several lines come at a time."""
 
+LONGEST_PLAY_MS, LEAST_MS = 25_000, 16
+"""Stills of many areas and peels go by quicker, so that all together take no longer, but none quicker than the screen."""
+
 
 class Playing(QObject):
     """Shows stills one after the other.
@@ -34,13 +37,14 @@ class Playing(QObject):
         super().__init__(parent)
         self._screen = screen
         self._stills: tuple[Still, ...] = ()
-        self.at, self.held = 0, False
+        self.at, self.held, self._haste = 0, False, 1.0
         self._clock = QTimer(self, singleShot=True)
         self._clock.timeout.connect(self._next)
 
     def start(self, stills: Sequence[Still]) -> None:
         """Show these."""
         self._stills, self.held = tuple(stills), False
+        self._haste = max(sum(still.hold_ms for still in stills) / LONGEST_PLAY_MS, 1.0)
         self._show(0)
 
     def stop(self) -> None:
@@ -77,7 +81,7 @@ class Playing(QObject):
         if self.held:
             self._clock.stop()
         else:
-            self._clock.start(still.hold_ms)
+            self._clock.start(max(round(still.hold_ms / self._haste), LEAST_MS))
         self.changed.emit()
 
 

@@ -94,7 +94,7 @@ class Session(QObject):
         try:
             self._answer(text)
         except InputError as error:
-            self._refuse(str(error), self.ask, keep=True)
+            self._refuse(str(error), self.ask, keep=self.ask is not Ask.SHAPE)
 
     def hold(self) -> None:
         """Hold what is shown, or go on."""

@@ -23,7 +23,9 @@ _SURROUND, _BEZEL = QColor("#0A0B0C"), QColor("#131517")
 _BEZEL_PX = 12
 _ARROWS = {Qt.Key.Key_Up: (-1, 0), Qt.Key.Key_Down: (1, 0), Qt.Key.Key_Left: (0, -1), Qt.Key.Key_Right: (0, 1)}
 _FAST = 10
-_COMMANDS = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.MetaModifier
+_WITH_KEYS = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier
+_WRITING = (Qt.KeyboardModifier.NoModifier, _WITH_KEYS)
+"""With none of these keys characters are written, or with both, which some keyboards do for @."""
 
 
 class Phosphor(Enum):
@@ -124,7 +126,7 @@ class Tube(QWidget):
             self._arrow(_ARROWS[Qt.Key(key)], bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
         elif session.ask in (Ask.PLAY, Ask.LIST) and key == Qt.Key.Key_Space:
             session.hold()
-        elif event.text().isprintable() and not event.modifiers() & _COMMANDS:
+        elif event.text().isprintable() and event.modifiers() & _WITH_KEYS in _WRITING:
             session.type(event.text())
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)

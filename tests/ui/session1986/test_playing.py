@@ -1,0 +1,39 @@
+"""However much there is to show, it does not take for ever."""
+
+import numpy as np
+from PySide6.QtCore import QObject
+
+from app.ui.session1986.playing import LEAST_MS, LONGEST_S, Listing, Playing
+from app.ui.session1986.screen import Screen
+from app.ui.session1986.stills import Still
+
+
+def still(number: int) -> Still:
+    return Still(number, "A step", np.zeros(400 * 50, np.uint8), 80)
+
+
+def test_many_stills_go_by_quicker_few_as_slowly_as_they_should(qtbot) -> None:
+    home = QObject()
+    for count, interval in ((5, 80), (1000, 25), (10_000, LEAST_MS)):
+        playing = Playing(Screen(), home)
+        playing.start([still(301)] * count)
+        assert playing._clock.interval() == interval
+        playing.stop()
+
+
+def test_stills_are_shown_in_order_to_the_last(qtbot) -> None:
+    home, screen = QObject(), Screen()
+    playing, heads = Playing(screen, home), []
+    playing.changed.connect(lambda: heads.append(screen.head))
+    with qtbot.waitSignal(playing.finished, timeout=3000):
+        playing.start([still(301), still(302), still(307)])
+    assert heads == [("301 A step", "1/3"), ("302 A step", "2/3"), ("307 A step", "3/3")]
+
+
+def test_a_listing_of_any_length_scrolls_through_in_seconds(qtbot) -> None:
+    home, screen = QObject(), Screen()
+    listing = Listing(screen, home)
+    lines = [f"G1 X{k}" for k in range(100_000)]
+    with qtbot.waitSignal(listing.finished, timeout=round(1000 * LONGEST_S * 1.5)):
+        listing.start(lines)
+    assert screen.page == lines
