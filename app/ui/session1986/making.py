@@ -153,15 +153,16 @@ def paths_of(shape: Shape, given: Offsets, progress: Progress = NO_PROGRESS) -> 
     progress.step(0.6, "Writing the program")
     files = write_and_check(made.program, job, load_post(job.post), None, progress.part(0.6, 0.9)).files
     own = dropwhile(lambda stage: stage.number != 301, stages(job, shape.part, made.paths))
-    stills = tuple(stills_of(own, _chains(contour)))
+    stills = tuple(stills_of(own, _chains(contour), [*_chains(contour), *_chains(pocket)]))
     again = tuple(still for still in stills if still.number == 140)
     listing = tuple(line for file in files for line in file.nc.text.splitlines())
     given_up = f"The paths keep up to {made.given_up.most_mm:.3f} mm more from the walls than asked, for the points' sake."
     return Paths(job, (*stills, *again), listing, (*_notes(made.program.findings), given_up))
 
 
-def _chains(contour: OperationPaths) -> Sequence[Chain]:
-    return [path.chain for path in contour.levels[0]]
+def _chains(paths: OperationPaths) -> Sequence[Chain]:
+    """Return the outermost paths."""
+    return [path.chain for path in paths.levels[0]]
 
 
 def _notes(findings: Sequence[Finding]) -> tuple[str, ...]:

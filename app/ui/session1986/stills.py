@@ -1,4 +1,4 @@
-"""What each numbered step looks like on a display of one bit: solid, half, sparse, dashed."""
+"""What each numbered step looks like on a display of one bit: solid, half, sparse, dotted, dashed."""
 
 from __future__ import annotations
 
@@ -17,6 +17,9 @@ from app.ui.session1986.glyphs import Bits
 DASH, GAP = 6, 4
 """Points of a dash of the contour tool's path, and between two."""
 
+DOT = 2
+"""Points of a dot of a path that is not smoothed yet, and between two."""
+
 _REWRITTEN = (110, 120, 130, 140)
 """Steps after which the text has the whole screen rewritten."""
 
@@ -24,6 +27,7 @@ _BLOCKS = (PixelCode.R, PixelCode.VERTEX)
 _ROW, _COL = np.indices((POINTS, POINTS))
 _HALF: Bits = (_ROW + _COL) % 2 == 0
 _SPARSE: Bits = (_ROW % 4 == 0) & ((_COL + _ROW // 2) % 4 == 0)
+"""How what is left of an area, and what is processed, is lit; lines are solid."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,29 +50,33 @@ class Still:
         return np.unpackbits(self.packed).reshape(POINTS, POINTS).astype(np.bool_)
 
 
-def stills_of(stages: Iterable[Stage], contours: Sequence[Chain]) -> Iterator[Still]:
+def stills_of(stages: Iterable[Stage], contours: Sequence[Chain], smoothed: Sequence[Chain] = ()) -> Iterator[Still]:
     """Yield what the display shows after each stage.
 
     Args:
         stages: of a bitmap of 400 x 400 points.
         contours: the contour tool's paths, drawn dashed in steps 120 and 140.
+        smoothed: paths that are smoothed in steps 401-407, dotted until they are.
     """
     for stage in stages:
-        yield still_of(stage, contours)
+        yield still_of(stage, contours, smoothed)
 
 
-def still_of(stage: Stage, contours: Sequence[Chain] = ()) -> Still:
-    """Return what the display shows after a stage; `contours` as in `stills_of`."""
-    if stage.number in (120, 140):
-        picture = _of_codes(stage.plane, (PixelCode.FRAME, PixelCode.RING)) | _dashed(contours)
-    elif stage.number == 208:
-        picture = _of_codes(stage.plane, (PixelCode.CONTOUR, PixelCode.TRACED, PixelCode.R)) | (stage.plane == PixelCode.INSIDE) & _HALF
-    elif 141 <= stage.number <= 148 or stage.number > 300:
-        picture = _shrinking(stage.plane)
-    else:
-        picture = stage.plane != PixelCode.EMPTY
-    blocks = np.zeros_like(picture) if stage.number == 208 else _blocks(_of_codes(stage.plane, _BLOCKS))
-    return Still(stage.number, _name(stage), np.packbits(picture | blocks), _hold_ms(stage.number))
+def still_of(stage: Stage, contours: Sequence[Chain] = (), smoothed: Sequence[Chain] = ()) -> Still:
+    """Return what the display shows after a stage; chains as in `stills_of`."""
+    plane, number = stage.plane, stage.number
+    picture: Bits = plane != PixelCode.EMPTY
+    if number in (120, 140):
+        picture = _of_codes(plane, (PixelCode.FRAME, PixelCode.RING)) | _dashed(contours, DASH, GAP)
+    elif number == 208:
+        picture &= (plane != PixelCode.INSIDE) | _HALF
+    elif number > 400:
+        picture &= (plane != PixelCode.CONTOUR) | _dashed(smoothed, DOT, DOT)
+    elif number > 300 or 141 <= number <= 148:
+        picture &= ((plane != PixelCode.CONTOUR) | _HALF) & ((plane != PixelCode.PROCESSED) | _SPARSE)
+    if number != 208:
+        picture |= _blocks(_of_codes(plane, _BLOCKS))
+    return Still(number, _name(stage), np.packbits(picture), _hold_ms(number))
 
 
 def _of_codes(plane: Plane, codes: Sequence[PixelCode]) -> Bits:
@@ -76,19 +84,12 @@ def _of_codes(plane: Plane, codes: Sequence[PixelCode]) -> Bits:
     return lit
 
 
-def _shrinking(plane: Plane) -> Bits:
-    """Return what is left as half lit, what is processed as sparse dots, all lines solid."""
-    left, processed = plane == PixelCode.CONTOUR, plane == PixelCode.PROCESSED
-    lines: Bits = (plane != PixelCode.EMPTY) & ~left & ~processed
-    lines |= left & _HALF | processed & _SPARSE
-    return lines
-
-
-def _dashed(chains: Sequence[Chain]) -> Bits:
+def _dashed(chains: Sequence[Chain], dash: int, gap: int) -> Bits:
+    """Return chains with `dash` points lit, then `gap` dark, all along, so that no direction fares better."""
     picture = np.zeros((POINTS, POINTS), np.bool_)
     for chain in chains:
         pixels = chain.pixels()
-        picture[tuple(pixels[np.arange(len(pixels)) % (DASH + GAP) < DASH].T)] = True
+        picture[tuple(pixels[np.arange(len(pixels)) % (dash + gap) < dash].T)] = True
     return picture
 
 

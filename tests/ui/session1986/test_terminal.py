@@ -5,7 +5,7 @@ import pytest
 
 from app.bitmap.codes import PixelCode
 from app.bitmap.steps import Stage
-from app.bitmap.trace import trace
+from app.bitmap.trace import Chain, trace
 from app.ui.session1986.glyphs import CELL, line_bits, spoken, wrapped
 from app.ui.session1986.screen import BOTTOM, COLUMNS, HEAD_PX, MARGIN_PX, PAGE_LINES, TALK_LINES, TOP, Screen, card
 from app.ui.session1986.stills import DASH, GAP, still_of
@@ -102,6 +102,18 @@ def test_marks_stand_out_as_blocks(number: int, code: PixelCode) -> None:
     plane[200, 200] = plane[12, 399] = code
     picture = still_of(Stage(number, plane)).picture
     assert picture[199:202, 199:202].all() and picture.sum() == 9 + 6
+
+
+@pytest.mark.parametrize("directions", [[0] * 99, [2] * 99, [7] * 99, [5] * 99, [7, 6] * 50, [0, 1, 0, 0] * 25])
+def test_a_path_that_is_still_to_be_smoothed_is_dotted_whichever_way_it_runs(directions: list[int]) -> None:
+    chain = Chain((200, 200), np.array(directions, np.uint8))
+    plane = np.zeros((400, 400), np.uint8)
+    plane[tuple(chain.pixels().T)] = PixelCode.CONTOUR
+    picture = still_of(Stage(402, plane), smoothed=[chain]).picture
+    assert picture.sum() == pytest.approx(50, abs=1)
+    plane = plane.copy()
+    plane[tuple(chain.pixels()[:50].T)] = PixelCode.LONG_LINE
+    assert still_of(Stage(403, plane), smoothed=[chain]).picture.sum() == pytest.approx(75, abs=1)
 
 
 def test_a_still_names_step_region_and_turn() -> None:
