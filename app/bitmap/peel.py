@@ -12,11 +12,13 @@ from app.bitmap.trace import Chain
 from app.bitmap.walls import Mask
 
 Floats = NDArray[np.float32]
+
+
 def peels(area: Mask, count: int, *, keep_ends: bool = False) -> Iterator[tuple[Mask, tuple[Border, ...]]]:
     """Steps 301-305: take the border pixels off an area, `count` times at most; yield what is left, and what was taken.
 
     What is left is exactly what lies farther than the number of peels from the outside in city blocks (steps along rows
-    and columns), which is why the text corrects it by circles.
+    and columns), which is why the text corrects it by circles. It ends where a peel would take nothing more.
 
     Args:
         area: (rows, cols).
@@ -29,11 +31,13 @@ def peels(area: Mask, count: int, *, keep_ends: bool = False) -> Iterator[tuple[
         borders = borders_of(left)
         if not borders:
             return
-        left = left.copy()
+        before, left = left, left.copy()
         for border in borders:
             chain = border.chain
             pixels = chain.pixels()[:-1][~_turns_back(chain)] if keep_ends else chain.pixels()
             left[tuple(pixels.T)] = False
+        if np.array_equal(left, before):
+            return
         yield left, borders
 
 

@@ -1,5 +1,7 @@
 """Borders, peels and the circle's correction: literal peeling is the city block distance, step 307 makes it Euclidean."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy import ndimage
@@ -88,6 +90,17 @@ def test_the_exception_of_step_304_keeps_the_ends_of_thin_lines() -> None:
     assert np.argwhere(left).tolist() == [[3, 1], [3, 10]]
     assert len(borders) == 1
     assert not correct_by_circles(left, area, 1.0).any(), "which the circles take away again"
+
+
+def test_peeling_ends_where_kept_ends_alone_are_left() -> None:
+    area = np.zeros((9, 14), bool)
+    area[2:7, 2:12] = True
+    area[4, 0:14] = True
+    turns = [left for left, _ in peels(area, 500, keep_ends=True)]
+    assert 1 < len(turns) < 9
+    assert turns[-1].any()
+    assert all(np.count_nonzero(b) < np.count_nonzero(a) for a, b in pairwise([area, *turns]))
+    assert not list(peels(turns[-1], 3, keep_ends=True))
 
 
 def test_an_offset_keeps_its_distance_from_every_outside_pixel() -> None:
