@@ -21,6 +21,9 @@ from app.bitmap.walls import Mask
 _THIN = 6.0
 """Pixels; ink that is nowhere thicker is lines."""
 
+_SLENDER = 20
+"""Times a line's width; what lines draw is longer."""
+
 _MERGED = 1.5
 """Times the usual thickness of lines; where ink is thicker, two lines may have become one."""
 
@@ -53,10 +56,35 @@ class Ambiguity:
 
 
 def shows(ink: Mask, asked: Shows) -> Shows:
-    """Return whether ink is lines or areas, where nobody said."""
+    """Return whether ink is lines or areas, where nobody said.
+
+    Lines are thin everywhere, or most of their ink is narrower than a small part of the largest figure it makes and they
+    enclose more paper than they cover: a bar is thin too, but encloses nothing.
+    """
     if asked is not Shows.AUTO:
         return asked
-    return Shows.LINES if 2 * float(distance_px(ink).max(initial=0.0)) <= _THIN else Shows.AREAS
+    depth = distance_px(ink)
+    if 2 * float(depth.max(initial=0.0)) <= _THIN:
+        return Shows.LINES
+    count = np.count_nonzero(ink)
+    slender = 2 * np.count_nonzero(_opened(depth, max(_THIN, _largest(ink) / _SLENDER) / 2)) < count
+    return Shows.LINES if slender and np.count_nonzero(inner_faces(ink)) > count else Shows.AREAS
+
+
+def _largest(ink: Mask) -> int:
+    """Return the longer side of the largest connected figure of ink, px."""
+    import cv2
+
+    stats = cv2.connectedComponentsWithStats(ink.astype(np.uint8), connectivity=8)[2]
+    return int(stats[1:, [cv2.CC_STAT_WIDTH, cv2.CC_STAT_HEIGHT]].max(initial=0))
+
+
+def _opened(depth: NDArray[np.float32], radius: float) -> Mask:
+    """Return what an opening by a disc leaves of ink that is that deep, px."""
+    rim = int(radius) + 1
+    away = distance_px(np.pad(depth <= radius, rim, constant_values=True))[rim:-rim, rim:-rim]
+    opened: Mask = (depth > 0) & (away < radius)
+    return opened
 
 
 def inner_faces(ink: Mask) -> Mask:

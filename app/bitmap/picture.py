@@ -43,7 +43,7 @@ class PictureOptions:
         despeckle: spots of ink or of paper of up to this many pixels are taken away, >= 0.
         pitch: size of a pixel, mm, > 0. dpi: pixels an inch, > 0, instead. None of both = as the file says.
         shows: whether ink lines are the contours of what is to be machined, or inked areas are to be machined; AUTO = lines
-            where the ink is thin everywhere.
+            where the ink is thin for the size of what it draws.
     """
 
     threshold: int | None = None

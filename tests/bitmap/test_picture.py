@@ -116,6 +116,45 @@ def test_what_lines_enclose_once_is_inside_twice_is_an_island() -> None:
     assert shows(inside, Shows.LINES) is Shows.LINES
 
 
+def scanned(gray: np.ndarray) -> np.ndarray:
+    """Ink of a scan: blurred, with noise."""
+    noise = np.random.default_rng(1).normal(0, 6, gray.shape)
+    soft = np.clip(cv2.GaussianBlur(gray, (3, 3), 0.8) + noise, 0, 255).astype(np.uint8)
+    return thresholded(soft, 1.0, PictureOptions()).ink
+
+
+@pytest.mark.parametrize("width", [1, 3, 4, 5, 6, 7, 8, 12])
+@pytest.mark.parametrize("size", [300, 1200])
+def test_lines_of_any_width_of_a_pen_are_lines(width: int, size: int) -> None:
+    gray = np.full((size, size), 235, np.uint8)
+    near, middle, far = size // 20, size // 2, size - size // 20
+    cv2.rectangle(gray, (near, near), (far, far), 25, min(width, size // 30))
+    for end in ((far, middle), (middle, far)):
+        cv2.line(gray, (middle, middle), end, 25, min(width, size // 30))
+    cv2.circle(gray, (size // 4, size // 4), size // 8, 25, min(width, size // 30))
+    assert shows(scanned(gray), Shows.AUTO) is Shows.LINES
+
+
+@pytest.mark.parametrize("size", [300, 1200])
+@pytest.mark.parametrize("figure", ["plate", "bar", "bracket", "washers", "window"])
+def test_filled_figures_are_areas(figure: str, size: int) -> None:
+    gray = np.full((size, size), 235, np.uint8)
+    near, far, bar = size // 20, size - size // 20, size // 36
+    cv2.rectangle(gray, (near, near), (far, far), 25 if figure in ("plate", "window") else 235, -1)
+    if figure == "plate":
+        cv2.circle(gray, (size // 3, size // 3), size // 10, 235, -1)
+    elif figure == "window":
+        cv2.rectangle(gray, (3 * near, 3 * near), (size - 3 * near, size - 3 * near), 235, -1)
+    elif figure == "washers":
+        for k in (1, 3, 5):
+            cv2.circle(gray, (k * size // 6, size // 2), size // 8, 25, -1)
+            cv2.circle(gray, (k * size // 6, size // 2), size // 10, 235, -1)
+    else:
+        cv2.rectangle(gray, (near, near), (far, near + bar), 25, -1)
+        cv2.rectangle(gray, (near, near), (near + bar, far if figure == "bracket" else near + bar), 25, -1)
+    assert shows(scanned(gray), Shows.AUTO) is Shows.AREAS
+
+
 def test_a_clear_picture_leaves_nothing_open() -> None:
     assert ambiguities(thresholded(paper(), 1.0, PictureOptions()).ink) == ()
     assert ambiguities(np.zeros((9, 9), bool)) == ()
