@@ -1,16 +1,17 @@
 """What is left on the floor: measured from the moves themselves, not from what made them.
 
 Three areas are told apart on the floor of the deepest pass: cleared; left although a tool of the job could cut it
-(must be 0); out of reach of every tool of the job. A tool of radius r that keeps the stock to leave reaches the
-opening of the area by its disc. The swept area is the union of all cutting moves at full depth, each as wide as its
-tool. Method: polygons (shapely), arcs as chords within CHORD, wherever exact distances do not prove the floor
-cleared; strips thinner than STRIP are numeric and not counted.
+(must be 0); out of reach of every tool of the job. Of paths made from pixels, what they gave up at the walls so as to
+be nowhere too near is a fourth: what no tool reaches that keeps that much farther from the walls. A tool of radius r
+that keeps the stock to leave reaches the opening of the area by its disc. The swept area is the union of all cutting
+moves at full depth, each as wide as its tool. Method: polygons (shapely), arcs as chords within CHORD, wherever exact
+distances do not prove the floor cleared; strips thinner than STRIP are numeric and not counted.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import shapely
@@ -78,6 +79,8 @@ class Coverage:
         places: every piece, the largest disc first.
         area_mm2: the whole floor.
         floor_mm: depth at which it was measured, mm.
+        given_up: pieces that paths made from pixels left at the walls on purpose, the largest disc first; not among the places.
+        given_up_mm: by how much those paths kept farther from the walls than asked, mm; 0 for exact ones.
     """
 
     reachable_left_mm2: float = 0.0
@@ -86,6 +89,13 @@ class Coverage:
     places: tuple[Place, ...] = ()
     area_mm2: float = 0.0
     floor_mm: float = 0.0
+    given_up: tuple[Place, ...] = ()
+    given_up_mm: float = 0.0
+
+    @property
+    def given_up_mm2(self) -> float:
+        """Area of what was given up at the walls."""
+        return sum(place.area_mm2 for place in self.given_up)
 
 
 def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: float = _DEPTH) -> Coverage:
@@ -106,7 +116,14 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: 
         return Coverage()
     left = _left(areas.wanted, program.moves, (job, areas.depth - miss), progress)
     corners = _solid(shapely.difference(areas.floor, areas.reach))
-    return _coverage(areas.floor.area, areas.depth, _places(left, True), _places(corners, False))
+    off = program.given_up_mm or 0.0
+    if not off:
+        return _coverage(areas.floor.area, areas.depth, _places(left, True), _places(corners, False))
+    near = _reached(region_shapes(program.regions, CHORD), _enabled(job), job, off)
+    given_up = _places(_solid(shapely.difference(left, near)), True)
+    left = _solid(shapely.intersection(left, near))
+    found = _coverage(areas.floor.area, areas.depth, _places(left, True), _places(corners, False))
+    return replace(found, given_up=given_up, given_up_mm=off)
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,14 +149,14 @@ def areas_of(regions: Sequence[Region], job: Job) -> Areas | None:
     With a pocket operation that is the whole of every region; with contour operations alone, the band along the walls that a
     contour tool is wide.
     """
-    operations = [operation for operation in job.operations if operation.cut.enabled]
+    operations = _enabled(job)
     if not operations or not regions:
         return None
     pockets = [operation for operation in operations if isinstance(operation, PocketOperation)]
     shapes = region_shapes(regions, CHORD)
     leave = min(operation.cut.stock_to_leave for operation in operations)
     floor = shapely.union_all(grown(shapes, -leave, CHORD) if leave else shapes)
-    reach = shapely.union_all([_reach(shapes, operation, job) for operation in _farthest(operations, job)])
+    reach = _reached(shapes, operations, job)
     wanted = reach if pockets else shapely.difference(reach, _beyond_band(shapes, operations, job))
     return Areas(max(operation.cut.depth for operation in pockets or operations), floor, reach, wanted)
 
@@ -162,10 +179,19 @@ def _farthest(operations: list[Operation], job: Job) -> list[Operation]:
     return [operations[size.index(each)] for each in smallest]
 
 
-def _reach(regions: NDArray[np.object_], operation: Operation, job: Job) -> Shape:
+def _enabled(job: Job) -> list[Operation]:
+    return [operation for operation in job.operations if operation.cut.enabled]
+
+
+def _reached(regions: NDArray[np.object_], operations: list[Operation], job: Job, off: float = 0.0) -> Shape:
+    """Return what some tool can cut that keeps `off` mm farther from the walls than asked."""
+    return shapely.union_all([_reach(regions, operation, job, off) for operation in _farthest(operations, job)])
+
+
+def _reach(regions: NDArray[np.object_], operation: Operation, job: Job, off: float) -> Shape:
     """Return what the operation's tool can cut without touching a wall: the opening by its disc."""
     radius = job.tool(operation.cut.tool).radius - _FITS
-    return shapely.union_all(grown(grown(regions, -radius - operation.cut.stock_to_leave, CHORD), radius, CHORD))
+    return shapely.union_all(grown(grown(regions, -radius - operation.cut.stock_to_leave - off, CHORD), radius, CHORD))
 
 
 def _beyond_band(regions: NDArray[np.object_], operations: list[Operation], job: Job) -> Shape:
@@ -267,4 +293,15 @@ def coverage_findings(coverage: Coverage) -> tuple[Finding, ...]:
                     f"would fit at ({worst.x:.3f}, {worst.y:.3f}); a smaller contour tool reaches farther.")
         kind = FindingKind.LEFT_REACHABLE if reachable else FindingKind.LEFT_UNREACHABLE
         findings.append(Finding(kind, text, worst.x, worst.y, counts=reachable, amount=area))
-    return tuple(findings)
+    return (*findings, *_given_up_findings(coverage))
+
+
+def _given_up_findings(coverage: Coverage) -> tuple[Finding, ...]:
+    """Return the remark on what paths made from pixels gave up at the walls."""
+    if not coverage.given_up:
+        return ()
+    worst, area = coverage.given_up[0], coverage.given_up_mm2
+    text = (f"{area:.3f} mm2 of material is left along the walls, where the pixels' paths keep up to {coverage.given_up_mm:.3f} mm "
+            f"more from them than asked so as not to cut into them; a disc of {worst.disc_mm:.3f} mm would fit at "
+            f"({worst.x:.3f}, {worst.y:.3f}); a larger bitmap leaves less.")
+    return (Finding(FindingKind.TOLERANCE, text, worst.x, worst.y, counts=False, amount=area),)

@@ -97,6 +97,7 @@ def make_report(measured: Measured) -> Report:
             "method": COVERAGE_METHOD,
             "places": [_place(place) for place in measured.coverage.places[:100]],
             "places_count": len(measured.coverage.places),
+            **({"given_up_mm2": measured.coverage.given_up_mm2} if program.given_up_mm is not None else {}),
         },
         "rapids_in_material": [
             {"x": hit.x, "y": hit.y, "z": hit.z, **_line(measured, hit.move)} for hit in measured.rapids

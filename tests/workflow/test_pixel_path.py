@@ -1,6 +1,7 @@
 """Paths made from pixels: as near to the walls as pixels allow, never nearer; what that costs is measured, and the limits are told."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,9 +16,10 @@ from app.geometry.distance import DistanceField
 from app.geometry.primitives import points_at
 from app.model.finding import FindingKind
 from app.model.job import Job
-from app.model.moves import Purpose
+from app.model.moves import Moves, Purpose
 from app.model.operation import ContourOperation, Cut, Direction, Order, PocketOperation
 from app.model.part import Contour, Part
+from app.toolpath.coverage import coverage_findings, measure
 from app.workflow.bitmap_job import drawn_job
 from app.workflow.bitmap_options import BitmapSize
 from app.workflow.make import finish
@@ -114,9 +116,29 @@ def test_metal_is_left_along_the_walls_alone() -> None:
     result = made(job, 600)
     done = finish(result.program, job)
     strip = (240 + 2 * math.pi * 8) * result.given_up.most_mm
-    assert done.coverage.reachable_left_mm2 < strip
-    for place in (place for place in done.coverage.places if place.reachable):
+    assert done.coverage.reachable_left_mm2 == 0
+    assert 0 < done.coverage.given_up_mm2 < strip
+    for place in done.coverage.given_up:
         assert place.disc_mm < 3 * result.program.pitch_mm
+    assert done.clean
+    assert done.report.data["left"]["given_up_mm2"] == done.coverage.given_up_mm2
+    (told,) = [finding for finding in done.findings if finding.text.startswith(f"{done.coverage.given_up_mm2:.3f} mm2")]
+    assert not told.counts
+    assert f"up to {result.given_up.most_mm:.3f} mm more" in told.text
+
+
+def test_metal_left_away_from_the_walls_still_counts() -> None:
+    job = job_of([square(60), circle(8, 30, 30)], 3.0, 6.0)
+    program = made(job, 400).program
+    chosen = program.moves.purpose != Purpose.POCKET
+    moves = Moves(**{name: column[chosen] for name, column in program.moves.columns().items()})
+    left = measure(replace(program, moves=moves), job)
+    assert left.reachable_left_mm2 > 100
+    assert 0 < left.given_up_mm2 < 20
+    exact = measure(replace(program, moves=moves, given_up_mm=None), job)
+    assert exact.given_up == ()
+    assert math.isclose(exact.reachable_left_mm2, left.reachable_left_mm2 + left.given_up_mm2, abs_tol=0.5)
+    assert any(finding.kind is FindingKind.LEFT_REACHABLE and finding.counts for finding in coverage_findings(left))
 
 
 def test_climb_and_conventional_go_opposite_ways() -> None:
