@@ -61,6 +61,8 @@ def outer(x):
 def small_program(folder: Path) -> None:
     """Two kernels, one of which calls the other, and what they need of the program."""
     (folder / "app" / "room").mkdir(parents=True)
+    for package in ("app", "app/room"):  # whole packages: one without this file gives way to the program that is installed
+        (folder / package / "__init__.py").touch()
     for name in ("jit.py", "errors.py", "kernels.py", "progress.py"):
         shutil.copy(ROOT / "app" / name, folder / "app" / name)
     (folder / "app" / "room" / "inner_kernels.py").write_text(INNER)
