@@ -135,12 +135,17 @@ def dilated(heights: Heights, profile: Heights, progress: Progress = NO_PROGRESS
     """
     from app.dexel.judge_kernels import dilate
 
-    source, form = (np.ascontiguousarray(field, np.float32) for field in (heights, profile))
-    source.setflags(write=False)
-    form.setflags(write=False)
+    source, form = frozen(heights), frozen(profile)
     out = np.empty_like(source)
     by_strips(len(out), lambda first, last: dilate(source, form, out, first, last), progress)
     return out
+
+
+def frozen(field: Heights) -> Heights:
+    """Return a field as kernels read it: contiguous, and not to be written."""
+    view = np.ascontiguousarray(field, np.float32).view()
+    view.setflags(write=False)
+    return view
 
 
 def by_strips(rows: int, work: Callable[[int, int], T], progress: Progress = NO_PROGRESS) -> list[T]:

@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from app.dexel.cutter import Cutter
-from app.dexel.target import by_strips
+from app.dexel.target import by_strips, frozen
 from app.dexel.trim import Rapids, TrimOptions
 from app.dexel.workpiece import Heights, Workpiece
 from app.progress import NO_PROGRESS, Progress
@@ -49,17 +49,11 @@ def certify(before: Workpiece, part: Wanted, cutters: Mapping[int, Cutter], trim
     progress.step(0.0, "Looking between the cells")
     low = trimming(wide, TrimOptions(Rapids.CUT), progress.part(0.0, 0.4))
     high = trimming(slim, TrimOptions(Rapids.IGNORED), progress.part(0.4, 0.8))
-    wanted, stock = _frozen(part.target.around), _frozen(before.heights)
-    spoken = _frozen(np.where(part.reach, part.target.high, np.float32(np.inf)))
+    wanted, stock = frozen(part.target.around), frozen(before.heights)
+    spoken = frozen(np.where(part.reach, part.target.high, np.float32(np.inf)))
 
     def worst(heights: Heights, counts: Heights, sign: int) -> float:
-        fixed, where = _frozen(heights), (pitch, half)
+        fixed, where = frozen(heights), (pitch, half)
         return max(by_strips(len(stock), lambda a, b: float(farthest(fixed, wanted, counts, where, sign, a, b)), progress)) + ROUNDING
 
     return Certificate(worst(low, stock, 1), worst(high, spoken, -1), pitch)
-
-
-def _frozen(field: Heights) -> Heights:
-    view = np.ascontiguousarray(field).view()
-    view.setflags(write=False)
-    return view

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from app.dexel.cutter import Cutter
 from app.dexel.reach import reach_of, reachable
-from app.dexel.target import Target, solid_target
+from app.dexel.target import Target, frozen, solid_target
 from app.dexel.trim import Cut
 from app.dexel.workpiece import Grid, Stock
 from app.progress import NO_PROGRESS, Progress
@@ -189,7 +189,7 @@ def _gouge_of_cells(judging: Judging, place: CellPlace, depth_in: DepthInSolid |
     from app.dexel.judge_kernels import ways_out
 
     target, grid, depths = judging.wanted.target, judging.grid, np.zeros(len(place.cells))
-    ways_out(_frozen(target.around), _frozen(judging.cut.heights), place.cells, (grid.pitch, 0.0), depths)
+    ways_out(frozen(target.around), frozen(judging.cut.heights), place.cells, (grid.pitch, 0.0), depths)
     worst = int(np.argmax(depths))
     depth = float(depths[worst])
     if depth_in is not None:
@@ -208,12 +208,6 @@ def _exact_depth(judging: Judging, depth_in: DepthInSolid, cell: int, rough: flo
     row, col = divmod(cell, judging.grid.cols)
     low, high = float(judging.cut.heights[row, col]), float(judging.wanted.target.wanted[row, col])
     return depth_in.over(judging.grid.place(cell), (low, high), rough)
-
-
-def _frozen(field: NDArray[np.float32]) -> NDArray[np.float32]:
-    view = field.view()
-    view.setflags(write=False)
-    return view
 
 
 def _worst(judging: Judging, spots: tuple[Spot, ...], gouged: int) -> Gouge:

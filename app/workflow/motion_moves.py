@@ -44,8 +44,9 @@ def moves_of(course: Course, job: Job, origin: tuple[float, float, float]) -> Mo
     jumps = np.ones(len(rows), bool)
     jumps[1:] = np.any(ways.start[1:] != ways.end[:-1], axis=1)
     sinks = (ways.end[:, 2] < ways.start[:, 2]) & (ways.kind != MotionKind.RAPID)
-    order = np.repeat(np.arange(len(rows)), 1 + jumps + sinks)
-    nth = np.arange(len(order)) - np.repeat(np.cumsum(1 + jumps + sinks) - (1 + jumps + sinks), 1 + jumps + sinks)
+    counts = 1 + jumps + sinks
+    order = np.repeat(np.arange(len(rows)), counts)
+    nth = np.arange(len(order)) - np.repeat(np.cumsum(counts) - counts, counts)
     jump, stop = jumps[order] & (nth == 0), sinks[order] & (nth == jumps[order] + 1)
     end = np.where(jump[:, None], ways.start[order], ways.end[order]) + np.array(origin) + stop[:, None] * np.array((STIR, 0, 0))
     kind = np.where(jump, MotionKind.RAPID, np.where(stop, MotionKind.LINE, ways.kind[order])).astype(np.uint8)

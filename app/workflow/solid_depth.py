@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 import numpy as np
-import shapely
 
 from app.dexel.solid import SolidStock
+from app.dexel.solid_rays import SolidRays
 from app.model.motion import Floats
 
 STEPS = 5
@@ -23,9 +23,7 @@ class DepthInSolid:
     """Answers how deep vertical lines lie in a solid with stock to leave on it."""
 
     def __init__(self, solid: SolidStock, leave: float = 0.0) -> None:
-        self._corners, self._leave = solid.triangles, leave
-        low, high = self._corners.min(axis=1), self._corners.max(axis=1)
-        self._boxes = shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
+        self._rays, self._leave = SolidRays(solid), leave
 
     def over(self, place: tuple[float, float], span: tuple[float, float], rough: float) -> float:
         """Return how deep the deepest of some points on a vertical line lies below the surface, mm, >= 0.
@@ -44,14 +42,9 @@ class DepthInSolid:
 
     def _stretches(self, place: tuple[float, float], span: tuple[float, float]) -> Iterator[tuple[float, float]]:
         """Yield the parts of a vertical line that lie in the solid."""
-        x, y = place[0] + ASIDE, place[1] + ASIDE * 0.7
-        a, b, c = np.moveaxis(self._corners[self._boxes.query(shapely.Point(x, y))], 1, 0)
-        sides = [(q[:, 0] - p[:, 0]) * (y - p[:, 1]) - (q[:, 1] - p[:, 1]) * (x - p[:, 0]) for p, q in ((b, c), (c, a), (a, b))]
-        total = sides[0] + sides[1] + sides[2]
-        met = (total != 0) & ~np.any([side * np.sign(total) < 0 for side in sides], axis=0)
-        heights = (sides[0] * a[:, 2] + sides[1] * b[:, 2] + sides[2] * c[:, 2])[met] / total[met]
+        _, heights, up = self._rays.met(np.array([[place[0] + ASIDE, place[1] + ASIDE * 0.7]]))
         order = np.argsort(heights, kind="stable")
-        solids = np.cumsum(-np.sign(total[met])[order])  # a face that looks down begins one, a face that looks up ends one
+        solids = np.cumsum(-up[order])  # a face that looks down begins one, a face that looks up ends one
         for (low, high), within in zip(pairwise(heights[order].tolist()), solids.tolist(), strict=False):
             if within > 0 and min(high, span[1]) > max(low, span[0]):
                 yield max(low, span[0]), min(high, span[1])
@@ -64,10 +57,10 @@ class DepthInSolid:
         x, y, _ = point
         far = 2 * rough + 1e-6
         while True:
-            near = self._corners[self._boxes.query(shapely.box(x - far, y - far, x + far, y + far))]
+            near = self._rays.near(x, y, far)
             if len(near):
                 there = closest_point(near, np.broadcast_to(np.array(point), (len(near), 3)))
                 least = float(np.min(np.linalg.norm(there - np.array(point), axis=1)))
-                if least <= far or len(near) == len(self._corners):
+                if least <= far or len(near) == len(self._rays.triangles):
                     return least
             far *= 2

@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from app.dexel.solid import SolidStock
+from app.dexel.solid_rays import SolidRays
 from app.dexel.workpiece import Workpiece
 from app.model.motion import Floats
 from app.workflow.judgement import Spot, SpotKind
@@ -47,7 +47,7 @@ class WallProbe:
     def spots(self) -> Iterator[Spot]:
         """Yield the gouges at the walls, one for each point that is gouged, the deepest first."""
         part, pitch = self.part, self.before.grid.pitch
-        asking = _Asking(*wall_points(part.solid, pitch), self, Tops(part.solid))
+        asking = _Asking(*wall_points(part.solid, pitch), self, SolidRays(part.solid))
         start = part.tolerance - part.leave
         heights, motion, gouged = asking.at(np.full(len(asking.points), start))
         if not gouged.any():
@@ -78,17 +78,17 @@ class _Asking:
     points: Floats
     inwards: Floats
     probe: WallProbe
-    tops: Tops
+    rays: SolidRays
 
     def only(self, chosen: NDArray[np.bool_]) -> _Asking:
         """Return some of the points."""
-        return _Asking(self.points[chosen], self.inwards[chosen], self.probe, self.tops)
+        return _Asking(self.points[chosen], self.inwards[chosen], self.probe, self.rays)
 
     def at(self, depth: Floats) -> tuple[Floats, NDArray[np.int64], NDArray[np.bool_]]:
         """Return the heights that are cut down to at depths (m,) in the solid, < 0 beside it, by whom, and whether that is a gouge."""
         places = self.points + self.inwards * depth[:, None]
         heights, motion = self.probe.lowest(places)
-        wanted = self.tops.over(self.points + self.inwards * np.maximum(depth, ASIDE)[:, None])
+        wanted = self.rays.tops(self.points + self.inwards * np.maximum(depth, ASIDE)[:, None])
         metal = np.minimum(wanted, self._stock(places))
         return heights, motion, (motion >= 0) & (heights < metal - self.probe.part.tolerance)
 
@@ -122,24 +122,3 @@ def wall_points(solid: SolidStock, pitch: float) -> tuple[Floats, Floats]:
     owner = np.repeat(each, counts)
     share = (np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts) + 0.5) / counts[owner]
     return begin[owner] + (end - begin)[owner] * share[:, None], inwards[owner]
-
-
-class Tops:
-    """Answers how high a solid stands over points."""
-
-    def __init__(self, solid: SolidStock) -> None:
-        self._corners = solid.triangles
-        low, high = self._corners.min(axis=1), self._corners.max(axis=1)
-        self._boxes = shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
-
-    def over(self, points: Floats) -> Floats:
-        """Return the solid's top (m,) over points (m, 2), mm; -infinite beside it."""
-        point, triangle = self._boxes.query(shapely.points(points))
-        a, b, c = np.moveaxis(self._corners[triangle], 1, 0)
-        x, y = points[point].T
-        sides = [(q[:, 0] - p[:, 0]) * (y - p[:, 1]) - (q[:, 1] - p[:, 1]) * (x - p[:, 0]) for p, q in ((b, c), (c, a), (a, b))]
-        total = sides[0] + sides[1] + sides[2]
-        met = (total != 0) & ~np.any([side * np.sign(total) < 0 for side in sides], axis=0)
-        heights = np.full(len(points), -np.inf)
-        np.maximum.at(heights, point[met], (sides[0] * a[:, 2] + sides[1] * b[:, 2] + sides[2] * c[:, 2])[met] / total[met])
-        return heights
