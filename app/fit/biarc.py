@@ -17,23 +17,19 @@ Floats = NDArray[np.float64]
 def biarc(start: Point, leaving: Point, end: Point, arriving: Point) -> tuple[Line | Arc, ...]:
     """Return one line, or two arcs (either may be a line), tangent to both unit directions and to one another.
 
-    The point where they meet is the middle between the tips of two tangents of one length: Bolton (1975),
-    "Biarc curves". Returns () where the directions turn back so far that there is no such pair.
+    () where the directions turn back so far that there is no such pair.
     """
-    vx, vy = end[0] - start[0], end[1] - start[1]
-    chord2 = vx * vx + vy * vy
-    sx, sy = leaving[0] + arriving[0], leaving[1] + arriving[1]
-    lean = vx * sx + vy * sy
-    spread = 2 * (1 - leaving[0] * arriving[0] - leaving[1] * arriving[1])
-    root = lean + math.sqrt(lean * lean + spread * chord2)
-    if root <= 0.0 or chord2 == 0.0:
+    from app.fit.biarc_kernels import meeting
+
+    exists, *middle = meeting(start, leaving, end, arriving)
+    if not exists:
         return ()
-    reach = chord2 / root
-    middle = ((start[0] + end[0] + reach * (leaving[0] - arriving[0])) / 2, (start[1] + end[1] + reach * (leaving[1] - arriving[1])) / 2)
-    first, last = _from_tangent(start, leaving, middle), _from_tangent(end, (-arriving[0], -arriving[1]), middle)
+    first = _from_tangent(start, leaving, (middle[0], middle[1]))
+    last = _from_tangent(end, (-arriving[0], -arriving[1]), (middle[0], middle[1]))
     if first is None or last is None:
         return ()
-    if isinstance(first, Line) and isinstance(last, Line) and abs(vx * leaving[1] - vy * leaving[0]) < tolerances.WELD:
+    off = abs((end[0] - start[0]) * leaving[1] - (end[1] - start[1]) * leaving[0])
+    if isinstance(first, Line) and isinstance(last, Line) and off < tolerances.WELD:
         return (Line(start, end),)
     return first, _turned(last)
 
@@ -45,18 +41,13 @@ def _turned(curve: Line | Arc) -> Line | Arc:
 
 
 def _from_tangent(start: Point, direction: Point, end: Point) -> Line | Arc | None:
-    """Return the arc that leaves start in a unit direction and ends at end; a line where its sagitta is below WELD.
+    """Return what leaves start in a unit direction and ends at end; None where it would turn by half a circle or more."""
+    from app.fit.biarc_kernels import LINE, NONE, from_tangent
 
-    None where the arc would turn by half a circle or more.
-    """
-    vx, vy = end[0] - start[0], end[1] - start[1]
-    side, ahead = direction[0] * vy - direction[1] * vx, direction[0] * vx + direction[1] * vy
-    if ahead <= 0.0:
+    kind, cx, cy, turn = from_tangent(start, direction, end)
+    if kind == NONE:
         return None
-    if abs(side) / 4 < tolerances.WELD / 2:
-        return Line(start, end)
-    height = ahead / side / 2
-    return Arc(start, end, ((start[0] + end[0]) / 2 - vy * height, (start[1] + end[1]) / 2 + vx * height), side > 0)
+    return Line(start, end) if kind == LINE else Arc(start, end, (cx, cy), turn > 0)
 
 
 def distances(points: Floats, primitives: Sequence[Line | Arc]) -> Floats:

@@ -20,6 +20,10 @@ FAR = 6.0
 """Times the tolerance; a crossing farther than this from the points' own joint is no corner of the path."""
 
 
+ALMOST_ONE = 1e-6
+"""Of two circles' radii: with their centres nearer than this the place where they touch is any."""
+
+
 @kernel("float64(float64[::1], float64, float64)")
 def _side(line, x, y):
     """Return how far a point lies to the left of a line."""
@@ -127,6 +131,50 @@ def make_tangent(points, ends, carriers, joined, tolerance):
             joined[(k + 1) % n] = TANGENT
 
 
+@kernel("boolean(float64[::1], float64[::1], float64[::1], boolean)")
+def _slide(arc, fixed, line, along):
+    """Move an arc until it touches another from outside: straight away from it, or along a line; tell whether it can."""
+    dx, dy = arc[0] - fixed[0], arc[1] - fixed[1]
+    length = math.hypot(dx, dy)
+    if length == 0.0:
+        return False
+    ux, uy = (line[2], line[3]) if along else (dx / length, dy / length)
+    lean, reach = dx * ux + dy * uy, arc[2] + fixed[2]
+    square = lean * lean + reach * reach - length * length
+    if square < 0.0:
+        return False
+    step = math.copysign(math.sqrt(square), lean) - lean
+    arc[0], arc[1] = arc[0] + step * ux, arc[1] + step * uy
+    return True
+
+
+@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], uint8[::1], float64)")
+def let_arcs_touch(points, ends, carriers, joined, tolerance):
+    """Move arcs so that they touch the one next to them that turns the other way, where they nearly do.
+
+    Args: those of `make_tangent`, whose lines arcs go on touching.
+    """
+    n = len(carriers)
+    for k in range(n):
+        a, b = k - 1 if k > 0 else n - 1, k
+        first, last = carriers[a], carriers[b]
+        if n < 3 or joined[k] != CROSSING or first[4] == 0.0 or last[4] == 0.0 or first[3] == last[3]:
+            continue
+        if abs(math.hypot(last[0] - first[0], last[1] - first[1]) - first[2] - last[2]) > tolerance:
+            continue
+        for side in range(2):
+            moves, stays, other, far_joint = (b, a, (b + 1) % n, (b + 1) % n) if side == 0 else (a, b, a - 1, a)
+            bound = joined[far_joint] == TANGENT
+            if bound and carriers[other][4] == 1.0:
+                continue
+            kept = carriers[moves].copy()
+            slid = _slide(carriers[moves], carriers[stays], carriers[other], bound)
+            if slid and _worst(points, ends[moves], ends[moves + 1], carriers[moves]) <= 1.5 * tolerance:
+                joined[k] = TANGENT
+                break
+            carriers[moves] = kept
+
+
 @kernel("UniTuple(float64, 2)(float64[::1], float64[::1], float64, float64, float64)")
 def _crossing(a, b, x, y, far):
     """Return where two carriers cross, nearest to a point; between the feet of the point where they do not, or far away."""
@@ -160,6 +208,22 @@ def _crossing(a, b, x, y, far):
     return px, py
 
 
+@kernel("UniTuple(float64, 2)(float64[::1], float64[::1], float64, float64)")
+def _touching(a, b, x, y):
+    """Return where two carriers touch; of two that are nearly one, the place nearest to a point."""
+    if a[4] != b[4]:
+        line, arc = (a, b) if a[4] == 0.0 else (b, a)
+        return _foot(line, arc[0], arc[1])
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    length = math.hypot(dx, dy)
+    if a[4] == 0.0 or length < ALMOST_ONE * (a[2] + b[2]):
+        ax, ay = _foot(a, x, y)
+        bx, by = _foot(b, x, y)
+        return (ax + bx) / 2, (ay + by) / 2
+    way = -1.0 if a[3] == b[3] and a[2] < b[2] else 1.0
+    return a[0] + way * a[2] * dx / length, a[1] + way * a[2] * dy / length
+
+
 @kernel("void(float64[:, ::1], float64[:, ::1], uint8[::1], float64, float64[:, ::1])")
 def join(near, carriers, joined, tolerance, joints):
     """Find where each carrier of a closed path begins.
@@ -176,9 +240,8 @@ def join(near, carriers, joined, tolerance, joints):
         a, b = carriers[k - 1], carriers[k]
         if joined[k] == PINNED:
             joints[k, 0], joints[k, 1] = near[k, 0], near[k, 1]
-        elif joined[k] == TANGENT and a[4] != b[4]:
-            line, arc = (a, b) if a[4] == 0.0 else (b, a)
-            joints[k, 0], joints[k, 1] = _foot(line, arc[0], arc[1])
+        elif joined[k] == TANGENT:
+            joints[k, 0], joints[k, 1] = _touching(a, b, near[k, 0], near[k, 1])
         else:
             joints[k, 0], joints[k, 1] = _crossing(a, b, near[k, 0], near[k, 1], FAR * tolerance)
 
@@ -212,7 +275,7 @@ def _within(row, x, y):
 
 
 @kernel("float64(float64[::1], float64, float64)")
-def _distance(row, x, y):
+def distance(row, x, y):
     """Return the distance of a point from a row, which may sweep up to a full turn."""
     if row[7] == 0.0:
         dx, dy = row[2] - row[0], row[3] - row[1]
@@ -254,8 +317,8 @@ def deviations(points, ends, carriers, rows, worst):
         worst[k, 1] = math.inf if _runs_back(rows[k], carriers[k], points[m, 0], points[m, 1]) else 0.0
         for i in range(a, b + 1):
             x, y = points[i, 0], points[i, 1]
-            off = _distance(rows[k], x, y)
+            off = distance(rows[k], x, y)
             if off > worst[k, 0] or off > worst[k, 1]:
-                off = min(off, _distance(rows[k - 1], x, y), _distance(rows[(k + 1) % n], x, y))
+                off = min(off, distance(rows[k - 1], x, y), distance(rows[(k + 1) % n], x, y))
                 worst[k, 0] = max(worst[k, 0], off)
                 worst[k, 1] = max(worst[k, 1], off / 2 if i - a < NEAR or b - i < NEAR else off)

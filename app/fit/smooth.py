@@ -9,13 +9,14 @@ are made to touch it.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from enum import IntEnum
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.errors import ParameterError
+from app.fit.rest import without_bends
+from app.fit.smoothed import PieceKind, Smoothed
 from app.geometry.primitives import R, Rows
 
 Floats = NDArray[np.float64]
@@ -28,16 +29,6 @@ _LIMIT = 2.0
 
 _ROUNDS = 6
 """How often segments that no joint suits are cut into finer ones."""
-
-
-class PieceKind(IntEnum):
-    """What a piece of a smoothed path is; the value is the step that finds it."""
-
-    CIRCLE = 401
-    LONG_LINE = 403
-    SHORT_LINE = 405
-    ARC = 406
-    SPLINE = 407
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,37 +49,6 @@ class SmoothOptions:
     def __post_init__(self) -> None:
         if not self.tolerance > 0:
             raise ParameterError(f"The smoothing tolerance is {self.tolerance:g} mm; it must be greater than 0.")
-
-
-@dataclass(frozen=True)
-class Smoothed:
-    """A closed path as n circles, lines and arcs.
-
-    Attributes:
-        rows: (n, 8) rows of `app.geometry.primitives`, each beginning where the one before ends; arcs up to a full turn.
-        kinds: (n,) PieceKind.
-        ends: (n + 1,) indices of the points between which each row runs, rising; those beyond the last go on from the first.
-        joined: (n,) how each row begins: see `joint_kernels`.
-        deviation: greatest distance of a point from its row.
-        exact: False where nothing but lines from point to point came near enough.
-        carriers: (n, 5) the lines and circles that the rows lie on, see `joint_kernels`.
-    """
-
-    rows: Rows
-    kinds: Ints
-    ends: Ints
-    joined: NDArray[np.uint8]
-    deviation: float
-    exact: bool
-    carriers: Floats
-
-    @property
-    def tangent(self) -> NDArray[np.bool_]:
-        """(n,) whether each row begins in the direction in which the one before ends."""
-        from app.fit import joint_kernels
-
-        touching: NDArray[np.bool_] = self.joined == joint_kernels.TANGENT
-        return touching
 
 
 def smooth(points: Floats, options: SmoothOptions) -> Smoothed:
@@ -113,7 +73,7 @@ def smooth(points: Floats, options: SmoothOptions) -> Smoothed:
     for again in range(_ROUNDS):
         result, bad = _joined(rounds, (ends, kinds, joined), options)
         if not bad.any():
-            return _without_bias(result, points, options)
+            return _without_bias(without_bends(result, rounds, _LIMIT * options.tolerance), points, options)
         joined[bad | np.roll(bad, 1)] = joint_kernels.PINNED
         if again % 2:
             ends, kinds, joined = _split(rounds, (ends, kinds, joined), bad, options.tolerance / 2 ** (again // 2 + 1))
@@ -170,6 +130,7 @@ def _joined(rounds: Floats, segments: _Segments, options: SmoothOptions) -> tupl
     ends, kinds, pinned = segments
     carriers, joined, worst = _carriers(rounds, ends, kinds), pinned.copy(), np.empty((len(kinds), 2))
     joint_kernels.make_tangent(rounds, ends, carriers, joined, options.tolerance)
+    joint_kernels.let_arcs_touch(rounds, ends, carriers, joined, options.tolerance)
     rows = _rows(rounds, ends, (carriers, joined), options.tolerance)
     joint_kernels.deviations(rounds, ends, carriers, rows, worst)
     path = Smoothed(rows, _kinds(rows, options), ends, joined, float(worst[:, 0].max()), True, carriers)

@@ -17,7 +17,8 @@ from app.bitmap.levels import SAFE_PX, RingSteps, offset_area, ring_index
 from app.bitmap.trace import Chain
 from app.bitmap.walls import Mask
 from app.errors import ParameterError
-from app.fit.smooth import Smoothed, SmoothOptions
+from app.fit.smooth import SmoothOptions
+from app.fit.smoothed import Smoothed
 from app.geometry.distance import DistanceField
 from app.geometry.offset import Level, Ring
 from app.geometry.primitives import Rows, lengths, pack, points_at, signed_area, within_half_turn

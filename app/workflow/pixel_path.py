@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from app.bitmap.frame import Frame
 from app.bitmap.trace import Chain
 from app.bitmap.walls import Mask
-from app.fit.smooth import Smoothed, SmoothOptions, as_it_is, astray, moved, smooth, without
+from app.fit.smooth import SmoothOptions, as_it_is, astray, moved, smooth, without
+from app.fit.smoothed import Smoothed
 from app.geometry.distance import DistanceField
 from app.geometry.primitives import R, Rows, lengths, points_at
 

@@ -17,7 +17,7 @@ from app.bitmap.published import published_marks, published_scan, wrong_pixels
 from app.bitmap.steps import Stage
 from app.bitmap.trace import Chain, chain_rows
 from app.bitmap.walls import Mask
-from app.fit.smooth import PieceKind
+from app.fit.smoothed import PieceKind
 from app.geometry.primitives import Rows
 from app.model.job import Job
 from app.model.operation import ContourOperation

@@ -8,7 +8,8 @@ from scipy.spatial import cKDTree
 
 from app.bitmap.frame import Frame
 from app.errors import ParameterError
-from app.fit.smooth import PieceKind, Smoothed, SmoothOptions, moved, smooth, without
+from app.fit.smooth import SmoothOptions, moved, smooth, without
+from app.fit.smoothed import PieceKind, Smoothed
 from app.geometry.primitives import R, lengths, points_at, row_curve
 from app.geometry.region import polygon_contour
 from app.model.curves import Arc, Line
