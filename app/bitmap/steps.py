@@ -53,8 +53,8 @@ STEPS: dict[int, tuple[str, str]] = {
     404: ("Vertices", "Where two pieces cross is a corner; where they only touch, none."),
     405: ("Short lines", "Between corners and long lines, the shorter straight pieces."),
     406: ("Arcs", "What is left and lies on a circle, by a fit to its pixels, becomes an arc; arcs that nearly touch a line touch it."),
-    407: ("Free curves", "Arcs that meet with a slight bend were no circles: a smooth curve takes their place. What fits nothing stays as it is, "
-          "from pixel to pixel."),
+    407: ("Free curves", "Arcs that meet with a slight bend were no circles: a smooth curve takes their place. What fits nothing stays "
+          "as it is, from pixel to pixel."),
 }  # fmt: skip
 """Name and sentence of each step, in the order in which the text does them."""
 
