@@ -34,6 +34,7 @@ class FindingKind(Enum):
     HIDDEN = "hidden"
     BEYOND_STOCK = "beyond_stock"
     AMBIGUOUS = "ambiguous"
+    SKIN = "skin"
 
 
 @dataclass(frozen=True, slots=True)

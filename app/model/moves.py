@@ -122,6 +122,7 @@ class Program:
         bitmap_area_mm2, exact_area_mm2: area of A' by the bitmap fill and by the exact offset (independent check).
         pitch_mm: size of that bitmap's pixels; 0 when nothing was filled.
         given_up_mm: of paths made from pixels: how much farther from the walls than asked they are at most; None of exact ones.
+        allowance_mm: so thick a skin may paths made from pixels leave along the walls that they follow; 0 for exact ones.
     """
 
     moves: Moves
@@ -133,3 +134,4 @@ class Program:
     exact_area_mm2: float = 0.0
     pitch_mm: float = 0.0
     given_up_mm: float | None = None
+    allowance_mm: float = 0.0

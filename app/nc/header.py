@@ -14,7 +14,8 @@ Comments that begin with `hitofude:` hold one `key=value` each, in this order an
     tool=NUMBER,KIND,DIAMETER                       one a tool, in the order of use; ,CORNER,TIP,ANGLE behind it (radius of the
                                                     corner, diameter of the tip, full angle in degrees) where it has one of them
     operation=KIND,TOOL,DEPTH,STOCK_TO_LEAVE        one an operation that cuts
-    path_tolerance_mm=T                             proven: the written path against the exact offset of the drawing
+    path_tolerance_mm=T                             proven: the written path is nowhere nearer to the walls than asked by more
+    allowance_mm=T                                  of paths made from pixels: so thick a skin may they leave along the walls
     blend_mm=P                                      how far the control may leave the written path
 
 A comment that begins with `hitofude+` goes on with the one before. For a control that knows capitals alone, all of this is
@@ -108,7 +109,11 @@ def heading_lines(heading: Heading) -> Iterator[str]:
     yield f"It is at {origin} of the drawing, whose Z 0 is the top of stock"
     yield from (tool_words(tool, units) + f", {tool.spindle_speed:.0f} rpm" for tool in _tools(heading))
     yield from (operation_words(operation, job) + ("" if cuts else ", makes no moves") for operation, cuts in _operations(heading))
-    yield f"Path within {_length(_path_tolerance(heading), units)} of the exact offset of the drawing"
+    if heading.program.given_up_mm is None:
+        yield f"Path within {_length(_path_tolerance(heading), units)} of the exact offset of the drawing"
+    else:
+        yield f"Path made from pixels, nowhere nearer to the walls than asked by more than {_length(_path_tolerance(heading), units)}"
+        yield f"It is up to {_length(heading.program.given_up_mm, units)} farther from them"
     yield _blending_words(heading)
 
 
@@ -146,6 +151,8 @@ def _notes(heading: Heading) -> Iterator[str]:
             kind = "pocket" if isinstance(operation, PocketOperation) else "contour"
             yield f"operation={kind},{operation.cut.tool},{_numbers(operation.cut.depth, operation.cut.stock_to_leave)}"
     yield f"path_tolerance_mm={_numbers(_path_tolerance(heading))}"
+    if heading.program.allowance_mm:
+        yield f"allowance_mm={_numbers(heading.program.allowance_mm)}"
     yield f"blend_mm={_numbers(heading.blend_mm)}"
 
 
@@ -156,7 +163,7 @@ def _shape(tool: Tool) -> tuple[float, ...]:
 
 
 def _path_tolerance(heading: Heading) -> float:
-    """Return how far the written path may be from the exact one, mm: curves as arcs, the path's levels, its writing."""
+    """Return by how much the written path may be too near to the walls, mm: curves as arcs, the path's levels, its writing."""
     curves = max((contour.deviation for region in heading.program.regions for contour in region.contours), default=0.0)
     return curves + LEVEL + heading.writing_mm
 

@@ -1,8 +1,9 @@
 """What is left on the floor: measured from the moves themselves, not from what made them.
 
 Three areas are told apart on the floor of the deepest pass: cleared; left although a tool of the job could cut it
-(must be 0); out of reach of every tool of the job. Of paths made from pixels, what they gave up at the walls so as to
-be nowhere too near is a fourth: what no tool reaches that keeps that much farther from the walls. A tool of radius r
+(must be 0); out of reach of every tool of the job. Of paths made from pixels, the skin that they leave along the walls
+so as to be nowhere too near is a fourth: what no tool reaches that keeps their allowance from the walls, next to floor
+that is cleared; a passage with no path in it is no skin. A tool of radius r
 that keeps the stock to leave reaches the opening of the area by its disc. The swept area is the union of all cutting
 moves at full depth, each as wide as its tool. Method: polygons (shapely), arcs as chords within CHORD, wherever exact
 distances do not prove the floor cleared; strips thinner than STRIP are numeric and not counted.
@@ -37,6 +38,12 @@ STRIP = 0.01
 
 _FITS = 2e-3
 """mm by which a gap may be narrower than a tool that still counts as fitting: chords make it so by up to 1 um a side."""
+
+_THICK = 1.5
+"""Allowances; metal in which a disc of this radius fits is no skin, not even in a corner."""
+
+_TIP = 4.0
+"""Allowances by which the skin in the tip of a sharp corner may reach beyond the floor that is cleared."""
 
 _DEPTH = 1e-6
 """mm by which a computed move may miss the floor and still count as on it."""
@@ -79,8 +86,8 @@ class Coverage:
         places: every piece, the largest disc first.
         area_mm2: the whole floor.
         floor_mm: depth at which it was measured, mm.
-        given_up: pieces that paths made from pixels left at the walls on purpose, the largest disc first; not among the places.
-        given_up_mm: by how much those paths kept farther from the walls than asked, mm; 0 for exact ones.
+        given_up: the skin that paths made from pixels left along the walls on purpose, the largest disc first; not among the places.
+        given_up_mm: how thick it may be, mm; 0 for exact paths.
     """
 
     reachable_left_mm2: float = 0.0
@@ -116,14 +123,25 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: 
         return Coverage()
     left = _left(areas.wanted, program.moves, (job, areas.depth - miss), progress)
     corners = _solid(shapely.difference(areas.floor, areas.reach))
-    off = program.given_up_mm or 0.0
+    off = program.allowance_mm
     if not off:
         return _coverage(areas.floor.area, areas.depth, _places(left, True), _places(corners, False))
-    near = _reached(region_shapes(program.regions, CHORD), _enabled(job), job, off)
-    given_up = _places(_solid(shapely.difference(left, near)), True)
-    left = _solid(shapely.intersection(left, near))
+    skin = _skin(left, areas, _reached(region_shapes(program.regions, CHORD), _enabled(job), job, off), off)
+    left = _solid(shapely.difference(left, skin))
     found = _coverage(areas.floor.area, areas.depth, _places(left, True), _places(corners, False))
-    return replace(found, given_up=given_up, given_up_mm=off)
+    return replace(found, given_up=_places(skin, True), given_up_mm=off)
+
+
+def _skin(left: Shape, areas: Areas, inner: Shape, off: float) -> Shape:
+    """Return what of the metal left is but a skin along walls that paths follow.
+
+    Args:
+        inner: what some tool reaches that keeps `off` mm farther from the walls than asked.
+    """
+    beyond = _solid(shapely.difference(left, inner))
+    thick = shapely.buffer(shapely.buffer(left, -_THICK * off), (_THICK + 1) * off)
+    cleared = shapely.buffer(shapely.difference(areas.reach, left), _TIP * off)
+    return _solid(shapely.intersection(shapely.difference(beyond, thick), cleared))
 
 
 @dataclass(frozen=True, eq=False)
@@ -286,22 +304,23 @@ def coverage_findings(coverage: Coverage) -> tuple[Finding, ...]:
         worst, count = places[0], len(places)
         spots = "1 place" if count == 1 else f"{count} places"
         if reachable:
+            remedy = "a smaller pocket tool or a larger bitmap" if coverage.given_up_mm else "a smaller pocket tool or stepover"
             text = (f"{area:.3f} mm2 of material within reach is left in {spots}, the worst {worst.disc_mm:.3f} mm wide "
-                    f"at ({worst.x:.3f}, {worst.y:.3f}); use a smaller pocket tool or stepover.")
+                    f"at ({worst.x:.3f}, {worst.y:.3f}); use {remedy}.")
         else:
             text = (f"{area:.3f} mm2 in {spots} is out of reach of every tool; a disc of {worst.disc_mm:.3f} mm "
                     f"would fit at ({worst.x:.3f}, {worst.y:.3f}); a smaller contour tool reaches farther.")
         kind = FindingKind.LEFT_REACHABLE if reachable else FindingKind.LEFT_UNREACHABLE
         findings.append(Finding(kind, text, worst.x, worst.y, counts=reachable, amount=area))
-    return (*findings, *_given_up_findings(coverage))
+    return (*findings, *skin_findings(coverage))
 
 
-def _given_up_findings(coverage: Coverage) -> tuple[Finding, ...]:
-    """Return the remark on what paths made from pixels gave up at the walls."""
+def skin_findings(coverage: Coverage) -> tuple[Finding, ...]:
+    """Return the remark on the skin that paths made from pixels leave along the walls."""
     if not coverage.given_up:
         return ()
     worst, area = coverage.given_up[0], coverage.given_up_mm2
-    text = (f"{area:.3f} mm2 of material is left along the walls, where the pixels' paths keep up to {coverage.given_up_mm:.3f} mm "
-            f"more from them than asked so as not to cut into them; a disc of {worst.disc_mm:.3f} mm would fit at "
+    text = (f"{area:.3f} mm2 of material is left along the walls, a skin up to about {coverage.given_up_mm:.3f} mm "
+            f"thick that paths made from pixels leave so as not to cut into them; a disc of {worst.disc_mm:.3f} mm would fit at "
             f"({worst.x:.3f}, {worst.y:.3f}); a larger bitmap leaves less.")
-    return (Finding(FindingKind.TOLERANCE, text, worst.x, worst.y, counts=False, amount=area),)
+    return (Finding(FindingKind.SKIN, text, worst.x, worst.y, counts=False, amount=area),)

@@ -26,6 +26,7 @@ _WORST_FIRST = (
     FindingKind.TOOL_SHAPE, FindingKind.OPEN_CONTOUR, FindingKind.SELF_INTERSECTION, FindingKind.OVERLAP, FindingKind.REGION_TOO_SMALL,
     FindingKind.NECK_TOO_NARROW, FindingKind.ENGAGEMENT, FindingKind.AMBIGUOUS, FindingKind.UNITS_ASSUMED, FindingKind.GAP_CLOSED,
     FindingKind.TINY_ENTITY, FindingKind.LEFT_OUT, FindingKind.ASSUMED, FindingKind.HIDDEN, FindingKind.LEFT_UNREACHABLE,
+    FindingKind.SKIN,
 )
 _RED = {FindingKind.GOUGE, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK, FindingKind.PLUNGE, FindingKind.BELOW_TABLE,
         FindingKind.LEFT_REACHABLE}
@@ -41,7 +42,7 @@ _NAMES = {
     FindingKind.TOOL_SHAPE: "a tool of another shape", FindingKind.START_IN_STOCK: "start in the stock",
     FindingKind.PLUNGE: "plunge in metal", FindingKind.BELOW_TABLE: "cut into the table", FindingKind.ASSUMED: "assumed",
     FindingKind.HIDDEN: "metal below metal", FindingKind.BEYOND_STOCK: "part beyond the stock",
-    FindingKind.AMBIGUOUS: "doubtful place in the picture",
+    FindingKind.AMBIGUOUS: "doubtful place in the picture", FindingKind.SKIN: "skin along the walls",
 }
 
 

@@ -43,6 +43,9 @@ LONG_LINE = 10.0
 SPARE_STEP_PX = 1.5
 """Pixels by which paths lie nearer to one another than would cover everything, were they exact."""
 
+MOST_SKIN_PX = 4.0
+"""Pixels that the rules of `offset_area` and smoothing may keep a path from its wall; what is farther is no skin but metal left."""
+
 LEAST_RADIUS_PX = 1.0
 """A tool must be wider than two pixels: below that a bitmap cannot tell where it is."""
 
@@ -143,7 +146,7 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
     setting.findings.extend(_findings(part, paths, given_up, job))
     findings = tuple(sorted(setting.findings, key=lambda finding: not finding.counts))
     program = Program(setting.builder.moves(), part.regions, findings, setting.strokes, pitch_mm=part.frame.pitch,
-                      given_up_mm=given_up.most_mm)
+                      given_up_mm=given_up.most_mm, allowance_mm=min(given_up.most_mm, MOST_SKIN_PX * part.frame.pitch))
     return BitmapProgram(program, tuple(paths), given_up, rough)
 
 

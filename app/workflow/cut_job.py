@@ -19,7 +19,7 @@ from app.workflow.parts import FlatPart
 from app.workflow.verdict import Depths
 from app.workflow.written import Written
 
-_TOLD_ELSEWHERE = (FindingKind.LEFT_REACHABLE, FindingKind.LEFT_UNREACHABLE)
+_TOLD_ELSEWHERE = (FindingKind.LEFT_REACHABLE, FindingKind.LEFT_UNREACHABLE, FindingKind.SKIN)
 
 
 def cut_job(program: Program, job: Job, written: Written, measured: tuple[Depths, Coverage],
@@ -40,7 +40,8 @@ def cut_job(program: Program, job: Job, written: Written, measured: tuple[Depths
     x, y, z = origin
     stock = BoxStock(StockBox(box.x0 - x, box.y0 - y, box.z0 - z, box.x1 - x, box.y1 - y, box.z1 - z))
     deviation = max((contour.deviation for region in program.regions for contour in region.contours), default=0.0)
-    part = FlatPart(job, program.regions, origin, FlatPart.wall_tolerance + written.largest_distance_mm + deviation)
+    part = FlatPart(job, program.regions, origin, FlatPart.wall_tolerance + written.largest_distance_mm + deviation,
+                    allowance=program.allowance_mm)
     programs = tuple(
         replace(read, states=tuple(replace(state, tool=state.tool or int(program.moves.tool[file.first])) for state in read.states))
         for file, read in zip(written.files, written.programs, strict=True)

@@ -139,6 +139,7 @@ def _judged(done: CutProgram, motions: _Motions) -> Json:
         told = {
             "gouge": _gouge(judged, motions),
             "left": {"reachable_mm2": judged.reachable_mm2, "unreachable_mm2": judged.unreachable_mm2,
+                     **({"given_up_mm2": judged.skin_mm2} if judged.skin_mm2 else {}),
                      "largest_disc_mm": judged.largest_disc_mm},
             "worst": [_spot(spot, motions) for spot in judged.spots[:SPOTS]], "worst_count": len(judged.spots),
             "bands": [{"low_mm": _finite(band.low), "high_mm": _finite(band.high), "area_mm2": band.area_mm2} for band in judged.bands],

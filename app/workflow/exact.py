@@ -47,7 +47,7 @@ def exact_of(part: FlatPart, courses: Sequence[Course], stock: StockBox,
     before = np.cumsum([0, *(len(course.motions) for course in courses)])
     moves = _joined([each.moves for each in found])
     motion = np.concatenate([each.motion + count for each, count in zip(found, before.tolist(), strict=False)])
-    program = Program(moves, part.regions)
+    program = Program(moves, part.regions, allowance_mm=part.allowance)
     progress.step(0.0, "Checking clearance")
     x, y, z = part.origin
     box = StockBox(stock.x0 + x, stock.y0 + y, stock.z0 + z, stock.x1 + x, stock.y1 + y, stock.z1 + z)

@@ -132,6 +132,7 @@ def judge(judging: Judging, certificate: Certificate | None) -> Judgement:
     return Judgement(
         deviation, unreachable, gouge, line, reachable_mm2, unreachable_mm2, max(discs, default=0.0), (*gouges, *left_spots),
         counts | {SpotKind.GOUGE: gouged}, tuple(_bands(judging, deviation)), certificate, isinstance(part, FlatPart), tolerance,
+        coverage.given_up_mm2 if coverage is not None else 0.0,
     )  # fmt: skip
 
 

@@ -84,6 +84,7 @@ class Judgement:
         gouge_line: its NC line, 0 = none.
         reachable_mm2, unreachable_mm2: area of the metal left, seen from above.
         largest_disc_mm: diameter of the largest disc that fits where no tool reaches.
+        skin_mm2: area of the skin that paths made from pixels leave along the walls; in none of the areas before.
         spots: the worst places, gouges first, then left, then unreachable; each kind worst first. counts: of all there are.
         bands: areas by deviation, from the lowest to the highest.
         certificate: what holds between the cells; None where only the cells were looked at.
@@ -104,6 +105,7 @@ class Judgement:
     certificate: Certificate | None
     exact: bool
     tolerance: float
+    skin_mm2: float = 0.0
 
     @property
     def clean(self) -> bool:
@@ -132,6 +134,10 @@ def _told(judgement: Judgement, where: Callable[[int], str]) -> Iterator[Finding
         text = (f"{judgement.reachable_mm2:.3f} mm2 of metal within reach is left in {_places(judgement.counts[SpotKind.LEFT])}, the worst "
                 f"{spot.depth_mm:.3f} mm high and {spot.disc_mm:.3f} mm wide at ({spot.x:.3f}, {spot.y:.3f}).")
         yield Finding(FindingKind.LEFT_REACHABLE, text, spot.x, spot.y, amount=judgement.reachable_mm2, line=spot.line)
+    if judgement.skin_mm2:
+        text = (f"{judgement.skin_mm2:.3f} mm2 of metal is left along the walls, the skin that paths made from pixels leave so as not to "
+                "cut into them; a larger bitmap leaves less.")
+        yield Finding(FindingKind.SKIN, text, counts=False, amount=judgement.skin_mm2)
     for spot in beyond[:1]:
         places = _places(judgement.counts[SpotKind.UNREACHABLE])
         text = (f"{judgement.unreachable_mm2:.3f} mm2 in {places} is out of reach of every tool; a disc of "

@@ -25,6 +25,7 @@ class FlatPart:
         origin: the program's zero, mm, part coordinates: program = part - origin.
         wall_tolerance: within which a wall counts as met, mm: what path and writing may be off.
         tolerance: of heights, mm.
+        allowance: so thick a skin may paths made from pixels leave along the walls, mm.
     """
 
     job: Job
@@ -32,6 +33,7 @@ class FlatPart:
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
     wall_tolerance: float = 0.002
     tolerance: float = TOLERANCE
+    allowance: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -182,7 +182,8 @@ def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
     proven = header.path_tolerance if wishes.tolerance is None else None
     tolerance = TOLERANCE if wishes.tolerance is None else wishes.tolerance
     origin = _origin(job, regions, wishes, header)
-    return FlatPart(job, regions, origin, tolerance if proven is None else proven, tolerance), (*drawing.findings, *findings)
+    part = FlatPart(job, regions, origin, tolerance if proven is None else proven, tolerance, header.allowance or 0.0)
+    return part, (*drawing.findings, *findings)
 
 
 def _origin(job: Job, regions: tuple[Region, ...], wishes: Wishes, header: HeaderNote) -> tuple[float, float, float]:

@@ -124,7 +124,8 @@ def test_metal_is_left_along_the_walls_alone() -> None:
     assert done.report.data["left"]["given_up_mm2"] == done.coverage.given_up_mm2
     (told,) = [finding for finding in done.findings if finding.text.startswith(f"{done.coverage.given_up_mm2:.3f} mm2")]
     assert not told.counts
-    assert f"up to {result.given_up.most_mm:.3f} mm more" in told.text
+    assert told.kind is FindingKind.SKIN
+    assert f"up to about {result.program.allowance_mm:.3f} mm" in told.text
 
 
 def test_metal_left_away_from_the_walls_still_counts() -> None:
@@ -135,7 +136,7 @@ def test_metal_left_away_from_the_walls_still_counts() -> None:
     left = measure(replace(program, moves=moves), job)
     assert left.reachable_left_mm2 > 100
     assert 0 < left.given_up_mm2 < 20
-    exact = measure(replace(program, moves=moves, given_up_mm=None), job)
+    exact = measure(replace(program, moves=moves, allowance_mm=0.0), job)
     assert exact.given_up == ()
     assert math.isclose(exact.reachable_left_mm2, left.reachable_left_mm2 + left.given_up_mm2, abs_tol=0.5)
     assert any(finding.kind is FindingKind.LEFT_REACHABLE and finding.counts for finding in coverage_findings(left))

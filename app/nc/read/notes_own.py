@@ -40,6 +40,7 @@ def own_notes(comments: Comments) -> Notes:
         origin, tuple(_operations(told.get("operation", []))), _units(told.get("drawing_units", [])),
         tuple(_name(values) for _, values in told.get("layer", [])),
         _first(told.get("join_tolerance_mm", [])), _first(told.get("path_tolerance_mm", [])),
+        _first(told.get("allowance_mm", [])),
     )  # fmt: skip
     return Notes(tuple(_tools(told.get("tool", []))), _stock(told.get("stock_mm", []), origin or (0.0, 0.0, 0.0)), header)
 

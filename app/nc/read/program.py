@@ -179,7 +179,8 @@ class HeaderNote:
         drawing_units: of the drawing.
         layers: that were machined; empty = all visible ones. Controls that write capitals alone write these so too.
         join_tolerance: within which loose ends were joined, mm.
-        path_tolerance: how far the written path may be from the exact one, mm.
+        path_tolerance: by how much the written path may be too near to the walls, mm.
+        allowance: so thick a skin may paths made from pixels leave along the walls, mm.
     """
 
     origin: tuple[float, float, float] | None = None
@@ -188,6 +189,7 @@ class HeaderNote:
     layers: tuple[str, ...] = ()
     join_tolerance: float | None = None
     path_tolerance: float | None = None
+    allowance: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
