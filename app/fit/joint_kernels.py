@@ -203,7 +203,7 @@ def rows_between(carriers, joints, rows):
         rows[k, 4], rows[k, 5], rows[k, 6], rows[k, 7] = cx, cy, math.hypot(ax - cx, ay - cy), carriers[k, 3]
 
 
-@kernel("boolean(float64[::1], float64, float64)")
+@kernel("boolean(float64[::1], float64, float64)", counts=False)
 def _within(row, x, y):
     """Tell whether a point lies in the sector of an arc, which may sweep up to a full turn."""
     ax, ay, bx, by, vx, vy = row[0] - row[4], row[1] - row[5], row[2] - row[4], row[3] - row[5], x - row[4], y - row[5]
@@ -211,7 +211,7 @@ def _within(row, x, y):
     return (behind and ahead) if row[7] * (ax * by - ay * bx) >= 0.0 else (behind or ahead)
 
 
-@kernel("float64(float64[::1], float64, float64)")
+@kernel("float64(float64[::1], float64, float64)", counts=False)
 def _distance(row, x, y):
     """Return the distance of a point from a row, which may sweep up to a full turn."""
     if row[7] == 0.0:
@@ -224,7 +224,7 @@ def _distance(row, x, y):
     return math.sqrt(min((x - row[0]) ** 2 + (y - row[1]) ** 2, (x - row[2]) ** 2 + (y - row[3]) ** 2))
 
 
-@kernel("boolean(float64[::1], float64[::1], float64, float64)")
+@kernel("boolean(float64[::1], float64[::1], float64, float64)", counts=False)
 def _runs_back(row, carrier, x, y):
     """Tell whether a row runs against its carrier, or the other way round; (x, y) is a point in its middle."""
     if carrier[4] == 0.0:
@@ -232,7 +232,7 @@ def _runs_back(row, carrier, x, y):
     return row[7] != 0.0 and not _within(row, x, y)
 
 
-@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1])")
+@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1])", counts=False)
 def deviations(points, ends, carriers, rows, worst):
     """Write for each row the greatest distance of its points from the path, and whether that is too far, as a number.
 

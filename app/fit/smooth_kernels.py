@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from app.fit.moment_kernels import add_up, fit_circle, fit_line
+from app.fit.moment_kernels import add_up, fit_circle, fit_line, line_residual
 from app.jit import kernel
 
 LINE, ARC = 0, 1
@@ -23,7 +23,7 @@ SHORT = 3
 @kernel("boolean(float64[:, ::1], int64, int64, float64[:, ::1], float64)")
 def _line_holds(points, a, steps, sums, tolerance):
     """Tell whether points a ... a + steps lie within tolerance of their line and go along it, never back."""
-    mx, my, dx, dy, _ = fit_line(sums, 0, steps + 1)
+    mx, my, dx, dy = fit_line(sums, 0, steps + 1)
     if dx * (points[a + steps, 0] - points[a, 0]) + dy * (points[a + steps, 1] - points[a, 1]) < 0.0:
         dx, dy = -dx, -dy
     mx, my = mx + points[a, 0], my + points[a, 1]
@@ -152,7 +152,7 @@ def _cost(sums, first, stop, kind):
     """Return the sum of squared residuals of points first ... stop - 1."""
     n = stop - first
     if kind == LINE:
-        return fit_line(sums, first, stop)[4] * n if n > 2 else 0.0
+        return line_residual(sums, first, stop) * n if n > 2 else 0.0
     return fit_circle(sums, first, stop)[3] * n if n > 3 else math.inf
 
 
@@ -288,7 +288,7 @@ def carriers(points, breaks, kinds, count, found):
             turn = ux * (points[b, 1] - points[m, 1]) - uy * (points[b, 0] - points[m, 0])
             found[k, 0], found[k, 1], found[k, 2], found[k, 3], found[k, 4] = cx, cy, r, (1.0 if turn > 0 else -1.0), 1.0
             continue
-        mx, my, dx, dy, _ = fit_line(sums, 0, b - a + 1)
+        mx, my, dx, dy = fit_line(sums, 0, b - a + 1)
         if dx * (points[b, 0] - points[a, 0]) + dy * (points[b, 1] - points[a, 1]) < 0.0:
             dx, dy = -dx, -dy
         found[k, 0], found[k, 1], found[k, 2], found[k, 3], found[k, 4] = mx + points[a, 0], my + points[a, 1], dx, dy, 0.0
