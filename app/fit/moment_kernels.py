@@ -18,9 +18,11 @@ def add_up(points, origin, first, stop, sums):
     Args:
         points: (n, 2).
         origin: the point that coordinates are relative to, and the first one of the sums.
-        first, stop: which rows to write; row `first` must be there, sums[0] is 0.
+        first, stop: which rows to write; row `first` must be there, but for sums[0], which is 0.
         sums: (m, 8), m > stop.
     """
+    if first == 0:
+        sums[0, :] = 0.0
     x0, y0 = points[origin, 0], points[origin, 1]
     for k in range(first, stop):
         x, y = points[origin + k, 0] - x0, points[origin + k, 1] - y0
