@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from app.bitmap.row_kernels import end_of_run
+from app.bitmap.row_kernels import end_of_run, first_zero
 from app.jit import kernel
 
 EXACT = 1e-6
@@ -74,9 +74,9 @@ def _count(index, found, nearest, thresholds):
     done, count = nearest[2, 0], 0
     for k in range(found):
         p, key, first, stop = nearest[0, k], nearest[1, k], nearest[2, k], nearest[2, k + 1]
-        a, b = first * (first - 2 * p), (stop - 1) * (stop - 1 - 2 * p)
-        least = -p * p if first <= p < stop else min(a, b)
-        if key + least >= thresholds[count] and key + max(a, b) < thresholds[count + 1]:
+        a, b = key + first * (first - 2 * p), key + (stop - 1) * (stop - 1 - 2 * p)
+        deepest = (stop - first) * (stop - first) >> 2  # the parabola between its ends is lower than both by no more
+        if min(a, b) - deepest >= thresholds[count] and max(a, b) < thresholds[count + 1]:
             continue
         for x in range(first, stop):
             d, now = key + x * (x - 2 * p), count
@@ -129,8 +129,6 @@ def reached(inner, beside, thresholds, index, bands):
             _from_below(height[k + 1] if k + 1 < count else beside[1, band], height[k])
             c = end_of_run(height[k], 0, 0)
             while c < cols:
-                first = c
-                while c < cols and height[k, c] != 0:
-                    c += 1
-                _count(index[top + k], _envelope(height[k], first, c, nearest, halves), nearest, thresholds)
-                c = end_of_run(height[k], c, 0)
+                stop = first_zero(height[k], c)
+                _count(index[top + k], _envelope(height[k], c, stop, nearest, halves), nearest, thresholds)
+                c = end_of_run(height[k], stop, 0)

@@ -6,7 +6,7 @@ import numpy as np
 
 from app.jit import kernel
 
-AT_ONCE = 64
+AT_ONCE = 128
 """Columns that are compared together."""
 
 
@@ -21,6 +21,21 @@ def end_of_run(row, c, here):
             break
         c += AT_ONCE
     while c < len(row) and row[c] == here:
+        c += 1
+    return c
+
+
+@kernel("int64(uint16[::1], int64)", counts=False)
+def first_zero(row, c):
+    """Return the first column from c on in which a row is 0."""
+    while c + AT_ONCE <= len(row):
+        block, zero = row[c : c + AT_ONCE], np.uint16(0)
+        for k in range(AT_ONCE):
+            zero |= np.uint16(block[k] == 0)
+        if zero != 0:
+            break
+        c += AT_ONCE
+    while c < len(row) and row[c] != 0:
         c += 1
     return c
 
