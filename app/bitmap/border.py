@@ -41,7 +41,7 @@ def borders_of(index: Index | Mask) -> tuple[Border, ...]:
     from app.bitmap import border_kernels
 
     plane = np.ascontiguousarray(index, np.uint16)
-    starts, codes = np.empty((256, 5), np.int64), np.empty(4 * sum(plane.shape) + 64, np.uint8)
+    starts, codes = np.empty((256, 5), np.int64), np.empty(plane.size // 16 + 4096, np.uint8)
     count, used = border_kernels.borders(plane, np.zeros(plane.shape, np.uint8), starts, codes)
     if count > len(starts) or used > len(codes):
         starts, codes = np.empty((count, 5), np.int64), np.empty(used, np.uint8)

@@ -5,6 +5,7 @@ Directions are those of the chain code: 0 to the right, then counter-clockwise b
 
 from __future__ import annotations
 
+from app.bitmap.row_kernels import end_of_run
 from app.jit import kernel
 
 LEFT = 4
@@ -72,22 +73,6 @@ def _trace_one(index, seen, start, chain):
     return length
 
 
-@kernel("int64(uint16[:, ::1], int64, int64, int64)")
-def _end_of_level(index, r, c, here):
-    """Return the first column from c on in which a row's level is not `here`."""
-    cols = index.shape[1]
-    while c + 8 <= cols:
-        other = 0
-        for k in range(8):
-            other |= int(index[r, c + k]) ^ here
-        if other != 0:
-            break
-        c += 8
-    while c < cols and index[r, c] == here:
-        c += 1
-    return c
-
-
 @kernel("UniTuple(int64, 2)(uint16[:, ::1], uint8[:, ::1], int64[:, ::1], uint8[::1])")
 def borders(index, seen, starts, chain):
     """Trace every border of every level's area {index >= level}.
@@ -104,7 +89,7 @@ def borders(index, seen, starts, chain):
     count, used = 0, 0
     start = starts[0, :3].copy()
     for r in range(index.shape[0]):
-        before, c = 0, _end_of_level(index, r, 0, 0)
+        before, c = 0, end_of_run(index[r], 0, 0)
         while c < index.shape[1]:
             here = int(index[r, c])
             for level in range(before + 1, here + 1):
@@ -117,5 +102,5 @@ def borders(index, seen, starts, chain):
                     starts[count, 3], starts[count, 4] = used, length
                 count += 1
                 used += length
-            before, c = here, _end_of_level(index, r, c, here)
+            before, c = here, end_of_run(index[r], c, here)
     return count, used

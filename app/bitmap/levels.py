@@ -14,7 +14,7 @@ from app.bitmap.peel import Floats, distance_px, frame_pixels, inner_pixels
 from app.bitmap.walls import Mask
 from app.pool import pool
 
-_BAND = 1 << 20
+_PART = 1 << 20
 """Pixels that are worth a thread's start."""
 
 SAFE_PX = 1.21
@@ -46,13 +46,12 @@ def thresholds_reached(free: Mask, squares: Sequence[int]) -> Index:
     """
     from app.bitmap import distance_kernels
 
-    inner, rows, cols = np.ascontiguousarray(free).view(np.uint8), *free.shape
-    index = np.empty(free.shape, np.uint16)
-    thresholds = np.array([*squares, np.iinfo(np.int64).max], np.int64)
-    parts = 1 + min(free.size // _BAND, 8)
-    columns, bands = (pairwise(np.linspace(0, size, parts + 1).astype(int).tolist()) for size in (cols, rows))
-    list(pool().map(lambda part: distance_kernels.columns(inner, index, *part), columns))
-    list(pool().map(lambda part: distance_kernels.reached(index, thresholds, *part), bands))
+    inner, bands = np.ascontiguousarray(free).view(np.uint8), -(-len(free) // distance_kernels.BAND)
+    index, beside = np.zeros(free.shape, np.uint16), np.empty((2, bands, free.shape[1]), np.uint16)
+    thresholds = np.array([0, *squares, np.iinfo(np.int64).max], np.int64)
+    list(pool().map(lambda k: distance_kernels.beside_bands(inner, k == 0, beside[k]), range(2)))
+    parts = pairwise(np.linspace(0, bands, 1 + min(free.size // _PART, bands) + 1).astype(int).tolist())
+    list(pool().map(lambda part: distance_kernels.reached(inner, beside, thresholds, index, part), parts))
     return index
 
 

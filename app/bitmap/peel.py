@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +11,12 @@ from numpy.typing import NDArray
 from app.bitmap.border import Border, borders_of
 from app.bitmap.trace import Chain
 from app.bitmap.walls import Mask
+from app.pool import pool
 
 Floats = NDArray[np.float32]
+
+_PART = 1 << 20
+"""Pixels that are worth a thread's start."""
 
 
 def peels(area: Mask, count: int, *, keep_ends: bool = False) -> Iterator[tuple[Mask, tuple[Border, ...]]]:
@@ -56,11 +61,13 @@ def frame_pixels(area: Mask) -> Mask:
 
 def inner_pixels(area: Mask) -> Mask:
     """Return the pixels of an area that are no border pixels."""
-    import cv2
+    from app.bitmap import row_kernels
 
-    cross = np.array([[0, 1, 0], [1, 1, 1], [0, 1, 0]], np.uint8)
     plane = np.ascontiguousarray(area).view(np.uint8)
-    return np.asarray(cv2.erode(plane, cross, borderType=cv2.BORDER_CONSTANT, borderValue=0.0)).view(np.bool_)
+    found = np.empty_like(plane)
+    parts = pairwise(np.linspace(0, len(plane), 1 + plane.size // _PART + 1).astype(int).tolist())
+    list(pool().map(lambda part: row_kernels.inner(plane, found, *part), parts))
+    return found.view(np.bool_)
 
 
 def distance_px(area: Mask, border: Mask | None = None) -> Floats:

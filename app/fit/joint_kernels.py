@@ -266,7 +266,7 @@ def rows_between(carriers, joints, rows):
         rows[k, 4], rows[k, 5], rows[k, 6], rows[k, 7] = cx, cy, math.hypot(ax - cx, ay - cy), carriers[k, 3]
 
 
-@kernel("boolean(float64[::1], float64, float64)")
+@kernel("boolean(float64[::1], float64, float64)", counts=False)
 def _within(row, x, y):
     """Tell whether a point lies in the sector of an arc, which may sweep up to a full turn."""
     ax, ay, bx, by, vx, vy = row[0] - row[4], row[1] - row[5], row[2] - row[4], row[3] - row[5], x - row[4], y - row[5]
@@ -274,8 +274,8 @@ def _within(row, x, y):
     return (behind and ahead) if row[7] * (ax * by - ay * bx) >= 0.0 else (behind or ahead)
 
 
-@kernel("float64(float64[::1], float64, float64)")
-def distance(row, x, y):
+@kernel("float64(float64[::1], float64, float64)", counts=False)
+def _distance(row, x, y):
     """Return the distance of a point from a row, which may sweep up to a full turn."""
     if row[7] == 0.0:
         dx, dy = row[2] - row[0], row[3] - row[1]
@@ -287,7 +287,7 @@ def distance(row, x, y):
     return math.sqrt(min((x - row[0]) ** 2 + (y - row[1]) ** 2, (x - row[2]) ** 2 + (y - row[3]) ** 2))
 
 
-@kernel("boolean(float64[::1], float64[::1], float64, float64)")
+@kernel("boolean(float64[::1], float64[::1], float64, float64)", counts=False)
 def _runs_back(row, carrier, x, y):
     """Tell whether a row runs against its carrier, or the other way round; (x, y) is a point in its middle."""
     if carrier[4] == 0.0:
@@ -295,7 +295,7 @@ def _runs_back(row, carrier, x, y):
     return row[7] != 0.0 and not _within(row, x, y)
 
 
-@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1])")
+@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1])", counts=False)
 def deviations(points, ends, carriers, rows, worst):
     """Write for each row the greatest distance of its points from the path, and whether that is too far, as a number.
 
@@ -317,8 +317,8 @@ def deviations(points, ends, carriers, rows, worst):
         worst[k, 1] = math.inf if _runs_back(rows[k], carriers[k], points[m, 0], points[m, 1]) else 0.0
         for i in range(a, b + 1):
             x, y = points[i, 0], points[i, 1]
-            off = distance(rows[k], x, y)
+            off = _distance(rows[k], x, y)
             if off > worst[k, 0] or off > worst[k, 1]:
-                off = min(off, distance(rows[k - 1], x, y), distance(rows[(k + 1) % n], x, y))
+                off = min(off, _distance(rows[k - 1], x, y), _distance(rows[(k + 1) % n], x, y))
                 worst[k, 0] = max(worst[k, 0], off)
                 worst[k, 1] = max(worst[k, 1], off / 2 if i - a < NEAR or b - i < NEAR else off)

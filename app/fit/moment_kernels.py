@@ -18,9 +18,11 @@ def add_up(points, origin, first, stop, sums):
     Args:
         points: (n, 2).
         origin: the point that coordinates are relative to, and the first one of the sums.
-        first, stop: which rows to write; row `first` must be there, sums[0] is 0.
+        first, stop: which rows to write; row `first` must be there, but for sums[0], which is 0.
         sums: (m, 8), m > stop.
     """
+    if first == 0:
+        sums[0, :] = 0.0
     x0, y0 = points[origin, 0], points[origin, 1]
     for k in range(first, stop):
         x, y = points[origin + k, 0] - x0, points[origin + k, 1] - y0
@@ -35,20 +37,33 @@ def add_up(points, origin, first, stop, sums):
         sums[k + 1, 7] = sums[k, 7] + w * w
 
 
-@kernel("UniTuple(float64, 5)(float64[:, ::1], int64, int64)")
-def fit_line(sums, first, stop):
-    """Return the line nearest to points first ... stop - 1 (total least squares): a point, a unit vector, mean square residual.
-
-    Coordinates are relative to the sums' origin; the vector's sense is arbitrary.
-    """
+@kernel("UniTuple(float64, 5)(float64[:, ::1], int64, int64)", counts=False)
+def _spread(sums, first, stop):
+    """Return the mean (x, y) of points first ... stop - 1 and the means of x^2, x y and y^2 about it."""
     n = stop - first
     mx, my = (sums[stop, 0] - sums[first, 0]) / n, (sums[stop, 1] - sums[first, 1]) / n
     xx = (sums[stop, 2] - sums[first, 2]) / n - mx * mx
     xy = (sums[stop, 3] - sums[first, 3]) / n - mx * my
     yy = (sums[stop, 4] - sums[first, 4]) / n - my * my
-    half = math.hypot((xx - yy) / 2, xy)
+    return mx, my, xx, xy, yy
+
+
+@kernel("UniTuple(float64, 4)(float64[:, ::1], int64, int64)", counts=False)
+def fit_line(sums, first, stop):
+    """Return the line nearest to points first ... stop - 1 (total least squares): a point and a unit vector.
+
+    Coordinates are relative to the sums' origin; the vector's sense is arbitrary.
+    """
+    mx, my, xx, xy, yy = _spread(sums, first, stop)
     angle = math.atan2(2 * xy, xx - yy) / 2
-    return mx, my, math.cos(angle), math.sin(angle), max((xx + yy) / 2 - half, 0.0)
+    return mx, my, math.cos(angle), math.sin(angle)
+
+
+@kernel("float64(float64[:, ::1], int64, int64)", counts=False)
+def line_residual(sums, first, stop):
+    """Return the mean square residual of points first ... stop - 1 from the line nearest to them."""
+    _, _, xx, xy, yy = _spread(sums, first, stop)
+    return max((xx + yy) / 2 - math.hypot((xx - yy) / 2, xy), 0.0)
 
 
 @kernel("UniTuple(float64, 4)(float64[:, ::1], int64, int64)")

@@ -9,7 +9,6 @@ are made to touch it.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -106,21 +105,26 @@ def _carriers(rounds: Floats, ends: Ints, kinds: Ints) -> Floats:
 
 
 def _split(rounds: Floats, segments: _Segments, bad: NDArray[np.bool_], tolerance: float) -> _Segments:
-    """Return segments, the bad ones in finer pieces."""
+    """Return segments, the bad ones, of which there is one at least, in finer pieces."""
+    ends, kinds, joined = segments[0], segments[1].copy(), segments[2]
+    places, inner, others = [], [], []
+    for k in np.flatnonzero(bad).tolist():
+        finer, own = _finer(rounds, int(ends[k]), int(ends[k + 1]), tolerance)
+        kinds[k] = own[0]
+        places.append(np.full(len(own) - 1, k + 1))
+        inner.append(finer[1:-1])
+        others.append(own[1:])
+    at = np.concatenate(places)
+    return np.insert(ends, at, np.concatenate(inner)), np.insert(kinds, at, np.concatenate(others)), np.insert(joined, at, 0)
+
+
+def _finer(rounds: Floats, a: int, b: int, tolerance: float) -> tuple[Ints, Ints]:
+    """Return the ends (n + 1,) and kinds (n,) of the lines and arcs that points a ... b fall into."""
     from app.fit import smooth_kernels
 
-    ends, kinds, joined = segments
-    new_ends, new_kinds, new_joined = [ends[:1]], [], []
-    for k, (a, b) in enumerate(pairwise(ends.tolist())):
-        inner, own = np.array([a, b]), kinds[k : k + 1]
-        if bad[k]:
-            inner, own = np.empty(b - a + 1, np.int64), np.empty(b - a, np.int64)
-            found = smooth_kernels.segment(rounds, a, b - a, tolerance, inner, own)
-            inner, own = inner[: found + 1], own[:found]
-        new_ends.append(inner[1:])
-        new_kinds.append(own)
-        new_joined.append(np.append(joined[k], np.zeros(len(own) - 1, np.uint8)).astype(np.uint8))
-    return np.concatenate(new_ends), np.concatenate(new_kinds), np.concatenate(new_joined)
+    ends, kinds = np.empty(b - a + 1, np.int64), np.empty(b - a, np.int64)
+    found = smooth_kernels.segment(rounds, a, b - a, tolerance, ends, kinds)
+    return ends[: found + 1], kinds[:found]
 
 
 def _joined(rounds: Floats, segments: _Segments, options: SmoothOptions) -> tuple[Smoothed, NDArray[np.bool_]]:

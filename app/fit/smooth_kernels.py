@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from app.fit.moment_kernels import add_up, fit_circle, fit_line
+from app.fit.moment_kernels import add_up, fit_circle, fit_line, line_residual
 from app.jit import kernel
 
 LINE, ARC = 0, 1
@@ -23,7 +23,7 @@ SHORT = 3
 @kernel("boolean(float64[:, ::1], int64, int64, float64[:, ::1], float64)")
 def _line_holds(points, a, steps, sums, tolerance):
     """Tell whether points a ... a + steps lie within tolerance of their line and go along it, never back."""
-    mx, my, dx, dy, _ = fit_line(sums, 0, steps + 1)
+    mx, my, dx, dy = fit_line(sums, 0, steps + 1)
     if dx * (points[a + steps, 0] - points[a, 0]) + dy * (points[a + steps, 1] - points[a, 1]) < 0.0:
         dx, dy = -dx, -dy
     mx, my = mx + points[a, 0], my + points[a, 1]
@@ -133,7 +133,7 @@ def segment(points, start, count, tolerance, breaks, kinds):
     Returns:
         Number of segments.
     """
-    sums = np.zeros((count + 2, 8))
+    sums = np.empty((count + 2, 8))
     at, found = start, 0
     breaks[0] = start
     while at < start + count:
@@ -152,7 +152,7 @@ def _cost(sums, first, stop, kind):
     """Return the sum of squared residuals of points first ... stop - 1."""
     n = stop - first
     if kind == LINE:
-        return fit_line(sums, first, stop)[4] * n if n > 2 else 0.0
+        return line_residual(sums, first, stop) * n if n > 2 else 0.0
     return fit_circle(sums, first, stop)[3] * n if n > 3 else math.inf
 
 
@@ -198,7 +198,7 @@ def settle(points, breaks, kinds, count):
     if count < 2:
         return
     period = breaks[count] - breaks[0]
-    sums = np.zeros((16, 8))
+    sums = np.empty((16, 8))
     for _ in range(2):
         for k in range(count):
             if k + 1 < count:
@@ -206,7 +206,7 @@ def settle(points, breaks, kinds, count):
             else:
                 ends, pair = (breaks[k], breaks[k + 1], breaks[1] + period), (kinds[k], kinds[0])
             if ends[2] - ends[0] + 2 > len(sums):
-                sums = np.zeros((2 * (ends[2] - ends[0]) + 2, 8))
+                sums = np.empty((2 * (ends[2] - ends[0]) + 2, 8))
             breaks[k + 1] = _settled(points, ends, pair, sums)
         breaks[0] = breaks[count] - period
     _within(breaks, count, period)
@@ -215,14 +215,14 @@ def settle(points, breaks, kinds, count):
 @kernel("int64(float64[:, ::1], int64[::1], int64[::1], int64, float64)")
 def merge(points, breaks, kinds, count, tolerance):
     """Join neighbours that one line or arc holds, but for a step at corners; return how many segments are left."""
-    sums = np.zeros((16, 8))
+    sums = np.empty((16, 8))
     kept = 0
     for k in range(1, count):
         last = breaks[k + 1]
         spare = 1 if last - breaks[kept] > 12 else 0
         a, c = breaks[kept] + spare, last - spare
         if c - a + 2 > len(sums):
-            sums = np.zeros((2 * (c - a) + 2, 8))
+            sums = np.empty((2 * (c - a) + 2, 8))
         add_up(points, a, 0, c - a + 1, sums)
         if _line_holds(points, a, c - a, sums, tolerance):
             kinds[kept] = LINE
@@ -252,12 +252,12 @@ def _goes_round(points, a, steps, sums):
 @kernel("void(float64[:, ::1], int64[::1], int64[::1], int64, float64)")
 def straighten(points, breaks, kinds, count, tolerance):
     """Make lines of the arcs that a line holds as well, or that are none, now that their ends have moved."""
-    sums = np.zeros((16, 8))
+    sums = np.empty((16, 8))
     for k in range(count):
         a, b = breaks[k], breaks[k + 1]
         if kinds[k] == ARC:
             if b - a + 2 > len(sums):
-                sums = np.zeros((2 * (b - a) + 2, 8))
+                sums = np.empty((2 * (b - a) + 2, 8))
             add_up(points, a, 0, b - a + 1, sums)
             if _line_holds(points, a, b - a, sums, tolerance) or not _goes_round(points, a, b - a, sums):
                 kinds[k] = LINE
@@ -274,7 +274,7 @@ def carriers(points, breaks, kinds, count, found):
     longest = 0
     for k in range(count):
         longest = max(longest, breaks[k + 1] - breaks[k])
-    sums = np.zeros((longest + 2, 8))
+    sums = np.empty((longest + 2, 8))
     for k in range(count):
         a, b = breaks[k], breaks[k + 1]
         trim = 2 if b - a > 12 else 1 if b - a > 6 else 0
@@ -288,7 +288,7 @@ def carriers(points, breaks, kinds, count, found):
             turn = ux * (points[b, 1] - points[m, 1]) - uy * (points[b, 0] - points[m, 0])
             found[k, 0], found[k, 1], found[k, 2], found[k, 3], found[k, 4] = cx, cy, r, (1.0 if turn > 0 else -1.0), 1.0
             continue
-        mx, my, dx, dy, _ = fit_line(sums, 0, b - a + 1)
+        mx, my, dx, dy = fit_line(sums, 0, b - a + 1)
         if dx * (points[b, 0] - points[a, 0]) + dy * (points[b, 1] - points[a, 1]) < 0.0:
             dx, dy = -dx, -dy
         found[k, 0], found[k, 1], found[k, 2], found[k, 3], found[k, 4] = mx + points[a, 0], my + points[a, 1], dx, dy, 0.0
@@ -368,7 +368,7 @@ def segment_closed(points, count, tolerance, breaks, kinds):
     Returns:
         Number of segments; 1 when one circle (or line) holds them all.
     """
-    sums = np.zeros((count + 2, 8))
+    sums = np.empty((count + 2, 8))
     add_up(points, 0, 0, count + 1, sums)
     breaks[0], breaks[1], kinds[0] = 0, count, ARC
     if _arc_holds(points, 0, count, sums, tolerance):

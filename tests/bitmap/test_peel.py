@@ -9,7 +9,7 @@ from scipy import ndimage
 from app.bitmap.border import borders_of, mark
 from app.bitmap.frame import Frame
 from app.bitmap.levels import SAFE_PX, RingSteps, frame_distance, offset_area, ring_index, thresholds_reached
-from app.bitmap.peel import correct_by_circles, distance_px, frame_pixels, peels
+from app.bitmap.peel import correct_by_circles, distance_px, frame_pixels, inner_pixels, peels
 from app.bitmap.walls import free_pixels
 from tests.bitmap.peeling import peeled, shrink
 from tests.part_shapes import fig2
@@ -127,6 +127,26 @@ def test_large_pictures_are_measured_in_bands_alike() -> None:
     area = part(1600)
     square = squared_distance(area, ~area)
     assert np.array_equal(thresholds_reached(area, [400, 2500]), (square >= 400) + 1 * (square >= 2500))
+
+
+@pytest.mark.parametrize(("rows", "cols", "free"), [(97, 700, 0.999), (33, 300, 0.99), (64, 129, 0.5), (1, 200, 0.99), (200, 1, 0.99)])
+def test_long_runs_and_thin_pictures_are_measured_alike(rows: int, cols: int, free: float) -> None:
+    area = np.random.default_rng(rows).random((rows, cols)) < free
+    padded = np.pad(area, 1)
+    inner = ndimage.binary_erosion(padded)[1:-1, 1:-1]
+    assert np.array_equal(inner_pixels(area), inner)
+    thresholds = [1, 2, 30, 31, 32, 400]
+    square = squared_distance(padded, ~padded)[1:-1, 1:-1]
+    assert np.array_equal(thresholds_reached(area, thresholds), sum((square >= each).astype(int) for each in thresholds))
+
+
+def test_noise_of_many_borders_is_traced_whole() -> None:
+    noise = np.random.default_rng(1).random((300, 300)) < 0.7
+    borders = borders_of(noise)
+    assert len(borders) == ndimage.label(noise, EIGHT)[1] + ndimage.label(~np.pad(noise, 1))[1] - 1
+    marked = np.zeros(noise.shape, np.uint8)
+    mark(marked, borders, 1)
+    assert np.array_equal(marked == 1, frame_pixels(noise))
 
 
 def test_paths_are_levels_of_one_field() -> None:
