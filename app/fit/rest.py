@@ -2,8 +2,8 @@
 
 Round each such bend a biarc leads from one piece into the next, from the middle of an arc, where its points tell best
 how the curve runs, to the middle of the next. So the curve is one of arcs, which machines understand, without a corner.
-Bends at which that leads too far from the points stay. What bends more is a vertex; what bends less than `_LEAST` is
-smooth for a machine.
+Bends at which that leads too far from the points stay. What bends more is a vertex; what bends less than `NO_BEND`
+is left alone.
 """
 
 from __future__ import annotations
@@ -20,7 +20,9 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-_LEAST = math.radians(0.1)
+NO_BEND = math.radians(0.1)
+"""What bends less is smooth for a machine."""
+
 _MOST = math.radians(20.0)
 
 
@@ -35,7 +37,7 @@ def without_bends(path: Smoothed, points: Floats, limit: float) -> Smoothed:
 
     count = len(path.rows)
     bent, anchors = np.empty(count, np.bool_), (np.empty((count, 2, 4)), np.empty((count, 2), np.int64))
-    rest_kernels.bends(points, (path.ends, path.rows, path.joined), (_LEAST, _MOST), bent, anchors)
+    rest_kernels.bends(points, (path.ends, path.rows, path.joined), (NO_BEND, _MOST), bent, anchors)
     while bent.any():
         made, origin = _smoothed(path, points, anchors, bent)
         if made is None:

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.errors import ParameterError
-from app.fit.rest import without_bends
+from app.fit.rest import NO_BEND, without_bends
 from app.fit.smoothed import PieceKind, Smoothed
-from app.geometry.primitives import R, Rows
+from app.geometry.primitives import R, Rows, turns
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -29,13 +29,17 @@ _LIMIT = 2.0
 _ROUNDS = 6
 """How often segments that no joint suits are cut into finer ones."""
 
+_LAST_ROUNDS = 4
+"""How often those that still suit none are left as they are, from point to point."""
+
 
 @dataclass(frozen=True, slots=True)
 class SmoothOptions:
     """How to smooth. Lengths in the units of the points.
 
     Attributes:
-        tolerance: points may be so far from the lines and arcs that replace them, > 0.
+        tolerance: points may be so far from the line or arc that is fitted to them, > 0; from the path, which joins these, up
+            to twice as far, near corners, which pixels fill, four times: `Smoothed.deviation` tells.
         long_line: from this length on a line is a long one: ten times the tool's diameter in the text.
         pitch: of pixels whose centres the points are: lines and arcs are then moved to the right, out of the traced
             area, by as much as pixels inside a line lie off it on average; 0 = the points are the path itself.
@@ -61,6 +65,9 @@ def smooth(points: Floats, options: SmoothOptions) -> Smoothed:
     """
     from app.fit import joint_kernels, smooth_kernels
 
+    fresh = np.any(points != np.roll(points, 1, axis=0), axis=1)
+    if not fresh.all() and fresh.any():
+        return _among(smooth(np.ascontiguousarray(points[fresh]), options), np.flatnonzero(fresh), len(points))
     count = len(points)
     if count < 4:
         return as_it_is(points)
@@ -69,14 +76,25 @@ def smooth(points: Floats, options: SmoothOptions) -> Smoothed:
     if len(kinds) == 1 and kinds[0] == smooth_kernels.ARC:
         return _without_bias(_one_circle(points, _carriers(rounds, ends, kinds)), points, options)
     joined = np.zeros(len(kinds), np.uint8)
-    for again in range(_ROUNDS):
+    for again in range(_ROUNDS + _LAST_ROUNDS):
         result, bad = _joined(rounds, (ends, kinds, joined), options)
         if not bad.any():
             return _without_bias(without_bends(result, rounds, _LIMIT * options.tolerance), points, options)
         joined[bad | np.roll(bad, 1)] = joint_kernels.PINNED
-        if again % 2:
-            ends, kinds, joined = _split(rounds, (ends, kinds, joined), bad, options.tolerance / 2 ** (again // 2 + 1))
+        if again % 2 or again >= _ROUNDS:
+            finer = options.tolerance / 2 ** (again // 2 + 1) if again < _ROUNDS else 0.0
+            ends, kinds, joined = _split(rounds, (ends, kinds, joined), bad, finer)
     return as_it_is(points)
+
+
+def _among(path: Smoothed, numbers: Ints, count: int) -> Smoothed:
+    """Return a path through some of a closed path's points as one through all of them.
+
+    Args:
+        numbers: which of the `count` points they are; the others repeat the one before.
+    """
+    whole, rest = np.divmod(path.ends, len(numbers))
+    return replace(path, ends=numbers[rest] + whole * count)
 
 
 def _rounds(points: Floats) -> Floats:
@@ -119,9 +137,11 @@ def _split(rounds: Floats, segments: _Segments, bad: NDArray[np.bool_], toleranc
 
 
 def _finer(rounds: Floats, a: int, b: int, tolerance: float) -> tuple[Ints, Ints]:
-    """Return the ends (n + 1,) and kinds (n,) of the lines and arcs that points a ... b fall into."""
+    """Return the ends (n + 1,) and kinds (n,) of the lines and arcs that points a ... b fall into; without tolerance of the steps."""
     from app.fit import smooth_kernels
 
+    if not tolerance:
+        return np.arange(a, b + 1), np.full(b - a, smooth_kernels.LINE)
     ends, kinds = np.empty(b - a + 1, np.int64), np.empty(b - a, np.int64)
     found = smooth_kernels.segment(rounds, a, b - a, tolerance, ends, kinds)
     return ends[: found + 1], kinds[:found]
@@ -136,6 +156,7 @@ def _joined(rounds: Floats, segments: _Segments, options: SmoothOptions) -> tupl
     joint_kernels.make_tangent(rounds, ends, carriers, joined, options.tolerance)
     joint_kernels.let_arcs_touch(rounds, ends, carriers, joined, options.tolerance)
     rows = _rows(rounds, ends, (carriers, joined), options.tolerance)
+    joined[(joined == joint_kernels.TANGENT) & (turns(rows) > NO_BEND)] = joint_kernels.CROSSING
     joint_kernels.deviations(rounds, ends, carriers, rows, worst)
     path = Smoothed(rows, _kinds(rows, options), ends, joined, float(worst[:, 0].max()), True, carriers)
     return path, worst[:, 1] > _LIMIT * options.tolerance

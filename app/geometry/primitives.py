@@ -119,6 +119,17 @@ def sweeps(rows: Rows) -> NDArray[np.float64]:
     return np.where(same, math.tau, turn) * rows[:, TURN]
 
 
+def turns(rows: Rows) -> NDArray[np.float64]:
+    """Return by how much (n,) a closed path turns where each of its rows begins, radians, in [0, pi]."""
+
+    def ahead(at: int) -> NDArray[np.float64]:
+        arm_x, arm_y = rows[:, at] - rows[:, CX], rows[:, at + 1] - rows[:, CY]
+        line, turn = rows[:, TURN] == 0, rows[:, TURN]
+        return np.arctan2(np.where(line, rows[:, Y1] - rows[:, Y0], turn * arm_x), np.where(line, rows[:, X1] - rows[:, X0], -turn * arm_y))
+
+    return np.abs((ahead(X0) - np.roll(ahead(X1), 1) + math.pi) % math.tau - math.pi)
+
+
 def lengths(rows: Rows) -> NDArray[np.float64]:
     """Return the length of each row, mm."""
     chord = np.hypot(rows[:, X1] - rows[:, X0], rows[:, Y1] - rows[:, Y0])

@@ -10,7 +10,7 @@ from app.bitmap.frame import Frame
 from app.errors import ParameterError
 from app.fit.smooth import SmoothOptions, moved, smooth, without
 from app.fit.smoothed import PieceKind, Smoothed
-from app.geometry.primitives import R, lengths, points_at, row_curve
+from app.geometry.primitives import R, lengths, points_at, row_curve, turns
 from app.geometry.region import polygon_contour
 from app.model.curves import Arc, Line
 from app.model.part import Contour
@@ -162,3 +162,33 @@ def test_a_row_left_out_is_replaced_by_its_neighbours_crossing() -> None:
 def test_a_tolerance_must_be_a_length() -> None:
     with pytest.raises(ParameterError, match="tolerance is 0 mm"):
         SmoothOptions(0.0)
+
+
+def test_points_given_again_and_again_change_nothing() -> None:
+    points = sampled(plate(), 0.3)
+    once, thrice = (smooth(np.repeat(points, count, axis=0), SmoothOptions(0.05)) for count in (1, 3))
+    assert np.array_equal(once.rows, thrice.rows)
+    assert np.array_equal(np.repeat(points, 3, axis=0)[thrice.ends % (3 * len(points))], points[once.ends % len(points)])
+
+
+def test_what_fits_nothing_does_not_spoil_the_rest() -> None:
+    """A spiral there and back, with two cusps, and a square with a spot of noise."""
+    t = np.linspace(0, 6 * math.pi, 3000)
+    spiral = np.column_stack(((2 + t) * np.cos(t), (2 + t) * np.sin(t)))
+    path = smooth(np.concatenate([spiral, spiral[::-1]]), SmoothOptions(0.05))
+    assert path.exact
+    assert len(path.rows) < 100
+    corners = sampled(polygon_contour([(0, 0), (40, 0), (40, 40), (0, 40)]), 0.2)
+    corners[300:330] += np.random.default_rng(3).uniform(-1, 1, (30, 2))
+    path = smooth(corners, SmoothOptions(0.05))
+    assert path.exact
+    assert (lengths(path.rows) > 10).sum() >= 4
+
+
+@pytest.mark.parametrize("waves", [2, 5, 9])
+def test_joints_that_are_said_to_be_tangent_are(waves: int) -> None:
+    t = np.linspace(0, math.tau, 2000, endpoint=False)
+    r = 20 + 2 * np.sin(waves * t)
+    path = smooth(np.column_stack((r * np.cos(t), r * np.sin(t))), SmoothOptions(0.05))
+    assert path.tangent.mean() > 0.5
+    assert np.degrees(turns(path.rows)[path.tangent]).max() < 0.1
