@@ -2,8 +2,8 @@
 
 Round each such bend a biarc leads from one piece into the next, from the middle of an arc, where its points tell best
 how the curve runs, to the middle of the next. So the curve is one of arcs, which machines understand, without a corner.
-Bends at which that leads too far from the points stay. What bends more is a vertex; what bends less than `NO_BEND`
-is left alone.
+Bends at which that leads too far from the points stay. What bends more is a vertex; what bends less than `_LEAST`
+is left alone: it would cost nearness and win nothing.
 """
 
 from __future__ import annotations
@@ -21,8 +21,9 @@ Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 NO_BEND = math.radians(0.1)
-"""What bends less is smooth for a machine."""
+"""What bends less is tangent."""
 
+_LEAST = math.radians(1.0)
 _MOST = math.radians(20.0)
 
 
@@ -37,7 +38,7 @@ def without_bends(path: Smoothed, points: Floats, limit: float) -> Smoothed:
 
     count = len(path.rows)
     bent, anchors = np.empty(count, np.bool_), (np.empty((count, 2, 4)), np.empty((count, 2), np.int64))
-    rest_kernels.bends(points, (path.ends, path.rows, path.joined), (NO_BEND, _MOST), bent, anchors)
+    rest_kernels.bends(points, (path.ends, path.rows, path.joined), (_LEAST, _MOST), bent, anchors)
     while bent.any():
         made, origin = _smoothed(path, points, anchors, bent)
         if made is None:
