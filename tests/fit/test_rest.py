@@ -50,10 +50,11 @@ def test_a_free_curve_is_smooth_where_its_arcs_meet(name: str) -> None:
     path = smooth(traces(FRAME, [CURVES[name]])[0], SmoothOptions(TOLERANCE))
     free = path.kinds == PieceKind.SPLINE
     assert joins(path)
-    assert free.mean() > 0.5
+    assert free.mean() > 0.4
     both = free & np.roll(free, 1)
-    assert bends(path)[both].max() < 1e-6
-    assert path.tangent[both].all()
+    assert bends(path)[both].max() < 1.0, "bends below one degree stay"
+    assert path.tangent[both].mean() > 0.9
+    assert bends(path)[path.tangent & both].max() < 1e-6
     assert path.deviation <= 2 * TOLERANCE
     assert distance(along(path, 0.05), [CURVES[name]]).max() < 2 * TOLERANCE + FRAME.pitch / 2
 
