@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
+import re
 import threading
 from collections.abc import Sequence
 from dataclasses import replace
@@ -18,14 +20,19 @@ from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.files.job_toml import read_job, read_units
 from app.workflow.options import MakeOptions
-from app.workflow.stage_files import StagesRun, run_stages, stage_files
+from app.workflow.stage_files import MOST_TURNS_PX, TURNS, StagesRun, run_stages, stage_files
 from app.workflow.stages import Variant
 
+_OWN = re.compile(rf"(?:{TURNS}/)?\d\d_\d{{3}}(?:_r\d+_t\d+)?\.(?:png|npy|txt)", re.IGNORECASE)
+"""Names of the files that the stages are written to, seen from their folder."""
+
 EPILOG = """\
-DIR gets, for every step in the text's order, NN_STEP.png, NN_STEP.npy (uint8 codes, row 0 = top) and, where the step has
-chain codes, NN_STEP.txt: row, column and directions 0 to 7 of each contour line. A step that is repeated, for each peel,
-path and region, is shown as it stands after the last time. Codes: 0 empty, 1 contour or area, 2 traced, 3 R, 4 I,
-5 processed, 6 outermost frame, 7 path further in, 8 circle, 9 long line, 10 vertex, 11 short line, 12 arc, 13 free curve.
+DIR gets, for every step in the text's order, NN_STEP.png and NN_STEP.npy (uint8 codes, row 0 = top): all regions, as the step
+leaves them after its last time. Where it has chain codes, NN_STEP.txt has those of every time, a line for each contour
+line: "region R turn T start ROW COLUMN: directions 0 to 7." (region 0 = all). Of a step that is repeated, for each region, peel
+and path, turns/NN_STEP_rR_tTTT.png is each time's plane, a point a pixel; its palette's indices are the codes.
+Codes: 0 empty, 1 contour or area, 2 traced, 3 R, 4 I, 5 processed, 6 outermost frame, 7 path further in, 8 circle,
+9 long line, 10 vertex, 11 short line, 12 arc, 13 free curve.
 """
 
 
@@ -55,7 +62,8 @@ def stages_command(argv: Sequence[str], stopped: threading.Event) -> int:
         texts[arguments.report] = (json.dumps(run.report(), indent=2, allow_nan=False) + "\n").encode()
     progress.step(1.0)
     with undisturbed():
-        _make_folder(folder)
+        for each in sorted({path.parent for path in texts if path != arguments.report}):
+            _make_folder(each)
         write_together(texts)
     if not arguments.quiet:
         tell("\n".join(_lines(run, folder)))
@@ -98,6 +106,9 @@ def _check_outputs(arguments: argparse.Namespace) -> Path:
     inputs = [path for path in (arguments.drawing, arguments.job) if path is not None]
     if arguments.report is not None:
         check_outputs({"report": arguments.report}, inputs)
+        inside = os.path.relpath(os.path.realpath(arguments.report), os.path.realpath(folder))
+        if _OWN.fullmatch(Path(inside).as_posix()):
+            raise InputError(f"--report {arguments.report} is the name of a stage's own file; give the report another name")
     return folder
 
 
@@ -126,6 +137,9 @@ def _lines(run: StagesRun, folder: Path) -> list[str]:
     wrong = run.wrong_pixels
     lines = [f"{folder}: {len(run.last)} steps on {frame.cols} x {frame.rows} px of {frame.pitch:.4g} mm; paths along the walls up to "
              f"{given_up.most_mm:.3f} mm farther from them than asked ({given_up.mean_mm:.3f} mm in the mean)"]
+    if not run.all_turns:
+        lines.append(f"  - {TURNS}/ is left out: the planes of all times would be more than {MOST_TURNS_PX / 1e9:.1f} billion pixels; "
+                     "a smaller bitmap has them")
     if run.variant is Variant.PUBLISHED:
         lines.append(f"  - the fill as published is wrong in {wrong} pixels" + ("" if wrong else " here"))
     return lines + finding_lines(run.findings)

@@ -1,6 +1,7 @@
 """`hitofude stages` and the bitmap way of `make`, as a user runs them: files, exit status, one line for every mistake."""
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 
 from app.bitmap.codes import PixelCode
+from app.workflow.stage_files import PALETTE
 from tests.conftest import ROOT
 
 FIG2 = ROOT / "tests" / "data" / "dxf" / "fig2.dxf"
@@ -50,9 +52,44 @@ def test_every_step_of_a_drawing_is_written(tmp_path: Path) -> None:
         assert step["sentence"].endswith(".")
     lines = (folder / "05_203.txt").read_text().splitlines()
     assert len(lines) == 3
-    assert all(line.endswith(".") and set(line.split(": ")[1].rstrip(".")) <= set("01234567") for line in lines)
+    assert all(re.fullmatch(r"region 0 turn 1 start \d+ \d+: [0-7]*\.", line) for line in lines)
     assert told["wrong_pixels"] == 0
     assert 0 < told["given_up_mm"]["mean"] < told["given_up_mm"]["max"] < 1
+
+
+def test_every_time_of_a_repeated_step_is_written(tmp_path: Path) -> None:
+    folder, report = tmp_path / "steps", tmp_path / "r.json"
+    assert run("stages", FIG2, "-o", folder, "--contour-tool", 2, "--pocket-tool", 4, "--bitmap", 200, "--report", report).returncode == 0
+    steps = {step["number"]: step for step in json.loads(report.read_text())["steps"]}
+    chains = {number: (folder / f"{steps[number]['file']}.txt").read_text().splitlines() for number in (142, 144, 146, 301, 303, 306)}
+    assert {number: steps[number]["chains"] for number in chains} == {number: len(lines) for number, lines in chains.items()}
+    both = {"region 1 turn 1", "region 2 turn 1"}
+    assert all({line.split(" start ")[0] for line in chains[number]} == both for number in (142, 303, 306))
+    assert sorted(line.split(" start ")[1] for line in chains[144]) == sorted(line.split(" start ")[1] for line in chains[142])
+    assert {line.split(" start ")[0] for line in chains[146]} == {f"region 0 turn {k}" for k in range(1, steps[146]["times"] + 1)}
+    assert len({line.split(" start ")[0] for line in chains[301]}) == steps[301]["times"] > 2
+    for number, step in steps.items():
+        turns = sorted((folder / "turns").glob(f"{step['file']}_*.png"))
+        assert len(turns) == (step["times"] if step["times"] > 1 else 0), number
+        if turns:
+            codes = np.load(folder / f"{step['file']}.npy")
+            assert np.array_equal(np.array([colour_of(code) for code in range(14)])[codes], cv2.imread(str(turns[-1])))
+    first, second = (folder / "turns" / f"{steps[142]['file']}_r{region}_t001.png" for region in (1, 2))
+    assert first.read_bytes() != second.read_bytes()
+
+
+def colour_of(code: int) -> tuple[int, int, int]:
+    colour = PALETTE[PixelCode(code)]
+    return int(colour[5:7], 16), int(colour[3:5], 16), int(colour[1:3], 16)
+
+
+@pytest.mark.parametrize("name", ["03_201.npy", "20_142.png", "05_203.txt", "turns/12_301_r1_t001.png"])
+def test_the_report_takes_no_stage_s_place(tmp_path: Path, name: str) -> None:
+    (tmp_path / "a" / "turns").mkdir(parents=True)
+    done = run("stages", FIG2, "-o", tmp_path / "a", "--report", tmp_path / "a" / name)
+    assert done.returncode == 2
+    assert "is the name of a stage's own file" in done.stderr and len(done.stderr.strip().splitlines()) == 1
+    assert [path.name for path in (tmp_path / "a").rglob("*")] == ["turns"]
 
 
 def test_the_published_fill_shows_where_it_errs(tmp_path: Path, picture: Path) -> None:
@@ -124,5 +161,5 @@ def test_help_names_every_option_and_code() -> None:
     text = run("stages", "--help").stdout
     options = "--variant --bitmap --pitch --dpi --threshold --invert --despeckle --ink --report --quiet --overlap"
     assert all(option in text for option in options.split())
-    assert "13 free curve" in text
+    assert "13 free curve" in text and "turns/NN_STEP_rR_tTTT.png" in text
     assert "stages DRAWING -o DIR" in run("--help").stdout

@@ -39,12 +39,12 @@ STEPS: dict[int, tuple[str, str]] = {
           "than the radius from the frame in every direction."),
     141: ("Shrink by the pocket tool", "The area is shrunk by the pocket tool's radius (steps 301 to 307)."),
     142: ("The outermost frame", "The border of what is left is the outermost path of the pocket tool."),
-    143: ("Mark the overlap", "So much more is marked processed that the next path, one radius further in, overlaps this one as asked: "
-          "paths lie two radii less the overlap apart."),
+    143: ("Mark the overlap", "What lies within a step of the frame is marked processed, so that the next path overlaps this one as "
+          "asked: a step is two radii less the overlap."),
     144: ("Every region?", "The outermost frames of all regions come first."),
-    145: ("Shrink again", "What is left is shrunk by the pocket tool's radius."),
-    146: ("The next path", "Its border is the pocket tool's next path."),
-    147: ("Mark its overlap", "And again the overlap is marked processed."),
+    145: ("Shrink again", "The area has shrunk by a step; the border of what is left is traced again."),
+    146: ("The next path", "This border is the pocket tool's next path."),
+    147: ("Mark its overlap", "And again what lies within a step of the path is marked processed."),
     148: ("All processed?", "Steps 145 to 147 are repeated until no pixel is left."),
     140: ("The tool paths", "The paths of both tools: the contour tool's dashed, the pocket tool's solid."),
     401: ("Whole circles", "A path that is one circle, by a fit to all its pixels, is one circle."),
@@ -97,8 +97,8 @@ class Stage:
 
     @property
     def text(self) -> str:
-        """The chain codes, a line each."""
-        return "".join(f"{chain.text()}\n" for chain in self.chains)
+        """The chain codes, a line each, with region and turn."""
+        return "".join(f"region {self.region} turn {self.turn} start {chain.text()}\n" for chain in self.chains)
 
 
 StageObserver = Callable[[Stage], None]

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import io
+import struct
+import zlib
+from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from app.bitmap.codes import PixelCode
+from app.bitmap.codes import PixelCode, Plane
 from app.bitmap.steps import STEPS, Stage, StageObserver
 from app.model.finding import Finding, worst_first
 from app.progress import NO_PROGRESS, Progress
@@ -31,8 +35,30 @@ PALETTE: dict[PixelCode, str] = {
 }  # fmt: skip
 """Colour of each code, "#rrggbb", on the dark screen of a terminal."""
 
+TURNS = "turns"
+"""Folder of the planes of steps that are done more than once."""
+
+MOST_TURNS_PX = 1 << 31
+"""Pixels of all planes in that folder together; more would take minutes and fill disks."""
+
 WRONG = "#ff00ff"
 """Colour of pixels in which the published fill errs."""
+
+
+@dataclass(frozen=True)
+class Turn:
+    """One time that a step was done.
+
+    Attributes:
+        number, region, turn: as of the `Stage`.
+        text: its chain codes, a line each. picture: its codes, as `indexed_png`; b"" = not kept.
+    """
+
+    number: int
+    region: int
+    turn: int
+    text: str
+    picture: bytes
 
 
 @dataclass(frozen=True)
@@ -43,14 +69,14 @@ class StagesRun:
         ready: the job and its pixels.
         made: its paths.
         last: of each step, in the text's order, the stage after its last time.
-        seen: how often each step was done, by its number.
+        turns: every time that any step was done.
     """
 
     ready: BitmapJob
     made: BitmapProgram
     variant: Variant
     last: tuple[Stage, ...]
-    seen: dict[int, int]
+    turns: tuple[Turn, ...]
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -61,6 +87,20 @@ class StagesRun:
     def wrong_pixels(self) -> int:
         """In how many pixels the fill errs."""
         return max((int(np.count_nonzero(stage.wrong)) for stage in self.last if stage.wrong is not None), default=0)
+
+    @property
+    def times(self) -> Counter[int]:
+        """How often each step was done, by its number."""
+        return Counter(turn.number for turn in self.turns)
+
+    @property
+    def all_turns(self) -> bool:
+        """Whether the plane of every time is kept: they are not so large that it would take minutes."""
+        return all(turn.picture for turn in self.turns)
+
+    def text(self, number: int) -> str:
+        """Return the chain codes of all times that a step was done, a line each."""
+        return "".join(turn.text for turn in self.turns if turn.number == number)
 
     def report(self) -> Json:
         """Return everything that was found, as plain values."""
@@ -73,15 +113,16 @@ class StagesRun:
             "unsmoothed_paths": self.made.unsmoothed,
             "strokes": self.made.program.strokes,
             "codes": {code.name.lower(): int(code) for code in PixelCode},
-            "steps": [_step(stage, file, self.seen) for stage, file in zip(self.last, names(self.last), strict=True)],
+            "steps": [_step(self, stage, file) for stage, file in zip(self.last, names(self.last), strict=True)],
             "findings": [as_values(each) for each in self.findings],
         }
 
 
-def _step(stage: Stage, file: str, seen: dict[int, int]) -> Json:
+def _step(run: StagesRun, stage: Stage, file: str) -> Json:
     values, counts = np.unique(stage.plane, return_counts=True)
-    return {"number": stage.number, "name": stage.name, "sentence": stage.sentence, "file": file, "times": seen[stage.number],
-            "chains": len(stage.chains), "pixels": {PixelCode(int(v)).name.lower(): int(n) for v, n in zip(values, counts, strict=True)}}
+    pixels = {PixelCode(int(v)).name.lower(): int(n) for v, n in zip(values, counts, strict=True)}
+    return {"number": stage.number, "name": stage.name, "sentence": stage.sentence, "file": file, "times": run.times[stage.number],
+            "chains": run.text(stage.number).count("\n"), "pixels": pixels}
 
 
 def run_stages(name: str, data: bytes, asked: tuple[MakeOptions, Variant], progress: Progress = NO_PROGRESS,
@@ -103,14 +144,15 @@ def run_stages(name: str, data: bytes, asked: tuple[MakeOptions, Variant], progr
     ready = bitmap_job(name, data, options)
     made = compute_on_bitmap(ready.job, ready.part, progress.part(0.1, 0.8))
     last: dict[int, Stage] = {}
-    seen: dict[int, int] = {}
+    turns: list[Turn] = []
     for stage in stages(ready.job, ready.part, made.paths, variant):
         progress.step(0.9, stage.name)
         if observer is not None:
             observer(stage)
         last[stage.number] = stage
-        seen[stage.number] = seen.get(stage.number, 0) + 1
-    return StagesRun(ready, made, variant, tuple(last[number] for number in STEPS if number in last), seen)
+        kept = (len(turns) + 1) * stage.plane.size <= MOST_TURNS_PX
+        turns.append(Turn(stage.number, stage.region, stage.turn, stage.text, indexed_png(stage.plane) if kept else b""))
+    return StagesRun(ready, made, variant, tuple(last[number] for number in STEPS if number in last), tuple(turns))
 
 
 def names(last: tuple[Stage, ...]) -> list[str]:
@@ -119,16 +161,39 @@ def names(last: tuple[Stage, ...]) -> list[str]:
 
 
 def stage_files(run: StagesRun, progress: Progress = NO_PROGRESS) -> dict[str, bytes]:
-    """Return the files by name: .png, .npy, and .txt where a step has chain codes."""
+    """Return the files by name: .png, .npy, .txt where a step has chain codes, and TURNS/….png of steps done more than once."""
     files: dict[str, bytes] = {}
     for k, (stage, name) in enumerate(zip(run.last, names(run.last), strict=True)):
         progress.step(k / len(run.last), "Writing pictures")
         codes = io.BytesIO()
         np.save(codes, stage.plane)
         files[f"{name}.png"], files[f"{name}.npy"] = png(stage), codes.getvalue()
-        if stage.chains:
-            files[f"{name}.txt"] = stage.text.encode("ascii")
+        text = run.text(stage.number)
+        if text:
+            files[f"{name}.txt"] = text.encode("ascii")
+        files.update(_turn_files(run, stage.number, name))
     return files
+
+
+def _turn_files(run: StagesRun, number: int, name: str) -> Iterator[tuple[str, bytes]]:
+    """Yield name and bytes of each time that a step was done, if it was more than one."""
+    if run.times[number] > 1 and run.all_turns:
+        for turn in run.turns:
+            if turn.number == number:
+                yield f"{TURNS}/{name}_r{turn.region}_t{turn.turn:03d}.png", turn.picture
+
+
+def indexed_png(plane: Plane) -> bytes:
+    """Return a plane (rows, cols) as a PNG picture whose palette indices are the codes, a point each."""
+    lines = np.pad(plane, ((0, 0), (1, 0)))
+    palette = bytes.fromhex("".join(PALETTE[code][1:] for code in PixelCode))
+    head = struct.pack(">IIBBBBB", plane.shape[1], plane.shape[0], 8, 3, 0, 0, 0)
+    chunks = ((b"IHDR", head), (b"PLTE", palette), (b"IDAT", zlib.compress(lines.tobytes(), 1)), (b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(*chunk) for chunk in chunks)
+
+
+def _chunk(name: bytes, data: bytes) -> bytes:
+    return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
 
 
 def png(stage: Stage) -> bytes:

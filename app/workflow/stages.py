@@ -11,8 +11,7 @@ import numpy as np
 from app.bitmap.border import borders_of, mark
 from app.bitmap.codes import PixelCode, Plane
 from app.bitmap.fill import fill
-from app.bitmap.levels import frame_distance
-from app.bitmap.peel import Floats, correct_by_circles, peels
+from app.bitmap.peel import correct_by_circles, peels
 from app.bitmap.published import published_marks, published_scan, wrong_pixels
 from app.bitmap.steps import Stage
 from app.bitmap.trace import Chain, chain_rows
@@ -103,13 +102,14 @@ def _fill(scene: _Scene, outline: tuple[Chain, ...]) -> Iterator[Stage]:
 
 def _frames(scene: _Scene, pocket: OperationPaths) -> Iterator[Stage]:
     """Steps 141-144: the outermost frames of all regions, one region after the other."""
-    plane, distance = pocket.area.astype(np.uint8), frame_distance(pocket.area)
+    plane = pocket.area.astype(np.uint8)
     for region in scene.part.regions:
         area = pocket.area & (scene.part.label == region.number)
         if area.any():
             yield from _shrink(plane, area, (region.number, pocket.steps.first, scene.variant is Variant.PUBLISHED))
-            yield from _frame(plane, area, (pocket, distance), region.number)
-    yield Stage(144, plane.copy())
+            yield from _frame(plane, area, pocket, region.number)
+    frames = [path for level in pocket.levels[:1] for path in level]
+    yield Stage(144, plane.copy(), tuple(path.chain for path in frames), _rows(frames))
 
 
 def _shrink(plane: Plane, area: Mask, about: tuple[int, float, bool]) -> Iterator[Stage]:
@@ -134,9 +134,8 @@ def _shrink(plane: Plane, area: Mask, about: tuple[int, float, bool]) -> Iterato
     yield Stage(307, plane.copy(), region=region)
 
 
-def _frame(plane: Plane, area: Mask, made: tuple[OperationPaths, Floats], region: int) -> Iterator[Stage]:
+def _frame(plane: Plane, area: Mask, pocket: OperationPaths, region: int) -> Iterator[Stage]:
     """Steps 141-143 on one region: what is left, its border, and the overlap."""
-    pocket, distance = made
     inside = area & (pocket.pixels >= 1)
     plane[area & ~inside] = PixelCode.PROCESSED
     yield Stage(141, plane.copy(), region=region)
@@ -144,14 +143,12 @@ def _frame(plane: Plane, area: Mask, made: tuple[OperationPaths, Floats], region
     chains = tuple(path.chain for path in frames)
     _put(plane, chains, PixelCode.FRAME)
     yield Stage(142, plane.copy(), chains, _rows(frames), region)
-    _mark_overlap(plane, pocket, distance, 1)
+    _mark_overlap(plane, area & (pocket.pixels == 1))
     yield Stage(143, plane.copy(), region=region)
 
 
-def _mark_overlap(plane: Plane, pocket: OperationPaths, distance: Floats, level: int) -> None:
-    """Mark what lies between a path and where a peel by one radius would begin that ends at the next path."""
-    next_path = pocket.steps.first + level * pocket.steps.step - pocket.steps.early
-    band = (pocket.pixels == level) & (distance < next_path - min(pocket.steps.first, pocket.steps.step))
+def _mark_overlap(plane: Plane, band: Mask) -> None:
+    """Mark what lies within a step of a path, the path itself excepted: the next one begins behind it."""
     plane[band & (plane == PixelCode.CONTOUR)] = PixelCode.PROCESSED
 
 
@@ -159,15 +156,14 @@ def _inner_paths(scene: _Scene, pocket: OperationPaths) -> Iterator[Stage]:
     """Steps 145-148: path after path, in all regions."""
     plane = np.where(pocket.area, np.where(pocket.pixels >= 1, PixelCode.CONTOUR, PixelCode.PROCESSED), PixelCode.EMPTY).astype(np.uint8)
     _put(plane, [path.chain for level in pocket.levels[:1] for path in level], PixelCode.FRAME)
-    distance = frame_distance(pocket.area)
-    _mark_overlap(plane, pocket, distance, 1)
+    _mark_overlap(plane, pocket.pixels == 1)
     for level in range(2, len(pocket.levels) + 1):
-        plane[(pocket.pixels < level) & (plane == PixelCode.CONTOUR)] = PixelCode.PROCESSED
-        yield Stage(145, plane.copy(), turn=level - 1)
         chains = tuple(path.chain for path in pocket.levels[level - 1])
+        _put(plane, chains, PixelCode.TRACED)
+        yield Stage(145, plane.copy(), chains, turn=level - 1)
         _put(plane, chains, PixelCode.RING)
         yield Stage(146, plane.copy(), chains, _rows(pocket.levels[level - 1]), turn=level - 1)
-        _mark_overlap(plane, pocket, distance, level)
+        _mark_overlap(plane, pocket.pixels == level)
         yield Stage(147, plane.copy(), turn=level - 1)
     plane[plane == PixelCode.CONTOUR] = PixelCode.PROCESSED
     yield Stage(148, plane.copy())

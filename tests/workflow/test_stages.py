@@ -1,6 +1,8 @@
 """What the display memory shows after each step: the text's order, its codes, and pictures that were looked at."""
 
 import time
+from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import cv2
@@ -11,6 +13,7 @@ from app.bitmap.border import borders_of
 from app.bitmap.codes import PixelCode
 from app.bitmap.fill import fill
 from app.bitmap.frame import Frame
+from app.bitmap.levels import frame_distance
 from app.bitmap.peel import frame_pixels
 from app.bitmap.steps import STEPS, Stage
 from app.geometry.region import polygon_contour
@@ -83,6 +86,33 @@ def test_the_outermost_frame_is_what_the_peels_and_circles_leave(walk: Walk) -> 
     second = walk[0].part.label == 2
     assert np.array_equal((last(walk, 307).plane == PixelCode.CONTOUR) & second, left & second)
     assert np.array_equal(last(walk, 144).plane == PixelCode.FRAME, frame_pixels(left))
+
+
+@pytest.mark.parametrize("stepover", [None, 1.5, 3.0, 4.5])
+def test_the_overlap_is_marked_at_any_stepover_up_to_the_next_path(stepover: float | None) -> None:
+    job = job_of(fig2(), 3.0, 6.0)
+    pocket = replace(job.operations[0], stepover=stepover)
+    walk = walked(replace(job, operations=(pocket, *job.operations[1:])), 400)
+    paths = walk[1].paths[0]
+    frame, marked = last(walk, 142).plane, last(walk, 143).plane
+    changed = frame != marked
+    assert np.all(frame[changed] == PixelCode.CONTOUR) and np.all(marked[changed] == PixelCode.PROCESSED)
+    second = walk[0].part.label == 2
+    assert np.array_equal(changed, second & (paths.pixels == 1) & (frame != PixelCode.FRAME)) and np.count_nonzero(changed) > 100
+    assert np.array_equal(marked == PixelCode.CONTOUR, paths.pixels >= 2), "what is left begins with the next path's pixels"
+    rings = [stage for stage in walk[2] if stage.number in (145, 146, 147)]
+    for before, after in pairwise(rings):
+        assert not np.array_equal(before.plane, after.plane), (before.number, before.turn)
+    next_path = next(stage for stage in rings if stage.number == 146)
+    field = frame_distance(paths.area)[next_path.plane == PixelCode.RING]
+    assert np.all(field >= paths.steps.first + paths.steps.step - paths.steps.early)
+
+
+def test_every_region_s_frame_comes_together_in_144(walk: Walk) -> None:
+    frames = [chain for stage in walk[2] if stage.number == 142 for chain in stage.chains]
+    together = last(walk, 144)
+    assert sorted(chain.text() for chain in together.chains) == sorted(chain.text() for chain in frames)
+    assert len(frames) == 3 and len(together.rows) == sum(len(stage.rows) for stage in walk[2] if stage.number == 142)
 
 
 def test_at_the_end_every_pixel_is_processed_or_a_path(walk: Walk) -> None:
