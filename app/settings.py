@@ -26,6 +26,13 @@ class ThemeChoice(Enum):
     DARK = "dark"
 
 
+class Phosphor(Enum):
+    """Which light the 1986 session's tube gives."""
+
+    GREEN = "green"
+    AMBER = "amber"
+
+
 @dataclass(frozen=True)
 class Settings:
     """Remembered choices of one user.
@@ -35,6 +42,7 @@ class Settings:
         recent_files: absolute paths, the latest first, each once.
         window_geometry, window_state: opaque text of the window tool-kit, or "".
         last_folder: folder of the last file dialog, or "".
+        phosphor: of the 1986 session's tube.
     """
 
     theme: ThemeChoice = ThemeChoice.SYSTEM
@@ -42,6 +50,7 @@ class Settings:
     window_geometry: str = ""
     window_state: str = ""
     last_folder: str = ""
+    phosphor: Phosphor = Phosphor.GREEN
 
     def with_recent_file(self, path: Path) -> Settings:
         """Return the settings with this file as the latest one."""
@@ -68,8 +77,8 @@ def load_settings() -> Settings:
 
 def _checked(name: str, value: object) -> Any:
     default = getattr(Settings(), name)
-    if isinstance(default, ThemeChoice):
-        return ThemeChoice(value) if value in [choice.value for choice in ThemeChoice] else default
+    if isinstance(default, Enum):
+        return next((choice for choice in type(default) if choice.value == value), default)
     if isinstance(default, tuple):
         return tuple(item for item in value if isinstance(item, str)) if isinstance(value, list) else default
     return value if isinstance(value, str) else default
@@ -86,5 +95,5 @@ def save_settings(settings: Settings) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"Cannot make the settings folder {folder}: {error.strerror}.") from error
-    text = json.dumps(asdict(settings) | {"theme": settings.theme.value}, indent=1, ensure_ascii=False)
+    text = json.dumps(asdict(settings) | {"theme": settings.theme.value, "phosphor": settings.phosphor.value}, indent=1, ensure_ascii=False)
     write_atomically(folder / "settings.json", text.encode() + b"\n")

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from PySide6.QtCore import QObject
 
 from app.model.job import Job
+from app.settings import Phosphor
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
+from app.ui.memory import remember
 from app.ui.session1986.questions import Ask
 from app.ui.session1986.session import Session
 from app.ui.session1986.tube import Tube
@@ -31,8 +35,9 @@ class SessionOpening(QObject):
         """Show the session, from where it was left."""
         if self.tube is None:
             self.session = Session(lambda: self._window.document.job, self)
-            self.tube = Tube(self.session, self._window)
+            self.tube = Tube(self.session, self._window, self._window.settings.phosphor)
             self.tube.left.connect(self.leave)
+            self.tube.phosphor_changed.connect(self._keep_phosphor)
             self.session.handed.connect(self._take)
             self._window.closed.connect(self.session.finish)
         elif self.session is not None and self.session.ask is Ask.SHAPE:
@@ -45,6 +50,11 @@ class SessionOpening(QObject):
             self.session.rest()
             self.tube.hide()
             self._window.views.take_focus()
+
+    def _keep_phosphor(self, phosphor: Phosphor) -> None:
+        """Have the next session begin with this light."""
+        self._window.settings = replace(self._window.settings, phosphor=phosphor)
+        remember(self._window)
 
     def _take(self, job: Job) -> None:
         """Make the session's job the document's, by a change that can be undone, and compute it exactly."""

@@ -94,7 +94,8 @@ class Session(QObject):
         try:
             self._answer(text)
         except InputError as error:
-            self._refuse(str(error), self.ask, keep=self.ask is not Ask.SHAPE)
+            self._echo(text)
+            self._refuse(str(error), self.ask)
 
     def hold(self) -> None:
         """Hold what is shown, or go on."""
@@ -199,6 +200,8 @@ class Session(QObject):
         overlap = before.overlap if pocket == before.pocket else pocket
         self.given = replace(before, pocket=pocket, overlap=overlap)
         self._echo(f"{pocket:g}")
+        if pocket < before.contour:
+            self.screen.say("! Smaller than the contour tool. Enter BACK to change the amounts.")
         self._question(Ask.OVERLAP)
 
     def _take_overlap(self, text: str) -> None:
@@ -296,13 +299,10 @@ class Session(QObject):
             screen.picture = self.draft.picture() if ask is Ask.DRAW else card()
             screen.head = ("DRAW THE SHAPE" if ask is Ask.DRAW else "TOOL PATH GENERATION", "1986")
 
-    def _refuse(self, sentence: str, ask: Ask, keep: bool = False) -> None:
-        """Say what is wrong and ask again; what was typed stands there to be mended where it is kept."""
-        typed = self.screen.typed
+    def _refuse(self, sentence: str, ask: Ask) -> None:
+        """Say what is wrong and ask again, on an empty line."""
         self._say((sentence if sentence.startswith("?") else f"? {sentence}",))
         self._question(ask)
-        self.screen.typed = typed if keep else ""
-        self.changed.emit()
 
     def _say(self, sentences: tuple[str, ...]) -> None:
         for sentence in sentences:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from enum import Enum
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QPointF, QRect, QSize, Qt, QTimer, Signal
@@ -11,6 +10,7 @@ from PySide6.QtGui import QColor, QFocusEvent, QHideEvent, QImage, QKeyEvent, QM
 from PySide6.QtWidgets import QWidget
 
 from app.bitmap.frame import POINTS
+from app.settings import Phosphor
 from app.ui.session1986.questions import Ask
 from app.ui.session1986.screen import PAGE_LINES, Place
 from app.ui.session1986.session import Session
@@ -28,28 +28,26 @@ _WRITING = (Qt.KeyboardModifier.NoModifier, _WITH_KEYS)
 """With none of these keys characters are written, or with both, which some keyboards do for @."""
 
 
-class Phosphor(Enum):
-    """Colours of a dark and of a lit point."""
-
-    GREEN = ("#04120A", "#4DFF91")
-    AMBER = ("#140B02", "#FFB733")
+_COLOURS = {Phosphor.GREEN: ("#04120A", "#4DFF91"), Phosphor.AMBER: ("#140B02", "#FFB733")}
+"""Colours of a dark and of a lit point."""
 
 
 class Tube(QWidget):
     """Shows a session over everything else in the window, the same in every theme.
 
     Signals:
-        left(): the operator leaves.
+        left(): the operator leaves. phosphor_changed(Phosphor): another light was chosen.
 
     Attributes:
         phosphor: colour of the points.
     """
 
     left = Signal()
+    phosphor_changed = Signal(Phosphor)
 
-    def __init__(self, session: Session, over: QWidget) -> None:
+    def __init__(self, session: Session, over: QWidget, phosphor: Phosphor = Phosphor.GREEN) -> None:
         super().__init__(over)
-        self.session, self.phosphor, self._over = session, Phosphor.GREEN, over
+        self.session, self.phosphor, self._over = session, phosphor, over
         self.setObjectName("session1986")
         self.setAccessibleName("A 1986 session")
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -70,6 +68,7 @@ class Tube(QWidget):
     def switch_phosphor(self) -> None:
         """Take the other tube."""
         self.phosphor = Phosphor.AMBER if self.phosphor is Phosphor.GREEN else Phosphor.GREEN
+        self.phosphor_changed.emit(self.phosphor)
         self.update()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
@@ -164,7 +163,7 @@ class Tube(QWidget):
         """Return the points as an image of two colours."""
         bits = np.ascontiguousarray(self.session.screen.bits(), dtype=np.uint8)
         image = QImage(bits.data, POINTS, POINTS, POINTS, QImage.Format.Format_Indexed8).copy()
-        image.setColorTable([QColor(name).rgb() for name in self.phosphor.value])
+        image.setColorTable([QColor(name).rgb() for name in _COLOURS[self.phosphor]])
         return image
 
     def _place(self, at: QPointF) -> Place:

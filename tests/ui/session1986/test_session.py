@@ -85,7 +85,7 @@ def test_a_click_puts_the_point_under_the_mouse(qtbot, operator) -> None:
     (Ask.CONTOUR, "ABC", "? "), (Ask.CONTOUR, "0", "OUT OF RANGE"), (Ask.CONTOUR, "99", "OUT OF RANGE"),
     (Ask.POCKET, "-3", "OUT OF RANGE"), (Ask.OVERLAP, "6", "OUT OF RANGE"),
 ])  # fmt: skip
-def test_a_bad_answer_is_told_and_stays_to_be_mended(operator, ask, bad, told) -> None:
+def test_a_bad_answer_is_told_and_the_line_is_empty_again(operator, ask, bad, told) -> None:
     if ask is not Ask.SHAPE:
         operator.answer("2")
         operator.until(Ask.CONTOUR)
@@ -98,10 +98,32 @@ def test_a_bad_answer_is_told_and_stays_to_be_mended(operator, ask, bad, told) -
     operator.answer(bad)
     assert operator.session.ask is ask
     assert told in operator.said()
-    assert operator.screen.typed == ("" if ask is Ask.SHAPE else bad)
-    assert np.array_equal(operator.screen.picture, picture) and operator.screen.head == head
-    operator.key(Qt.Key.Key_Delete)
+    assert f"? {bad} " in operator.said(), "what was refused is still to be read"
     assert operator.screen.typed == ""
+    assert np.array_equal(operator.screen.picture, picture) and operator.screen.head == head
+
+
+def test_an_answer_after_a_refused_one_stands_alone(operator) -> None:
+    operator.answer("2")
+    operator.until(Ask.CONTOUR)
+    for bad in ("-1", "0", "abc"):
+        operator.answer(bad)
+    assert "-1 MM IS OUT OF RANGE" in operator.said() and "? 0 MM IS OUT OF RANGE" in operator.said()
+    operator.answer("1.5")
+    operator.see_all(Ask.POCKET)
+    assert operator.session.given.contour == 1.5
+
+
+def test_a_contour_tool_that_is_the_larger_one_is_said_and_the_session_goes_on(operator) -> None:
+    operator.to_pocket()
+    operator.answer("1.5")
+    assert operator.session.ask is Ask.OVERLAP and "SMALLER THAN THE CONTOUR TOOL" not in operator.said()
+    operator.answer("back")
+    operator.answer("1.25")
+    assert operator.session.ask is Ask.OVERLAP
+    assert "! SMALLER THAN THE CONTOUR TOOL. ENTER BACK TO CHANGE THE AMOUNTS." in operator.said()
+    operator.answer()
+    operator.see_all(Ask.DONE)
 
 
 def test_tools_that_do_not_fit_are_refused_by_what_they_leave(operator) -> None:
