@@ -15,7 +15,7 @@ from app.ui.panels.section import heading
 from app.ui.stages.rose import Rose
 from app.ui.theme import mono_font
 
-_LIST_PX, _TEXT_PX, _MOST_SHOWN, _MOST_DIGITS = 96, 64, 300, 20_000
+_LIST_PX, _TEXT_PX, _MOST_SHOWN, _MOST_DIGITS = 96, 132, 300, 20_000
 
 
 class ChainsPanel(QWidget):

@@ -24,6 +24,8 @@ from app.ui.stages.pixel_paint import Pixels, Window, paint_letters, paint_pixel
 from app.ui.theme import LIGHT, Theme
 
 _CLICK_PX = 4.0
+_FAINT, _LARGE_PX = 0.3, 5.0
+"""How strong fitted lines are over pixels of one of the screen's, and how large pixels are under lines of full strength."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,7 +149,7 @@ class PixelView(Viewport):
         theme = self._theme
         painter.setClipRect(self.area)
         if not self._rows.isEmpty():
-            self._paint_path(painter, self._rows, QPen(theme.ink, 1.6))
+            self._paint_path(painter, self._rows, self._row_pen())
         if not self._lit.isEmpty():
             paint_highlight(painter, self.view, self._lit, (theme.accent, theme.accent_text), 2.0)
             self._paint_path(painter, self._starts, QPen(theme.accent_text, 2.0))
@@ -160,6 +162,14 @@ class PixelView(Viewport):
         painter.setClipping(False)
         if self._mouse is not None and self.area.contains(self._mouse):
             paint_ruler_marks(painter, self._mouse, theme)
+
+    def _row_pen(self) -> QPen:
+        """Return the pen of fitted lines: fine and faint until pixels are large, so that their colours show beside it."""
+        size = self.pixels.frame.pitch * self.view.scale if self.pixels is not None else 0.0
+        grown = min(max((size - 1) / (_LARGE_PX - 1), 0.0), 1.0)
+        ink = QColor(self._theme.ink)
+        ink.setAlphaF(_FAINT + (1 - _FAINT) * grown)
+        return QPen(ink, 1.0 + 0.6 * grown)
 
     def _paint_path(self, painter: QPainter, path: QPainterPath, pen: QPen) -> None:
         pen.setCosmetic(True)

@@ -16,7 +16,7 @@ from app.ui.panels.side_panel import WIDTH
 from app.ui.stages.chains_panel import ChainsPanel
 from app.ui.stages.film import Still
 from app.ui.stages.reel import Reel
-from app.ui.stages.words import NOTES
+from app.ui.stages.words import note
 from app.workflow.bitmap_options import BitmapSize
 
 LEAST, MOST = 100, 2000
@@ -60,6 +60,7 @@ class StagesPanel(QScrollArea):
         self.pitch = NumberField(Spec("Pitch", "mm", 0.0001, 1000, 4, True, "Size of a pixel; the bitmap is then as large as it must be."))
         self.bitmap, self.given_up, self.finding = muted(), muted(), QLabel()
         self.finding.setProperty("role", "error")
+        self._shape = (0, 0)
         self._told = QWidget()
         self._lines = [hairline(), hairline()]
         self._of_still: tuple[QWidget, ...] = (self.place, self.sentence, self.notes, self.rules, self.wrong, self.chains, *self._lines,
@@ -87,11 +88,9 @@ class StagesPanel(QScrollArea):
             told.addWidget(label)
         told.addStretch(1)
         self._told.setMinimumHeight(_TOLD_PX)
+        bitmap = (self.rules, self.wrong, self.points, self.pitch, self.bitmap, self.given_up, self.finding)
         column.addWidget(self._told)
-        column.addWidget(self.rules)
-        column.addWidget(self.wrong)
-        bitmap = (self.points, self.pitch, self.bitmap, self.given_up, self.finding)
-        for line, group in ((self._lines[0], bitmap), (self._lines[1], (self.chains,))):
+        for line, group in ((self._lines[0], (self.chains,)), (self._lines[1], bitmap)):
             column.addSpacing(2)
             column.addWidget(line)
             column.addSpacing(2)
@@ -111,12 +110,13 @@ class StagesPanel(QScrollArea):
         self.title.setText(f"{still.number}  {still.name}")
         self.place.setText(_place(still))
         self.sentence.setText(still.sentence)
-        self.notes.setText(NOTES[still.number])
+        self.notes.setText(note(still.number, self._shape))
         self.chains.show_chains(still.chains)
 
     def show_reel(self, reel: Reel) -> None:
         """Tell of another film: its fill, its bitmap, and what that costs."""
         frame, given_up = reel.part.frame, reel.made.given_up
+        self._shape = frame.rows, frame.cols
         self.rules.show_value(Rules.PUBLISHED if reel.wish.published else Rules.SETTLED)
         self._show_wrong(reel)
         picture = reel.wish.pixels is not None

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 NOTES: Mapping[int, str] = {
-    110: "The screen has 400 by 400 points. What is drawn on it is stored as data, and from here on the pixels are all that is known. "
-         "A pixel belongs to the contour when the contour passes through its square.",
+    110: "The screen has {cols} by {rows} points{then}. What is drawn on it is stored as data, and from here on the pixels are all "
+         "that is known. A pixel belongs to the contour when the contour passes through its square.",
     120: "The text calls the offset “well known” and leaves it open. Here a pixel belongs to A' when its distance from everything outside, "
          "less 1.21 pixels, reaches the radius: so the tool cannot gouge, wherever in their pixels the contours ran.",
     201: "From here on the memory knows only 1 and 0. All that follows reads these pixels, never the drawing.",
@@ -40,7 +40,7 @@ NOTES: Mapping[int, str] = {
     144: "Only when each region has its outermost frame do the inner paths begin.",
     145: "No path is peeled from the one before it: all are levels of one distance field, so that rounding does not add up.",
     146: "Paths further in follow in all regions alike, until nothing is left.",
-    147: "What lies within the overlap is processed before the next path is looked for.",
+    147: "What lies nearer than the next path has to is processed before that path is looked for.",
     148: "The paths are then linked into one stroke for each connected area.",
     140: "The contour tool goes along the walls, the pocket tool clears what is inside. In the Paths view they are lines and arcs.",
     401: "The text's test, C = (x² + y²) / y, is constant only for circles that touch the axis at the origin. Settled: one fit to all "
@@ -54,4 +54,17 @@ NOTES: Mapping[int, str] = {
     407: "Fitted paths lie up to a pixel nearer to the walls than their pixels, as near as the pixels' squares allow, and never nearer "
          "than the tool does.",
 }  # fmt: skip
-"""Two or three sentences for each step."""
+"""Two or three sentences for each step, as `note` fills them in."""
+
+_SIZE_1986 = (400, 400)
+
+
+def note(number: int, shape: tuple[int, int]) -> str:
+    """Return what is told beside a step.
+
+    Args:
+        number: of the step.
+        shape: rows and columns of the display memory.
+    """
+    rows, cols = shape
+    return NOTES[number].format(rows=rows, cols=cols, then="" if shape == _SIZE_1986 else "; in 1986 it had 400 by 400")

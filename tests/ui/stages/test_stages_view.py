@@ -4,15 +4,17 @@ import time
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtCore import QPoint, QPointF, QRect, QSize, Qt
 from PySide6.QtGui import QGuiApplication, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
 from app.bitmap.codes import PixelCode
+from app.bitmap.steps import STEPS
 from app.settings import ThemeChoice
 from app.ui.stages.inks import step_inks
 from app.ui.stages.pixel_paint import LETTER_PX, RASTER_PX
 from app.ui.stages.stages_panel import Rules
+from app.ui.stages.words import note
 from app.ui.theme import LIGHT
 from app.ui.views import View
 from tests.ui.conftest import WAIT_MS
@@ -178,6 +180,49 @@ def test_published_rules_are_marked_where_they_err_and_counted(qtbot, wiring):
     qtbot.mouseClick(panel.rules.buttons[Rules.SETTLED], LEFT)
     qtbot.waitUntil(lambda: not wiring.staging.reel.wish.published, timeout=WAIT_MS)
     assert view.still.number == 208 and view.still.wrong is None
+
+
+def test_the_first_step_says_how_large_this_memory_is(qtbot, staged):
+    panel, view = staged.window_.stages_panel, staged.window_.views.stages
+    assert "The screen has 400 by 400 points. " in panel.notes.text()
+    type_value(qtbot, panel.points, "200")
+    qtbot.waitUntil(lambda: view.film is not None and view.film.shape == (200, 200), timeout=WAIT_MS)
+    assert "The screen has 200 by 200 points; in 1986 it had 400 by 400. " in panel.notes.text()
+    panel.show_still(view.still)
+    assert "{" not in "".join(note(number, (3, 4)) for number in STEPS)
+    assert "has 4 by 3 points" in note(110, (3, 4)), "columns by rows"
+
+
+def test_classes_show_under_fitted_lines_until_these_are_seen_apart(qtbot, staged):
+    view = staged.window_.views.stages
+    view.show_stage(view.film.seek_step(406, -1))
+    view.pixels.fit_now()
+
+    def darkest(box):
+        """The least brightness in a square of the screen."""
+        image = view.pixels.grab(box).toImage()
+        return min(image.pixelColor(x, y).value() for x in range(image.width()) for y in range(image.height()))
+
+    row, col = np.argwhere(view.plane == PixelCode.CIRCLE)[0].tolist()
+    around = QRect(screen(view, row, col) - QPoint(6, 6), QSize(13, 13))
+    fitted = darkest(around)
+    assert fitted > 100, "no ink over the colours"
+    view.pixels.zoom_by(10.0, QPointF(screen(view, row, col)))
+    near = QRect(screen(view, row, col) - QPoint(40, 40), QSize(81, 81))
+    assert darkest(near) < LIGHT.ink.value() + 25 < fitted
+
+
+def test_chain_code_is_seen_without_scrolling_in_the_smallest_window(staged):
+    window = staged.window_
+    assert (window.width(), window.height()) == (1280, 800)
+    view, panel = window.views.stages, window.stages_panel
+    for number in (203, 142, 146):
+        view.show_stage(view.film.seek_step(number, -1))
+        QApplication.processEvents()
+        text = panel.chains.text
+        lines = text.viewport().height() // text.fontMetrics().lineSpacing()
+        bottom = text.mapTo(panel.viewport(), QPoint(0, text.height())).y()
+        assert lines >= 7 and bottom <= panel.viewport().height(), number
 
 
 def test_resolution_and_pitch_and_what_they_cost(qtbot, staged):
