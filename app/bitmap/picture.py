@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-import struct
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
-from numpy.typing import NDArray
 
+from app.bitmap.picture_file import MM_PER_INCH, Density, Gray, decoded, density_of, picture_size
 from app.bitmap.walls import Mask
 from app.errors import InputError, ParameterError
 
@@ -18,11 +17,6 @@ LARGEST_SIDE = 16384
 
 LARGEST_AREA = 100_000_000
 """Pixels of the largest picture."""
-
-MM_PER_INCH = 25.4
-
-Gray = NDArray[np.uint8]
-"""(rows, cols), row 0 = top, 0 = black."""
 
 
 class Shows(Enum):
@@ -41,7 +35,8 @@ class PictureOptions:
         threshold: what is darker is ink, 1 ... 255; None = where it parts dark from light best (Otsu).
         invert: the ink is light on dark.
         despeckle: spots of ink or of paper of up to this many pixels are taken away, >= 0.
-        pitch: size of a pixel, mm, > 0. dpi: pixels an inch, > 0, instead. None of both = as the file says.
+        pitch: size of a pixel, mm, > 0. dpi: pixels an inch, > 0, instead. None of both = as the file says. Where the file
+            says that pixels are not square, this is of the square ones that they are made.
         shows: whether ink lines are the contours of what is to be machined, or inked areas are to be machined; AUTO = lines
             where the ink is thin for the size of what it draws.
     """
@@ -70,16 +65,26 @@ class Picture:
     """A picture read.
 
     Attributes:
-        gray: as decoded.
+        gray: as decoded, its pixels made square.
         ink: (rows, cols) what counts as drawn.
         threshold: that was used.
         pitch: size of a pixel, mm.
+        stretched: its pixels were not square in the file.
     """
 
     gray: Gray
     ink: Mask
     threshold: int
     pitch: float
+    stretched: bool = False
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What to know of how it was read, a sentence each."""
+        rows, cols = self.ink.shape
+        square = (f"The picture's pixels are not square, so it was made {cols} x {rows} square ones; columns and rows count these.",)
+        full = ("All of the picture is ink, so all of it is machined; change the threshold or invert it if that is wrong.",)
+        return square * self.stretched + full * bool(self.ink.all())
 
 
 def read_picture(name: str, data: bytes, options: PictureOptions) -> Picture:
@@ -91,17 +96,29 @@ def read_picture(name: str, data: bytes, options: PictureOptions) -> Picture:
     Raises:
         InputError: it is none of these, damaged, too large, or nobody says how large a pixel is.
     """
-    import cv2
+    _check_size(name, picture_size(name, data))
+    gray, density = decoded(name, data), density_of(data)
+    pitch = _pitch(name, density, options)
+    square = gray if density is None else _squared(name, gray, density)
+    return replace(thresholded(square, pitch, options), stretched=square is not gray)
 
-    cols, rows = picture_size(name, data)
-    if max(cols, rows) > LARGEST_SIDE or cols * rows > LARGEST_AREA:
+
+def _check_size(name: str, size: tuple[int, int]) -> None:
+    cols, rows = size
+    if max(size) > LARGEST_SIDE or cols * rows > LARGEST_AREA:
         raise InputError(f"{name}: the picture has {cols} x {rows} px; {LARGEST_SIDE} px a side and {LARGEST_AREA // 10**6} million in all "
                          "are the most, so make it smaller.")
-    gray = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_GRAYSCALE)
-    if gray is None:
-        raise InputError(f"{name}: the picture is damaged and cannot be decoded; save it again.")
-    pitch = _pitch(name, data, options)
-    return thresholded(np.asarray(gray, np.uint8), pitch, options)
+
+
+def _squared(name: str, gray: Gray, density: Density) -> Gray:
+    """Return the picture with square pixels, as small as its own are where they are smallest."""
+    import cv2
+
+    rows, cols = density.square_shape(gray.shape)
+    if (rows, cols) == gray.shape:
+        return gray
+    _check_size(name, (cols, rows))
+    return np.asarray(cv2.resize(gray, (cols, rows), interpolation=cv2.INTER_LINEAR), np.uint8)
 
 
 def thresholded(gray: Gray, pitch: float, options: PictureOptions) -> Picture:
@@ -147,52 +164,7 @@ def pitch_of(first: tuple[float, float], second: tuple[float, float], distance: 
     return distance / apart
 
 
-def picture_size(name: str, data: bytes) -> tuple[int, int]:
-    """Return (columns, rows) as a picture's header says, without decoding it.
-
-    Raises:
-        InputError: it is no PNG, JPEG or BMP, or its header is cut off.
-    """
-    try:
-        if data[:8] == b"\x89PNG\r\n\x1a\n":
-            return _whole(struct.unpack(">II", data[16:24]))
-        if data[:2] == b"BM":
-            cols, rows = struct.unpack("<ii", data[18:26])
-            return _whole((cols, abs(rows)))
-        if data[:2] == b"\xff\xd8":
-            return _jpeg_size(data)
-    except (struct.error, IndexError, ValueError) as error:
-        raise InputError(f"{name}: the picture's header is damaged; save it again.") from error
-    raise InputError(f"{name}: this is no PNG, JPEG or BMP picture; save it as one of these.")
-
-
-def _whole(size: tuple[int, ...]) -> tuple[int, int]:
-    cols, rows = size
-    if cols < 1 or rows < 1:
-        raise ValueError("no pixels")
-    return cols, rows
-
-
-def _segments(data: bytes) -> list[tuple[int, int]]:
-    """Return (marker, place of its length) of a JPEG's segments, up to the first frame header."""
-    found, at = [], 2
-    while True:
-        while data[at] == 0xFF:
-            at += 1
-        marker = data[at]
-        found.append((marker, at + 1))
-        if 0xC0 <= marker <= 0xCF and marker not in (0xC4, 0xC8, 0xCC):
-            return found
-        at += 1 + struct.unpack(">H", data[at + 1 : at + 3])[0]
-
-
-def _jpeg_size(data: bytes) -> tuple[int, int]:
-    _, at = _segments(data)[-1]
-    rows, cols = struct.unpack(">HH", data[at + 3 : at + 7])
-    return _whole((cols, rows))
-
-
-def _pitch(name: str, data: bytes, options: PictureOptions) -> float:
+def _pitch(name: str, density: Density | None, options: PictureOptions) -> float:
     """Return the size of a pixel, mm, as the options or the file say.
 
     Raises:
@@ -200,22 +172,9 @@ def _pitch(name: str, data: bytes, options: PictureOptions) -> float:
     """
     if options.pitch is not None:
         return options.pitch
-    per_mm = options.dpi / MM_PER_INCH if options.dpi is not None else _pixels_per_mm(data)
-    if not per_mm:
+    if options.dpi is not None:
+        return MM_PER_INCH / options.dpi
+    if density is None or density.pitch is None:
         raise InputError(f"{name}: the picture does not say how large it is; give the size of a pixel (--pitch MM) "
                          "or the resolution (--dpi N).")
-    return 1 / per_mm
-
-
-def _pixels_per_mm(data: bytes) -> float:
-    """Return the resolution that the file names, or 0."""
-    if data[:2] == b"BM":
-        return float(struct.unpack("<i", data[38:42])[0] / 1000) if len(data) >= 42 else 0.0
-    if data[:2] == b"\xff\xd8":
-        for marker, at in _segments(data):
-            if marker == 0xE0 and data[at + 2 : at + 7] == b"JFIF\0":
-                unit, x = data[at + 9], struct.unpack(">H", data[at + 10 : at + 12])[0]
-                return float({1: x / MM_PER_INCH, 2: x / 10}.get(unit, 0.0))
-        return 0.0
-    at = data.find(b"pHYs", 8, 4096)
-    return float(struct.unpack(">I", data[at + 4 : at + 8])[0] / 1000) if at > 0 and data[at + 12] == 1 else 0.0
+    return density.pitch

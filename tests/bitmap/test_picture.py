@@ -1,13 +1,15 @@
 """Pictures become pixels with a size, and what their pixels leave open is found where it is."""
 
 import struct
+import zlib
 
 import cv2
 import numpy as np
 import pytest
 
-from app.bitmap.faces import Doubt, ambiguities, inner_faces, shows
-from app.bitmap.picture import PictureOptions, Shows, picture_size, pitch_of, read_picture, thresholded
+from app.bitmap.faces import inner_faces, shows
+from app.bitmap.picture import PictureOptions, Shows, pitch_of, read_picture, thresholded
+from app.bitmap.picture_file import picture_size
 from app.errors import InputError, ParameterError
 
 SIZED = PictureOptions(pitch=0.2)
@@ -155,40 +157,108 @@ def test_filled_figures_are_areas(figure: str, size: int) -> None:
     assert shows(scanned(gray), Shows.AUTO) is Shows.AREAS
 
 
-def test_a_clear_picture_leaves_nothing_open() -> None:
-    assert ambiguities(thresholded(paper(), 1.0, PictureOptions()).ink) == ()
-    assert ambiguities(np.zeros((9, 9), bool)) == ()
+@pytest.mark.parametrize("kind", ["rgba", "sixteen bits", "palette"])
+def test_what_can_be_seen_through_is_paper(kind: str) -> None:
+    drawn = paper() < 128
+    if kind == "palette":
+        rows = np.concatenate([np.zeros((120, 1), np.uint8), drawn.astype(np.uint8)], axis=1).tobytes()
+        data = png((160, 120, 8, 3), (b"PLTE", bytes(6)), (b"tRNS", b"\0\xff"), (b"IDAT", zlib.compress(rows)))
+    else:
+        most = 255 if kind == "rgba" else 65535
+        data = coded(np.dstack([np.zeros((120, 160, 3), np.uint8 if most == 255 else np.uint16), drawn * most]).astype(
+            np.uint8 if most == 255 else np.uint16))
+    picture = read_picture("a.png", data, SIZED)
+    assert np.array_equal(picture.ink, drawn)
+    assert np.array_equal(picture.gray, np.where(drawn, 0, 255))
 
 
-def doubts(gray: np.ndarray) -> list[tuple[Doubt, int, int]]:
-    found = ambiguities(thresholded(gray, 1.0, PictureOptions()).ink)
-    return [(each.doubt, round(each.col / 5) * 5, round(each.row / 5) * 5) for each in found]
+def test_half_seen_through_ink_is_grey() -> None:
+    ink = np.zeros((8, 8, 4), np.uint8)
+    ink[2:6, 2:6, 3] = 100
+    assert read_picture("a.png", coded(ink), SIZED).gray[3, 3] == 155
 
 
-def test_where_lines_meet_is_told() -> None:
-    gray = paper()
-    cv2.line(gray, (110, 20), (110, 100), 30, 2)
-    assert doubts(gray) == [(Doubt.JUNCTION, 110, 20), (Doubt.JUNCTION, 110, 100)]
+def png(header: tuple[int, int, int, int], *chunks: tuple[bytes, bytes]) -> bytes:
+    """A PNG of columns, rows, bits and colour type, with these chunks before its end."""
+    cols, rows, bits, colour = header
+    all_chunks = ((b"IHDR", struct.pack(">IIBBBBB", cols, rows, bits, colour, 0, 0, 0)), *chunks, (b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body)) for kind, body in all_chunks)
 
 
-def test_where_a_line_nearly_closes_is_told() -> None:
-    gray = paper()
-    gray[18:24, 100:102] = 255
-    assert doubts(gray) == [(Doubt.GAP, 100, 20)]
+def grey_png(*before: tuple[bytes, bytes]) -> bytes:
+    """The plate as a PNG with these chunks before its pixels."""
+    rows = np.concatenate([np.zeros((120, 1), np.uint8), paper()], axis=1).tobytes()
+    return png((160, 120, 8, 0), *before, (b"IDAT", zlib.compress(rows)))
 
 
-def test_where_two_lines_have_become_one_is_told() -> None:
-    gray = paper()
-    cv2.line(gray, (137, 40), (137, 80), 30, 2)
-    assert [each[0] for each in doubts(gray)] == [Doubt.MERGED]
+def exif(across: int, down: int, turn: int = 1) -> bytes:
+    entries = [struct.pack(">HHIHH", 0x112, 3, 1, turn, 0), struct.pack(">HHII", 282, 5, 1, 62), struct.pack(">HHII", 283, 5, 1, 70),
+               struct.pack(">HHIHH", 296, 3, 1, 2, 0)]
+    return b"MM\0*" + struct.pack(">IH", 8, 4) + b"".join(entries) + bytes(4) + struct.pack(">IIII", across, 1, down, 1)
 
 
-def test_lines_of_one_pixel_that_run_side_by_side_are_told() -> None:
-    ink = ink_of("............", ".##########.", ".##########.", ".#........#.", ".#........#.", ".##########.", "............")
-    assert [each.doubt for each in ambiguities(ink)] == [Doubt.MERGED]
+def with_exif(jpeg: bytes, body: bytes) -> bytes:
+    return jpeg[:2] + b"\xff\xe1" + struct.pack(">H", len(body) + 8) + b"Exif\0\0" + body + jpeg[2:]
 
 
-def test_lines_a_pixel_apart_are_told() -> None:
-    gray = paper()
-    cv2.line(gray, (136, 40), (136, 80), 30, 2)
-    assert Doubt.NARROW in [each[0] for each in doubts(gray)]
+def test_a_resolution_behind_long_chunks_is_found(capfd: pytest.CaptureFixture[str]) -> None:
+    profile = b"x\0\0" + zlib.compress(np.random.default_rng(1).bytes(9000))
+    data = grey_png((b"iCCP", profile), (b"pHYs", struct.pack(">IIB", 10000, 10000, 1)))
+    assert read_picture("a.png", data, PictureOptions()).pitch == pytest.approx(0.1)
+    assert capfd.readouterr().err == ""
+
+
+def test_a_resolution_in_exif_is_found() -> None:
+    assert read_picture("a.jpg", with_exif(coded(paper(), ".jpg"), exif(254, 254)), PictureOptions()).pitch == pytest.approx(0.1)
+    assert read_picture("a.png", grey_png((b"eXIf", exif(127, 127))), PictureOptions()).pitch == pytest.approx(0.2)
+
+
+def anisotropic(suffix: str) -> bytes:
+    """The plate at 254 dpi along rows and 127 dpi along columns."""
+    if suffix == ".png":
+        return grey_png((b"pHYs", struct.pack(">IIB", 10000, 5000, 1)))
+    data = coded(paper(), suffix)
+    if suffix == ".bmp":
+        return data[:38] + struct.pack("<ii", 10000, 5000) + data[46:]
+    at = data.index(b"JFIF\0")
+    return data[: at + 7] + b"\x01" + struct.pack(">HH", 254, 127) + data[at + 12 :]
+
+
+@pytest.mark.parametrize("suffix", [".png", ".jpg", ".bmp"])
+def test_pixels_that_are_not_square_are_made_square(suffix: str) -> None:
+    picture = read_picture("a" + suffix, anisotropic(suffix), PictureOptions())
+    assert picture.gray.shape == (240, 160)
+    assert picture.pitch == pytest.approx(0.1)
+    inside = inner_faces(picture.ink)
+    assert inside[60, 30]
+    assert not inside[120, 60]
+    assert "made 160 x 240 square ones" in picture.remarks[0]
+
+
+def test_a_turned_picture_s_resolutions_turn_with_it() -> None:
+    picture = read_picture("a.jpg", with_exif(coded(paper(), ".jpg"), exif(254, 127, turn=6)), PictureOptions())
+    assert picture.gray.shape == (160, 240)
+    assert picture.pitch == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize("per_metre", [(-10000, -10000), (10000, -10000), (1, 1), (2**31 - 1, 2**31 - 1), (0, 0), (10000, 10)])
+def test_a_resolution_that_cannot_be_meant_is_none(per_metre: tuple[int, int]) -> None:
+    bmp = coded(paper(), ".bmp")
+    data = bmp[:38] + struct.pack("<ii", *per_metre) + bmp[46:]
+    with pytest.raises(InputError, match=r"a\.bmp: the picture does not say how large it is; give the size"):
+        read_picture("a.bmp", data, PictureOptions())
+    assert read_picture("a.bmp", data, SIZED).gray.shape == (120, 160)
+
+
+@pytest.mark.parametrize("suffix", [".png", ".jpg", ".bmp"])
+def test_decoders_say_nothing_of_their_own(suffix: str, capfd: pytest.CaptureFixture[str]) -> None:
+    data = coded(paper(), suffix)
+    with pytest.raises(InputError, match="is damaged and cannot be decoded"):
+        read_picture("a" + suffix, data[: len(data) // 2 if suffix != ".bmp" else 300], SIZED)
+    assert capfd.readouterr().err == ""
+
+
+def test_a_picture_that_is_all_ink_says_so() -> None:
+    assert "All of the picture is ink" in read_picture("a.png", coded(np.zeros((40, 40), np.uint8)), SIZED).remarks[0]
+    assert read_picture("a.png", coded(paper()), SIZED).remarks == ()
