@@ -8,7 +8,8 @@ from pathlib import PurePath
 
 import numpy as np
 
-from app.bitmap.faces import Ambiguity, ambiguities, inner_faces, shows
+from app.bitmap.doubts import Ambiguity, Doubt, Place, ambiguities, pixel_words
+from app.bitmap.faces import inner_faces, shows
 from app.bitmap.frame import Frame
 from app.bitmap.picture import Picture, PictureOptions, Shows, read_picture
 from app.bitmap.walls import Mask, free_contours
@@ -25,6 +26,12 @@ from app.workflow.options import MakeOptions, job_with_options
 
 _TOLD = 20
 """Doubtful places of one kind that are findings of their own."""
+
+_LOOK = "look at what will be machined there, and draw it clearer if it is wrong"
+_ADVICE = {
+    Doubt.GAP: "close it in the picture, or make it wider if it is meant",
+    Doubt.OPEN: "close it in the picture, or take it out if nothing is to be machined there",
+}
 
 
 @dataclass(frozen=True)
@@ -86,14 +93,24 @@ def picture_job(picture: Picture, options: MakeOptions, read: PictureOptions, na
     free = picture.ink if kind is Shows.AREAS else inner_faces(picture.ink)
     free = np.pad(free, 1)
     frame = Frame(free.shape[0], free.shape[1], picture.pitch, -picture.pitch, -picture.pitch)
+    doubts = _doubts(picture.ink, frame, kind)
     if not free.any():
-        what = "is inked" if kind is Shows.AREAS else "is enclosed by lines"
-        raise GeometryError(f"{name}: nothing in the picture {what}; change the threshold, invert it, or say whether its ink is lines "
-                            "or areas.")
+        raise GeometryError(_nothing_shown(name, kind, doubts))
     regions = nest(free_contours(frame, free))
     part = part_of_mask(frame, free, regions, np.pad(picture.ink, 1) if kind is Shows.LINES else None)
     job = job_with_options(_as_part(regions, name), options)
-    return BitmapJob(job, part, tuple(_doubts(picture.ink, frame, kind)))
+    remarks = (Finding(FindingKind.ASSUMED, remark, counts=False) for remark in picture.remarks)
+    return BitmapJob(job, part, (*doubts, *remarks))
+
+
+def _nothing_shown(name: str, kind: Shows, doubts: list[Finding]) -> str:
+    """Return why a picture gives no part: where its lines are open, as far as that is known."""
+    open_ones = [finding.text for finding in doubts if finding.counts]
+    if open_ones:
+        more = f" ({len(open_ones) - 1} more such places)" if len(open_ones) > 1 else ""
+        return f"{name}: nothing in the picture is enclosed by lines. {open_ones[0]}{more}"
+    what = "is inked" if kind is Shows.AREAS else "is enclosed by lines"
+    return f"{name}: nothing in the picture {what}; change the threshold, invert it, or say whether its ink is lines or areas."
 
 
 def _as_part(regions: tuple[Region, ...], name: str) -> Part:
@@ -116,9 +133,33 @@ def _doubts(ink: Mask, frame: Frame, kind: Shows) -> list[Finding]:
 
 
 def _doubt(place: Ambiguity, frame: Frame, more: int) -> Finding:
-    x, y = frame.to_mm(np.array([[place.col + 1, place.row + 1]]))[0].tolist()
-    others = f" ({more} more like it)" if more > 0 else ""
-    text = (f"At pixel {int(place.col)}, {int(place.row)} (column, row), ({x:.3f}, {y:.3f}), {place.doubt.value}{others}; "
-            "look at what will be machined there, and draw it clearer if it is wrong.")
-    return Finding(FindingKind.AMBIGUOUS, text, x, y, counts=False)
+    """Return a place as a finding.
 
+    Args:
+        more: further places of the kind that are no findings of their own.
+    """
+    (x, y), *others = (_at(each, frame) for each in ((place.col, place.row), *place.others))
+    also = f" ({more} more like it)" if more > 0 else ""
+    is_open = place.doubt is Doubt.OPEN
+    told = f"{place.doubt.value}{_other_ends(place, others)}" if is_open else place.doubt.value
+    text = f"At {place.where}, {_mm((x, y))}, {told}{also}; {_ADVICE.get(place.doubt, _LOOK)}."
+    amount = float(np.hypot(x - others[0][0], y - others[0][1])) if others else None
+    return Finding(FindingKind.OPEN_CONTOUR if is_open else FindingKind.AMBIGUOUS, text, x, y, place.counts, amount=amount)
+
+
+def _other_ends(place: Ambiguity, others: list[Place]) -> str:
+    """Return where else an open line ends, in words; others: the same ends, mm."""
+    ends = [f"{pixel_words(px)}, {_mm(mm)}" for px, mm in zip(place.others, others, strict=True)]
+    if not ends:
+        return ""
+    return f"; its other {'end is' if len(ends) == 1 else 'ends are'} at {' and at '.join(ends)}"
+
+
+def _at(place: Place, frame: Frame) -> Place:
+    """Return where a place of the picture lies, mm, on a frame that has one pixel more all round."""
+    x, y = frame.to_mm(np.array([place]) + 1)[0].tolist()
+    return x, y
+
+
+def _mm(place: Place) -> str:
+    return f"({place[0]:.3f}, {place[1]:.3f})"

@@ -8,8 +8,9 @@ from enum import Enum
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QPushButton, QScrollArea, QSlider, QVBoxLayout, QWidget
 
-from app.bitmap.faces import Doubt
-from app.bitmap.picture import MM_PER_INCH, PictureOptions, Shows
+from app.bitmap.doubts import Doubt
+from app.bitmap.picture import PictureOptions, Shows
+from app.bitmap.picture_file import MM_PER_INCH
 from app.errors import HitofudeError
 from app.ui.figures import TIMES, counted, grouped
 from app.ui.labels import Elided, muted
@@ -20,7 +21,7 @@ from app.ui.samples import Switch
 from app.ui.stages.preview import ASSUMED_DPI, Measure, Preview, Reading
 
 _LIST_PX = 96
-_DOUBTS = {Doubt.JUNCTION: "Lines meet", Doubt.MERGED: "Thick line", Doubt.GAP: "Gap", Doubt.NARROW: "Narrow"}
+_DOUBTS = {Doubt.GAP: "Gap", Doubt.OPEN: "Open line", Doubt.JUNCTION: "Lines meet", Doubt.MERGED: "Thick line", Doubt.NARROW: "Narrow"}
 _KINDS = {Shows.LINES: "Read as lines: what they enclose is machined.", Shows.AREAS: "Read as areas: the ink itself is machined."}
 
 
@@ -189,12 +190,12 @@ class ImportPanel(QWidget):
         self.otsu.setEnabled(options.threshold is not None)
         self.despeckle.show_value(options.despeckle)
         self.ink.show_value(options.shows)
-        self.kind.setText(_KINDS[preview.kind])
+        self.kind.setText(" ".join((_KINDS[preview.kind], *preview.picture.remarks)))
         with QSignalBlocker(self.list):
             self.list.clear()
-            self.list.addItems([f"{_DOUBTS[place.doubt]} at column {place.col:.0f}, row {place.row:.0f}" for place in preview.places])
+            self.list.addItems([f"{_DOUBTS[place.doubt]} at {place.where}" for place in preview.places])
             for k, place in enumerate(preview.places):
-                self.list.item(k).setToolTip(f"At column {place.col:.0f}, row {place.row:.0f} {place.doubt.value}")
+                self.list.item(k).setToolTip(f"At {place.where}, {place.doubt.value}")
             self.list.setCurrentRow(-1)
         self.doubts.setText(f"{counted(len(preview.places), 'doubtful place')}" if preview.places else "No doubtful place")
         self.list.setVisible(bool(preview.places))

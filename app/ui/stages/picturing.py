@@ -10,6 +10,8 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.bitmap.codes import PixelCode
 from app.edit.document import Change
+from app.errors import HitofudeError
+from app.model.part import Part
 from app.ui.figures import counted
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
@@ -50,6 +52,7 @@ class Picturing(QObject):
         self.worker = Worker(self)
         self.preview: Preview | None = None
         self._see, self._chosen = See.READING, -1
+        self._taken: Part | None = None
         self._rest = QTimer(self, singleShot=True, interval=_REST_MS)
         self._connect()
 
@@ -68,7 +71,7 @@ class Picturing(QObject):
         panel.accepted.connect(self._take)
         panel.left.connect(self.leave)
         self._view.preview_clicked.connect(self._point)
-        self._unsubscribe = window.document.subscribe(lambda change: self.leave() if change & Change.LOADED and self.preview else None)
+        self._unsubscribe = window.document.subscribe(self._on_change)
         self._view.theme_changed.connect(lambda _: self._show())
 
     def open(self, path: Path) -> None:
@@ -82,6 +85,17 @@ class Picturing(QObject):
         self.preview = self._panel.reading = None
         self._view.show_preview(None)
         self.shown.emit()
+
+    def _on_change(self, change: Change) -> None:
+        """Leave the picture for another document; say once when the part is no longer the picture that was taken."""
+        if change & Change.LOADED:
+            self._taken = None
+            if self.preview is not None:
+                self.leave()
+        elif change & Change.PART and self._taken is not None and self._window.document.part is not self._taken:
+            self._taken = None
+            self._log.note("picture", "The drawing was changed: from here on it is an ordinary drawing, no longer the picture's pixels. "
+                                      "Undo the change to have them back.")
 
     def _start(self, function: Callable[..., object]) -> None:
         self.worker.start(function, self._window.document.revision)
@@ -105,12 +119,20 @@ class Picturing(QObject):
         self._start(lambda progress: part_of(preview_of(reading, progress) if stale else preview, before, progress))
 
     def _on_done(self, answer: Answer) -> None:
+        try:
+            self._accept(answer)
+        except HitofudeError as error:
+            self._say(str(error))
+
+    def _accept(self, answer: Answer) -> None:
+        """Show a preview, or load the part."""
         if isinstance(answer.value, Preview):
             fresh = self.preview is None or answer.value.reading.path != self.preview.reading.path
             self.preview, self._chosen = answer.value, -1
             if fresh or self._panel.reading is None:
                 self._see = See.READING
                 self._panel.begin(answer.value)
+                self._window.notice.dismiss()
             else:
                 self._panel.show_preview(answer.value)
             self._show()
@@ -123,6 +145,7 @@ class Picturing(QObject):
         computation.pixels = (ready.job.part, ready.part)
         self.leave()
         self._window.document.load(ready.job, path)
+        self._taken = ready.job.part
         computation.forget(ready.findings)
         frame = ready.part.frame
         doubts = f" {counted(len(preview.places), 'doubtful place')}: see Compute, Findings." if preview.places else ""
@@ -130,11 +153,15 @@ class Picturing(QObject):
         self.taken.emit(path)
 
     def _on_failed(self, answer: Answer) -> None:
-        """Say it in the panel, where there is one."""
+        self._say(answer.error or "")
+
+    def _say(self, sentence: str) -> None:
+        """Say what went wrong, in the panel where it is shown."""
         if self.preview is not None:
-            self._panel.refuse(answer.error or "")
+            self._panel.refuse(sentence)
+            self.shown.emit()
         else:
-            self.failed.emit(answer.error or "")
+            self.failed.emit(sentence)
 
     def _on_busy(self, busy: bool) -> None:
         if busy or not self._window.worker.busy:

@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.bitmap.codes import PixelCode, Plane
-from app.bitmap.faces import Ambiguity, ambiguities, inner_faces, shows
+from app.bitmap.doubts import Ambiguity, ambiguities
+from app.bitmap.faces import inner_faces, shows
 from app.bitmap.frame import Frame
-from app.bitmap.picture import MM_PER_INCH, Picture, PictureOptions, Shows, pitch_of, read_picture, thresholded
+from app.bitmap.picture import Picture, PictureOptions, Shows, pitch_of, read_picture, thresholded
+from app.bitmap.picture_file import MM_PER_INCH
 from app.errors import InputError
 from app.model.job import Job
 from app.progress import NO_PROGRESS, Progress
@@ -121,7 +123,8 @@ def preview_of(reading: Reading, progress: Progress = NO_PROGRESS) -> Preview:
         Cancelled: by progress.
     """
     progress.step(0.1, "Telling ink from paper")
-    picture = thresholded(reading.picture.gray, reading.measure.pitch, reading.options)
+    ink = thresholded(reading.picture.gray, reading.measure.pitch, reading.options)
+    picture = replace(ink, stretched=reading.picture.stretched)
     kind = shows(picture.ink, reading.options.shows)
     plane = np.where(picture.ink, PixelCode.CONTOUR if kind is Shows.LINES else PixelCode.INSIDE, PixelCode.EMPTY).astype(np.uint8)
     progress.step(0.4, "Looking for what lines enclose")

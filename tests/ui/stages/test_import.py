@@ -1,5 +1,9 @@
 """Pictures as parts: opened, dropped, read otherwise, measured, and machined."""
 
+import struct
+from dataclasses import replace
+
+import cv2
 import numpy as np
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
@@ -12,8 +16,12 @@ from app.ui.computation import State
 from app.ui.figures import TIMES
 from app.ui.stages.import_panel import By, See
 from app.ui.stages.inks import inks
+from app.ui.stages.pixel_paint import pixel_at
+from app.ui.stages.preview import Measure
 from app.ui.theme import LIGHT
 from app.ui.views import View
+from app.ui.worker import Answer
+from tests.bitmap.test_doubts import plate
 from tests.ui.conftest import WAIT_MS
 from tests.ui.stages.conftest import show_stages
 from tests.ui.stages.scan import DARK_INK, PAPER, scan
@@ -167,6 +175,61 @@ def test_a_dropped_picture_is_taken_and_a_damaged_one_refused(qtbot, wiring, tmp
     wiring.files.open_file(tmp_path / "cut.png")
     qtbot.waitUntil(lambda: window.notice.isVisible() and "cut.png" in window.notice.text.text(), timeout=WAIT_MS)
     assert wiring.picturing.preview is None
+
+
+def import_of(qtbot, wiring, path):
+    """Read a picture and wait for its preview."""
+    wiring.files.open_file(path)
+    qtbot.waitUntil(lambda: wiring.picturing.preview is not None and wiring.picturing.preview.reading.path == path, timeout=WAIT_MS)
+
+
+def test_a_gap_is_named_at_one_place_everywhere(qtbot, wiring, tmp_path):
+    path = tmp_path / "gap.png"
+    cv2.imwrite(str(path), plate(1, island=False))
+    import_of(qtbot, wiring, path)
+    panel = wiring.window_.import_panel
+    assert panel.list.item(0).text() == "Gap at column 150, row 50"
+    panel.take.click()
+    qtbot.waitUntil(panel.wrong.isVisible, timeout=WAIT_MS)
+    assert "enclosed by lines. At column 150, row 50" in panel.wrong.text()
+    pixels = wiring.window_.views.stages.pixels
+    assert pixel_at(pixels.pixels.frame, pixels.marks[0].at) == (50, 150)
+
+
+def test_a_resolution_that_cannot_be_meant_is_a_guess(qtbot, wiring, tmp_path):
+    path = scan(tmp_path / "neg.bmp")
+    data = path.read_bytes()
+    path.write_bytes(data[:38] + struct.pack("<ii", -10000, -10000) + data[46:])
+    import_of(qtbot, wiring, path)
+    assert "300 dpi is a guess" in wiring.window_.import_panel.told.text()
+
+
+def test_what_cannot_be_shown_is_said_in_the_panel(opened):
+    picturing, panel = opened.picturing, opened.window_.import_panel
+    wrong = replace(picturing.preview, reading=replace(picturing.preview.reading, measure=Measure(-254.0)))
+    picturing.worker.done.emit(Answer(0, opened.document.revision, wrong))
+    assert panel.wrong.isVisible() and "pitch is -0.1 mm" in panel.wrong.text()
+
+
+def test_an_error_goes_when_the_next_picture_is_good(qtbot, wiring, tmp_path):
+    notice = wiring.window_.notice
+    (tmp_path / "cut.png").write_bytes(scan(tmp_path / "whole.png").read_bytes()[:60])
+    wiring.files.open_file(tmp_path / "cut.png")
+    qtbot.waitUntil(lambda: notice.isVisible() and "cut.png" in notice.text.text(), timeout=WAIT_MS)
+    import_of(qtbot, wiring, tmp_path / "whole.png")
+    assert not notice.isVisible()
+
+
+def test_a_picture_that_is_drawn_in_says_so_once(qtbot, opened):
+    type_value(qtbot, opened.window_.import_panel.dpi, "63.5")
+    opened.window_.import_panel.take.click()
+    show_stages(qtbot, opened)
+    told = [line for line in opened.log.lines if "ordinary drawing" in line.reply]
+    assert told == []
+    opened.run("circle 200,200 5")
+    opened.run("circle 210,200 5")
+    told = [line for line in opened.log.lines if "ordinary drawing" in line.reply]
+    assert len(told) == 1
 
 
 def test_another_drawing_takes_the_place_of_the_picture(qtbot, opened, samples):
