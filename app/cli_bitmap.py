@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
 from app.bitmap.frame import POINTS
 from app.bitmap.picture import PictureOptions, Shows
@@ -24,9 +25,9 @@ def add_bitmap_options(group: argparse._ArgumentGroup, bitmap_help: str) -> None
     group.add_argument("--threshold", metavar="N", type=_whole("threshold", 1),
                        help="of a picture: what is darker is ink, 1 to 255 (default: Otsu's)")
     group.add_argument("--invert", action="store_true", help="of a picture: the ink is light on dark")
-    group.add_argument("--despeckle", metavar="N", type=_whole("despeckle", 0), default=4,
+    group.add_argument("--despeckle", metavar="N", type=_whole("despeckle", 0),
                        help="of a picture: spots of up to this many pixels are no ink (default 4)")
-    group.add_argument("--ink", choices=[each.value for each in Shows], default=Shows.AUTO.value,
+    group.add_argument("--ink", choices=[each.value for each in Shows],
                        help="of a picture: its ink is lines round what is machined, or the areas themselves (default: by how thin it is)")
 
 
@@ -43,6 +44,11 @@ def _whole(what: str, least: int) -> type[int]:
         return value
 
     return read  # type: ignore[return-value]  # argparse wants a callable, and names types
+
+
+def _or(value: Any, default: Any) -> Any:
+    """Return what was given, which may be 0, else the default."""
+    return default if value is None else value
 
 
 def asked_bitmap(arguments: argparse.Namespace) -> BitmapOptions | None:
@@ -66,9 +72,11 @@ def bitmap_options(arguments: argparse.Namespace) -> BitmapOptions:
     picture = is_picture(arguments.drawing.name)
     if picture and arguments.bitmap is not None:
         raise InputError("--bitmap: a picture has its own pixels; leave the option away, and give their size by --pitch or --dpi")
-    for name in ("dpi", "threshold"):
-        if not picture and getattr(arguments, name) is not None:
+    for name in ("dpi", "threshold", "invert", "despeckle", "ink"):
+        asked = getattr(arguments, name)
+        if not picture and asked is not None and asked is not False:
             raise InputError(f"--{name}: {arguments.drawing.name} is no picture; leave the option away")
     size = BitmapSize(arguments.bitmap or (16 if arguments.pitch else POINTS), None if picture else arguments.pitch)
-    read = PictureOptions(arguments.threshold, arguments.invert, arguments.despeckle, arguments.pitch, arguments.dpi, Shows(arguments.ink))
+    read = PictureOptions(arguments.threshold, arguments.invert, _or(arguments.despeckle, PictureOptions().despeckle), arguments.pitch,
+                          arguments.dpi, Shows(_or(arguments.ink, Shows.AUTO)))
     return BitmapOptions(size, read)
