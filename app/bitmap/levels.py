@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from app.bitmap.border import Index
-from app.bitmap.peel import Floats, distance_px, frame_pixels, inner_pixels
+from app.bitmap.peel import inner_pixels
 from app.bitmap.walls import Mask
 from app.pool import pool
 
@@ -53,16 +53,6 @@ def thresholds_reached(free: Mask, squares: Sequence[int]) -> Index:
     parts = pairwise(np.linspace(0, bands, 1 + min(free.size // _PART, bands) + 1).astype(int).tolist())
     list(pool().map(lambda part: distance_kernels.reached(inner, beside, thresholds, index, part), parts))
     return index
-
-
-def frame_distance(area: Mask) -> Floats:
-    """Return the distance of every pixel of A' from the nearest pixel of its frame, px: the one field that all rings are levels of.
-
-    The frame's pixels are the contour tool's path itself. -1 outside of the area.
-    """
-    distance = distance_px(area, frame_pixels(area))
-    distance[~area] = -1
-    return distance
 
 
 @dataclass(frozen=True, slots=True)

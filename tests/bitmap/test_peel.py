@@ -8,10 +8,10 @@ from scipy import ndimage
 
 from app.bitmap.border import borders_of, mark
 from app.bitmap.frame import Frame
-from app.bitmap.levels import SAFE_PX, RingSteps, frame_distance, offset_area, ring_index, thresholds_reached
+from app.bitmap.levels import SAFE_PX, RingSteps, offset_area, ring_index, thresholds_reached
 from app.bitmap.peel import correct_by_circles, distance_px, frame_pixels, inner_pixels, peels
 from app.bitmap.walls import free_pixels
-from tests.bitmap.peeling import peeled, shrink
+from tests.bitmap.peeling import frame_distance, peeled, shrink
 from tests.part_shapes import fig2
 
 EIGHT = np.ones((3, 3))

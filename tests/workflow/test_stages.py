@@ -13,7 +13,6 @@ from app.bitmap.border import borders_of
 from app.bitmap.codes import PixelCode
 from app.bitmap.fill import fill
 from app.bitmap.frame import Frame
-from app.bitmap.levels import frame_distance
 from app.bitmap.peel import frame_pixels
 from app.bitmap.steps import STEPS, Stage
 from app.geometry.region import polygon_contour
@@ -23,7 +22,7 @@ from app.workflow.bitmap_options import BitmapSize
 from app.workflow.bitmap_way import BitmapProgram, compute_on_bitmap
 from app.workflow.stage_files import png
 from app.workflow.stages import Variant, stages
-from tests.bitmap.peeling import shrink
+from tests.bitmap.peeling import frame_distance, shrink
 from tests.conftest import ROOT
 from tests.part_shapes import fig2
 from tests.workflow.test_bitmap_way import job_of
