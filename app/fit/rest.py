@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.fit.smoothed import PieceKind, Smoothed
+from app.geometry.primitives import TURN, turns
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -36,9 +37,10 @@ def without_bends(path: Smoothed, points: Floats, limit: float) -> Smoothed:
     """
     from app.fit import joint_kernels, rest_kernels
 
-    count = len(path.rows)
-    bent, anchors = np.empty(count, np.bool_), (np.empty((count, 2, 4)), np.empty((count, 2), np.int64))
-    rest_kernels.bends(points, (path.ends, path.rows, path.joined), (_LEAST, _MOST), bent, anchors)
+    count, turn, arc = len(path.rows), turns(path.rows), path.rows[:, TURN] != 0
+    bent = (path.joined == joint_kernels.CROSSING) & (turn > _LEAST) & (turn < _MOST) & (arc | np.roll(arc, 1))
+    anchors = np.empty((count, 2, 4)), np.empty((count, 2), np.int64)
+    rest_kernels.anchor(points, (path.ends, path.rows), bent, anchors)
     while bent.any():
         made, origin = _smoothed(path, points, anchors, bent)
         if made is None:

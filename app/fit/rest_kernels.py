@@ -7,7 +7,6 @@ import math
 import numpy as np
 
 from app.fit.biarc_kernels import ARC, NONE, from_tangent, meeting
-from app.fit.joint_kernels import CROSSING
 from app.fit.moment_kernels import add_up, fit_circle
 from app.jit import kernel
 
@@ -28,15 +27,6 @@ def direction(row, at):
         dx, dy = -row[7] * (at[1] - row[5]), row[7] * (at[0] - row[4])
     length = math.hypot(dx, dy)
     return (dx / length, dy / length) if length > 0.0 else (0.0, 0.0)
-
-
-@kernel("boolean(float64[::1], float64[::1], float64, float64)")
-def _bends(before, after, least, most):
-    """Tell whether two rows, one of them an arc, meet with a turn of least ... most, radians."""
-    ax, ay = direction(before, (before[2], before[3]))
-    bx, by = direction(after, (after[0], after[1]))
-    turn = abs(math.atan2(ax * by - ay * bx, ax * bx + ay * by))
-    return (before[7] != 0.0 or after[7] != 0.0) and least < turn < most
 
 
 @kernel(f"int64(float64[:, ::1], int64, int64, {_POINT})")
@@ -82,29 +72,31 @@ def _along_line(row, length, node, other):
     other[0], other[1], other[2], other[3] = row[2] - length * dx, row[3] - length * dy, dx, dy
 
 
-@kernel("void(float64[:, ::1], Tuple((int64[::1], float64[:, ::1], uint8[::1])), UniTuple(float64, 2), boolean[::1], "
-        "Tuple((float64[:, :, ::1], int64[:, ::1])))")
-def bends(points, path, limits, bent, anchors):
-    """Find the slight bends of a closed path, and where a curve without them may leave each row and come back to it.
+@kernel("void(float64[:, ::1], Tuple((int64[::1], float64[:, ::1])), boolean[::1], Tuple((float64[:, :, ::1], int64[:, ::1])))")
+def anchor(points, path, bent, anchors):
+    """Find where a curve without slight bends may leave the rows next to them and come back to them.
 
     It does so in an arc's middle, where the points next to it tell the curve's place and direction best, and on a line
     near its ends.
 
     Args:
         points: what the path was made from, three times.
-        path: ends (n + 1,), rows (n, 8) and joined (n,).
-        limits: radians that a bend turns by at least and at most.
-        bent: (n,) gets whether a row begins with a bend.
-        anchors: (n, 2, 4) place and direction for the bend before and after each row; (n, 2) the points' numbers there.
+        path: ends (n + 1,) and rows (n, 8).
+        bent: (n,) whether a row begins with a bend.
+        anchors: (n, 2, 4) place and direction for the bend before and after each row that has one; (n, 2) the points' numbers
+            there: they get these.
     """
-    ends, rows, joined = path
+    ends, rows = path
     nodes, at = anchors
-    n, period = len(rows), ends[-1] - ends[0]
-    sums = np.zeros((period + 2, 8))
+    n, period, longest = len(rows), ends[-1] - ends[0], 0
+    for k in range(n):
+        longest = max(longest, ends[k + 1] - ends[k])
+    sums = np.zeros((2 * max(longest // WINDOW, 2) + 2, 8))
     for k in range(n):
         after = (k + 1) % n
+        if not (bent[k] or bent[after]):
+            continue
         steps = ends[k + 1] - ends[k]
-        bent[k] = joined[k] == CROSSING and _bends(rows[k - 1], rows[k], limits[0], limits[1])
         if rows[k, 7] != 0.0:
             _half_way(rows[k], nodes[k, 0])
             middle = _nearest(points, ends[k], ends[k + 1], (nodes[k, 0, 0], nodes[k, 0, 1]))

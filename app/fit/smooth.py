@@ -65,7 +65,8 @@ def smooth(points: Floats, options: SmoothOptions) -> Smoothed:
     """
     from app.fit import joint_kernels, smooth_kernels
 
-    fresh = np.any(points != np.roll(points, 1, axis=0), axis=1)
+    places = np.ascontiguousarray(points).view(np.complex128)[:, 0]  # both coordinates compared at once
+    fresh = places != np.roll(places, 1)
     if not fresh.all() and fresh.any():
         return _among(smooth(np.ascontiguousarray(points[fresh]), options), np.flatnonzero(fresh), len(points))
     count = len(points)
