@@ -19,7 +19,8 @@ HELP = """\
 Hitofude: from a line drawing to tool paths that can be trusted on a real machine.
 
   hitofude [open] [FILE]              the window, with FILE or the sample part
-  hitofude make DRAWING -o OUT.ngc    a drawing into contour and pocket tool paths, as NC (make --help tells all)
+  hitofude make DRAWING -o OUT.ngc    a drawing into tool paths for pockets, contours and holes, as NC (make --help tells all)
+  hitofude tools DRAWING              which tools a drawing wants: what passes, what clears, how long it takes (tools --help)
   hitofude cut PROGRAM.ngc            any NC program cut out of its stock: what is left, gouges, rapids in metal (cut --help)
   hitofude check PROGRAM.ngc          any NC program: what is wrong, how far it reaches, how long it takes (check --help)
   hitofude stages DRAWING -o DIR      the bitmap way of 1986, step by step, as pictures and codes (stages --help)
@@ -78,10 +79,14 @@ def _command(argv: list[str], stopped: threading.Event) -> int:
         from app.cli_stages import stages_command
 
         return stages_command(rest, stopped)
+    if name == "tools":
+        from app.cli_tools import tools_command
+
+        return tools_command(rest, stopped)
     if name in LATER:
-        _say(f"the command '{name}' is not part of this version yet; 'make', 'cut', 'check' and 'stages' are, see hitofude --help")
+        _say(f"the command '{name}' is not part of this version yet; 'make', 'tools', 'cut', 'check' and 'stages' are, see hitofude --help")
         return BAD_INPUT
-    _say(f"there is no command '{name}'; use 'make', 'cut', 'check', 'stages' or 'open', see hitofude --help")
+    _say(f"there is no command '{name}'; use 'make', 'tools', 'cut', 'check', 'stages' or 'open', see hitofude --help")
     return BAD_INPUT
 
 

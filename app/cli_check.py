@@ -10,7 +10,7 @@ from pathlib import Path
 from app.atomic import write_together
 from app.cli_files import check_outputs, read_input, shown_progress
 from app.cli_options import MACHINE_HELP, OptionParser, machine_named, typed
-from app.cli_output import tell
+from app.cli_output import helped, tell
 from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.files.tool_files import read_rows
@@ -44,11 +44,9 @@ def check_command(argv: Sequence[str], stopped: threading.Event) -> int:
         HitofudeError: bad usage or input; nothing was written.
         Cancelled: by Ctrl+C.
     """
-    parser = _parser()
-    if any(argument in ("-h", "--help") for argument in argv):
-        tell(parser.format_help().rstrip())
+    if helped(argv, _parser):
         return 0
-    arguments = parser.parse_args(argv)
+    arguments = _parser().parse_args(argv)
     outputs = _outputs(arguments)
     progress = shown_progress(arguments.quiet, stopped)
     data = read_input(arguments.program)

@@ -11,7 +11,7 @@ from pathlib import Path
 from app.atomic import write_together
 from app.cli_cut_options import Corners, cut_parser, read_arguments
 from app.cli_files import check_outputs, read_input, shown_progress
-from app.cli_output import REMARKS, finding_lines, tell
+from app.cli_output import REMARKS, finding_lines, helped, tell
 from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.files.job_toml import read_job
@@ -41,8 +41,7 @@ def cut_command(argv: Sequence[str], stopped: threading.Event) -> int:
         HitofudeError: bad usage or input; nothing was written.
         Cancelled: by Ctrl+C.
     """
-    if any(argument in ("-h", "--help") for argument in argv):
-        tell(cut_parser().format_help().rstrip())
+    if helped(argv, cut_parser):
         return 0
     arguments = read_arguments(argv)
     outputs = _outputs(arguments)

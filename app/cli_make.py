@@ -10,8 +10,8 @@ from pathlib import Path
 
 from app.atomic import write_together
 from app.cli_files import check_outputs, identity, read_input, shown_progress
-from app.cli_options import make_options, read_arguments
-from app.cli_output import finding_lines, tell
+from app.cli_options import make_options, make_parser, read_arguments
+from app.cli_output import finding_lines, helped, tell
 from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.workflow.make import Made, make
@@ -29,10 +29,7 @@ def make_command(argv: Sequence[str], stopped: threading.Event) -> int:
         HitofudeError: bad usage or input; nothing was written.
         Cancelled: by Ctrl+C.
     """
-    if any(argument in ("-h", "--help") for argument in argv):
-        from app.cli_options import make_parser
-
-        tell(make_parser().format_help().rstrip())
+    if helped(argv, make_parser):
         return 0
     arguments = read_arguments(argv)
     outputs = _check_outputs(arguments)

@@ -93,8 +93,8 @@ def stepover(text: str) -> Stepover:
     except (InputError, ValueError) as error:
         raise argparse.ArgumentTypeError(f"is wrong: '{text}' is neither a length nor per cent; write one such as 1.5mm or 40%") from error
     least, unit = (LEAST_PER_CENT, "%") if percent else (LEAST_LENGTH, "mm")
-    if not least <= asked.value < (100 if percent else 1e5):
-        raise argparse.ArgumentTypeError(f"is {asked.value:g} {unit}; it must be {least:g} {unit} or more and less than "
+    if not least <= asked.value <= (100 if percent else 1e5):
+        raise argparse.ArgumentTypeError(f"is {asked.value:g} {unit}; it must be {least:g} {unit} or more and not more than "
                                          "the tool's diameter (100 %)")
     return asked
 
@@ -129,15 +129,17 @@ def typed(read: Callable[[str], object]) -> Callable[[str], object]:
 def make_parser() -> OptionParser:
     """Return the parser of `hitofude make`."""
     from app.cli_bitmap import add_bitmap_options
+    from app.cli_machining import add_machining_options
 
     parser = OptionParser(
         "make", ("drawing", "the drawing and the NC program to write"),
-        "Turn a drawing (.dxf) or a picture into contour and pocket tool paths and write them as an NC program, read back and proven "
-        "the same.", EPILOG,
+        "Turn a drawing (.dxf) or a picture into tool paths for pockets, rests, contours and holes, and write them as an NC program, "
+        "read back and proven the same.", EPILOG,
     )  # fmt: skip
     parser.add_argument("drawing", metavar="DRAWING", type=Path, help="the drawing, .dxf, or a picture, .png .jpg .bmp")
     _file_options(parser.add_argument_group("files"))
     _tool_options(parser.add_argument_group("tools and cutting"))
+    add_machining_options(parser.add_argument_group("how it is cut"), parser.add_argument_group("copies, tabs and clamps"))
     _drawing_options(parser.add_argument_group("drawing and origin"))
     add_bitmap_options(parser.add_argument_group("bitmap and picture"),
                        "compute on N x N pixels, as in 1986, instead of exactly; a picture is always")
@@ -160,7 +162,9 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
 def _tool_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--contour-tool", metavar="D", type=number("diameter"), help="diameter of the tool that follows the walls")
     group.add_argument("--pocket-tool", metavar="D", type=number("diameter"), help="diameter of the tool that clears the area")
-    group.add_argument("--stepover", metavar="MM|%", type=stepover, help="distance between rings, from 1%% or 0.001 mm (default 50%%)")
+    group.add_argument("--stepover", metavar="MM|%", type=stepover,
+                       help="distance between rings, 1%% to 100%% of the diameter or from 0.001 mm; everything is cleared at any "
+                            "(default: the one with the shortest path)")
     group.add_argument("--overlap", metavar="MM", type=number("overlap"), help="the same as diameter - stepover")
     group.add_argument("--depth", metavar="Z", type=number("depth", least=LEAST_LENGTH),
                        help="depth of the floor, 0.001 mm or more (default 2)")
@@ -217,7 +221,9 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         HitofudeError: options of the bitmap that go neither with one another nor with the drawing.
     """
     from app.cli_bitmap import asked_bitmap
+    from app.cli_machining import machining
 
+    bitmap = asked_bitmap(arguments)
     origin_xy, origin_z = arguments.origin or (None, None)
     return MakeOptions(
         contour_diameter=arguments.contour_tool, pocket_diameter=arguments.pocket_tool,
@@ -228,5 +234,5 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         post=arguments.post, machine=arguments.machine, out_units=arguments.out_units, units=arguments.units,
         origin_xy=origin_xy, origin_z=origin_z, layers=tuple(arguments.layer),
         join_tolerance=arguments.join_tolerance, exact_path=arguments.exact_path,
-        bitmap=asked_bitmap(arguments),
+        bitmap=bitmap, machining=machining(arguments, bitmap is not None),
     )

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
+from argparse import ArgumentParser
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from app.model.finding import Finding, FindingKind
 
@@ -14,6 +15,19 @@ REMARKS = 3
 
 COUNTED = 10
 """Findings of one kind that are printed; the report has all."""
+
+
+def helped(argv: Sequence[str], parser: Callable[[], ArgumentParser]) -> bool:
+    """Print a command's help when its arguments ask for it; return whether they do.
+
+    Args:
+        argv: the arguments behind the command.
+        parser: makes the command's parser.
+    """
+    if not any(argument in ("-h", "--help") for argument in argv):
+        return False
+    tell(parser().format_help().rstrip())
+    return True
 
 
 def tell(text: str) -> None:

@@ -15,7 +15,7 @@ from app.atomic import write_together
 from app.cli_bitmap import add_bitmap_options, bitmap_options
 from app.cli_files import check_outputs, read_input, shown_progress
 from app.cli_options import OptionParser, join_tolerance, number, stepover, typed
-from app.cli_output import finding_lines, tell
+from app.cli_output import finding_lines, helped, tell
 from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.files.job_toml import read_job, read_units
@@ -47,11 +47,9 @@ def stages_command(argv: Sequence[str], stopped: threading.Event) -> int:
         HitofudeError: bad usage or input; nothing was written.
         Cancelled: by Ctrl+C.
     """
-    parser = _parser()
-    if any(argument in ("-h", "--help") for argument in argv):
-        tell(parser.format_help().rstrip())
+    if helped(argv, _parser):
         return 0
-    arguments = parser.parse_args(argv)
+    arguments = _parser().parse_args(argv)
     folder = _check_outputs(arguments)
     progress = shown_progress(arguments.quiet, stopped)
     options = _make_options(arguments)

@@ -8,7 +8,7 @@ import numpy as np
 
 from app.geometry.region import polygon_contour
 from app.model.curves import Arc, Circle, Line, Point
-from app.model.part import Contour
+from app.model.part import Contour, Entity, Layer, Part
 
 FIG2_OUTER = [(6, 6, 0), (60, 6, 0), (68, 14, 0), (68, 30, 1.0), (68, 46, 0), (68, 60, 0), (60, 60, 0), (60, 70, 0), (44, 70, -1.0),
               (28, 70, 0), (20, 76, 0), (6, 76, 0), (6, 50, 0), (14, 44, 0), (14, 34, 0), (6, 28, 0)]
@@ -77,3 +77,10 @@ def random_part(seed: int) -> tuple[list[Contour], bool]:
             return [random_star(rng, (0, 0), (20, 30), 0.2), *islands], True
         case _:
             return [random_star(rng, (0, 0), (5, 30), 0.6), random_star(rng, (4, 3), (5, 30), 0.3)], True
+
+
+def layered_part(layers: dict[str, list[Contour]], hidden: tuple[str, ...] = ()) -> Part:
+    """A drawing with contours on layers, of which some are switched off."""
+    curves = [(curve, name) for name, contours in layers.items() for contour in contours for curve in contour.primitives]
+    entities = tuple(Entity(number, curve, name) for number, (curve, name) in enumerate(curves, 1))
+    return Part(entities, tuple(Layer(name, visible=name not in hidden) for name in layers))

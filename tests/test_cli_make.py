@@ -66,7 +66,7 @@ def test_the_whole_command(out: Path, tmp_path: Path) -> None:
 @pytest.mark.parametrize("unbuffered", ["", "1"])
 @pytest.mark.parametrize(("drawing", "options", "status"), [
     ("resources/samples/fig2.dxf", ["--safe-z=6"], 0),
-    ("tests/data/dxf/gear.dxf", ["--pocket-tool=2", "--contour-tool=1"], 1),
+    ("tests/data/dxf/forms.dxf", ["--pocket-tool=60", "--contour-tool=40"], 1),
 ])  # fmt: skip
 def test_a_closed_stdout_is_silent_and_keeps_the_status(drawing: str, options: list[str], status: int, unbuffered: str, out: Path) -> None:
     done, told = unread(unbuffered, "make", str(ROOT / drawing), "-o", str(out), *options)
@@ -102,10 +102,10 @@ def test_a_full_stdout_is_told_and_keeps_the_status(out: Path) -> None:
 
 
 def test_findings_give_exit_status_1(out: Path, data: Path) -> None:
-    done = run("make", data / "dxf/gear.dxf", "-o", out, "--pocket-tool=2", "--contour-tool=1")
+    done = run("make", data / "dxf/forms.dxf", "-o", out, "--pocket-tool=60", "--contour-tool=40")
     assert done.returncode == 1
     assert "  ! " in done.stdout
-    assert "of material within reach is left" in done.stdout
+    assert "is too small" in done.stdout
     assert out.read_bytes() != OLD
 
 
@@ -129,7 +129,10 @@ def test_help_and_version_need_no_heavy_library() -> None:
 def test_help_of_make_names_every_option() -> None:
     text = run("make", "--help").stdout
     options = """--job --contour-tool --pocket-tool --stepover --overlap --depth --stepdown --stock-to-leave --safe-z --feed --plunge
-        --speed --climb --conventional --order --post --out-units --units --origin --layer --join-tolerance --image --report --quiet"""
+        --speed --climb --conventional --order --post --out-units --units --origin --layer --join-tolerance --image --report --quiet
+        --side --entry --ramp-angle
+        --lead --lead-radius --tabs --tab-width --tab-height --dog-bones --finish-depth --finish-width --spring-passes --floor-to-leave
+        --outside-in --most-engaged --drill --peck --through --copies --keep-out --keep-out-height"""
     assert all(option in text for option in options.split())
     assert "lower-left" in text
     assert "--bitmap" in text
@@ -142,11 +145,11 @@ def test_help_of_make_names_every_option() -> None:
     ("--depth 0", "--depth is 0 mm; the depth must be 0.001 mm or more and less than 100000 mm"),
     ("--depth 0.0005", "--depth is 0.0005 mm; the depth must be 0.001 mm or more"),
     ("--stepdown 1e-9", "--stepdown is 1e-09 mm; the stepdown must be 0.001 mm or more"),
-    ("--depth 20 --stepdown 0.001", "makes 20000 passes; 10000 are the most"),
+    ("--depth 20 --stepdown 0.001", "makes 20000 passes; 1000 are the most"),
     ("--safe-z 0.0001", "--safe-z is 0.0001 mm"),
     ("--feed 0.1", "--feed is 0.1 mm/min; the feed rate must be 1 mm/min or more"),
     ("--plunge 0.99", "--plunge is 0.99 mm/min; the plunge rate must be 1 mm/min or more"),
-    ("--stepover 0.5%", "--stepover is 0.5 %; it must be 1 % or more and less than the tool's diameter"),
+    ("--stepover 0.5%", "--stepover is 0.5 %; it must be 1 % or more and not more than the tool's diameter"),
     ("--stepover 0.0001", "--stepover is 0.0001 mm; it must be 0.001 mm or more"),
     ("--overlap 5.9999", "Stepover is 0.0001 mm with a pocket tool of 6 mm; it must be 0.001 mm or more"),
     ("--join-tolerance 1000", "oin tolerance is 1000 mm; use 0 to 10 mm"),
@@ -154,7 +157,7 @@ def test_help_of_make_names_every_option() -> None:
     ("--depth nan", "--depth is wrong: 'nan' is no number"),
     ("--depth deep", "--depth is wrong"),
     ("--stock-to-leave -0.1", "must be 0 or more"),
-    ("--stepover 120%", "--stepover is 120 %; it must be 1 % or more and less than the tool's diameter"),
+    ("--stepover 120%", "--stepover is 120 %; it must be 1 % or more and not more than the tool's diameter"),
     ("--stepover -5%", "--stepover is -5 %"),
     ("--stepover wide", "--stepover is wrong: 'wide' is neither a length nor per cent"),
     ("--stepover 7", "Stepover is 7 mm with a pocket tool of 6 mm"),
@@ -272,7 +275,8 @@ def test_job_file(out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert main(["make", str(FIG2), "-o", str(out), "--job", str(job), "--depth", "3", "--quiet", "--report", str(report)]) == 0
     data = json.loads(report.read_text())
     assert [tool["diameter_mm"] for tool in data["tools"]] == [6, 3]
-    assert [operation["depth_mm"] for operation in data["operations"]] == [3, 3]
+    assert [(each["kind"], each["tool"], each["depth_mm"]) for each in data["operations"]] == [("pocket", 1, 3), ("rest", 2, 3),
+                                                                                              ("contour", 2, 3)]  # fmt: skip
     bad = tmp_path / "bad.toml"
     bad.write_text("[stock]\nthick = 3\n")
     assert "bad.toml:2: thick is no key of [stock]" in refused(capsys, FIG2, "-o", out, "--job", bad)

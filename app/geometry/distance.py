@@ -58,5 +58,5 @@ class DistanceField:
         """Return for points (m, 2) whether the closed rows enclose them by the even-odd rule."""
         points = np.ascontiguousarray(points, dtype=np.float64)
         result = np.empty(len(points), np.bool_)
-        kernels.inside_many(self.rows, points, result)
+        kernels.inside_many(self.rows, self.order, self.nodes, points, result)
         return result

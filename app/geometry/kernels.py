@@ -14,28 +14,35 @@ from app.jit import kernel
 
 LEAF = 4
 INF = math.inf
+DEPTH = 64
+"""Nodes that wait at most while a tree is walked."""
 
 
-@kernel("float64(float64[:, ::1], int64, float64, float64)")
+@kernel("boolean(float64[:, ::1], int64, float64, float64)", counts=False)
+def in_sector(rows, j, x, y):
+    """Return whether the centre of arc j sees a point in a direction in which it sees the arc."""
+    ax, ay, bx, by = rows[j, 0] - rows[j, 4], rows[j, 1] - rows[j, 5], rows[j, 2] - rows[j, 4], rows[j, 3] - rows[j, 5]
+    vx, vy, turn = x - rows[j, 4], y - rows[j, 5], rows[j, 7]
+    return turn * (ax * vy - ay * vx) >= 0.0 and turn * (vx * by - vy * bx) >= 0.0
+
+
+@kernel("float64(float64[:, ::1], int64, float64, float64)", counts=False)
 def point_distance(rows, j, x, y):
     """Return the distance of a point from row j, mm."""
-    ax, ay, bx, by = rows[j, 0], rows[j, 1], rows[j, 2], rows[j, 3]
-    turn = rows[j, 7]
-    if turn == 0.0:
-        dx, dy = bx - ax, by - ay
-        length2 = dx * dx + dy * dy
-        t = ((x - ax) * dx + (y - ay) * dy) / length2 if length2 > 0.0 else 0.0
-        if 0.0 < t < 1.0:
-            return abs((x - ax) * dy - (y - ay) * dx) / math.sqrt(length2)
-        return math.hypot(x - ax, y - ay) if t <= 0.0 else math.hypot(x - bx, y - by)
-    cx, cy, r = rows[j, 4], rows[j, 5], rows[j, 6]
-    vx, vy = x - cx, y - cy
-    if turn * ((ax - cx) * vy - (ay - cy) * vx) >= 0.0 and turn * (vx * (by - cy) - vy * (bx - cx)) >= 0.0:
-        return abs(math.hypot(vx, vy) - r)
-    return min(math.hypot(x - ax, y - ay), math.hypot(x - bx, y - by))
+    ax, ay, bx, by = x - rows[j, 0], y - rows[j, 1], x - rows[j, 2], y - rows[j, 3]
+    if rows[j, 7] == 0.0:
+        dx, dy = rows[j, 2] - rows[j, 0], rows[j, 3] - rows[j, 1]
+        length2, along = dx * dx + dy * dy, ax * dx + ay * dy
+        if 0.0 < along < length2:
+            return abs(ax * dy - ay * dx) / math.sqrt(length2)
+        return math.sqrt(ax * ax + ay * ay) if along <= 0.0 else math.sqrt(bx * bx + by * by)
+    if in_sector(rows, j, x, y):
+        vx, vy = x - rows[j, 4], y - rows[j, 5]
+        return abs(math.sqrt(vx * vx + vy * vy) - rows[j, 6])
+    return math.sqrt(min(ax * ax + ay * ay, bx * bx + by * by))
 
 
-@kernel("float64(float64[:, ::1], int64, float64, float64)")
+@kernel("float64(float64[:, ::1], int64, float64, float64)", counts=False)
 def box_distance(nodes, k, x, y):
     """Return the distance of a point from the box of node k, mm (0 inside)."""
     dx = max(nodes[k, 0] - x, x - nodes[k, 2], 0.0)
@@ -43,8 +50,35 @@ def box_distance(nodes, k, x, y):
     return math.sqrt(dx * dx + dy * dy)
 
 
+@kernel("void(float64[:, ::1], float64[:, ::1])")
+def row_boxes(rows, boxes):
+    """Write the boxes x0, y0, x1, y1 that hold each row exactly; arcs up to a full turn, which ends where it starts."""
+    for i in range(len(rows)):
+        boxes[i, 0], boxes[i, 1] = min(rows[i, 0], rows[i, 2]), min(rows[i, 1], rows[i, 3])
+        boxes[i, 2], boxes[i, 3] = max(rows[i, 0], rows[i, 2]), max(rows[i, 1], rows[i, 3])
+        if rows[i, 7] == 0.0:
+            continue
+        cx, cy, r = rows[i, 4], rows[i, 5], rows[i, 6]
+        start = math.atan2(rows[i, 1] - cy, rows[i, 0] - cx)
+        sweep = ((math.atan2(rows[i, 3] - cy, rows[i, 2] - cx) - start) * rows[i, 7]) % (2 * math.pi)
+        if rows[i, 0] == rows[i, 2] and rows[i, 1] == rows[i, 3]:
+            sweep = 2 * math.pi
+        for k in range(4):
+            if ((k * math.pi / 2 - start) * rows[i, 7]) % (2 * math.pi) > sweep:
+                continue
+            if k == 0:
+                boxes[i, 2] = max(boxes[i, 2], cx + r)
+            elif k == 1:
+                boxes[i, 3] = max(boxes[i, 3], cy + r)
+            elif k == 2:
+                boxes[i, 0] = min(boxes[i, 0], cx - r)
+            else:
+                boxes[i, 1] = min(boxes[i, 1], cy - r)
+
+
 @kernel("int64(int64)")
-def _spread(v):
+def spread(v):
+    """Return the sixteen bits of v with a gap before each, for Morton codes."""
     v = (v | (v << 8)) & 0x00FF00FF
     v = (v | (v << 4)) & 0x0F0F0F0F
     v = (v | (v << 2)) & 0x33333333
@@ -61,7 +95,7 @@ def build_tree(boxes):
     for i in range(n):
         u = int((boxes[i, 0] + boxes[i, 2] - 2 * x0) / 2 / size * 65535)
         v = int((boxes[i, 1] + boxes[i, 3] - 2 * y0) / 2 / size * 65535)
-        codes[i] = _spread(u) | (_spread(v) << 1)
+        codes[i] = spread(u) | (spread(v) << 1)
     order = np.argsort(codes)
     leaves = 1
     while leaves * LEAF < n:
@@ -160,37 +194,65 @@ def nearest_many(rows, order, nodes, points, limit, distances, found):
         distances[k], found[k] = nearest(rows, order, nodes, points[k, 0], points[k, 1], limit)
 
 
-@kernel("int64(float64[:, ::1], float64, float64)")
-def crossings(rows, x, y):
-    """Return how often the rows cross the ray from a point towards -X (even-odd rule, half open in y).
+@kernel("int64(float64[:, ::1], int64, float64, float64)", counts=False)
+def _crossings(rows, j, x, y):
+    """Return how often row j crosses the ray from a point towards -X (even-odd rule, half open in y).
 
     A row sweeps less than pi, so it has at most one y extremum; on a piece without one the circle's right side
     is the one where a counter-clockwise arc rises.
     """
+    ax, ay, bx, by, turn = rows[j, 0], rows[j, 1], rows[j, 2], rows[j, 3], rows[j, 7]
+    if turn == 0.0:
+        return int((ay <= y) != (by <= y) and ax + (y - ay) / (by - ay) * (bx - ax) < x)
+    cx, cy, r = rows[j, 4], rows[j, 5], rows[j, 6]
+    if abs(y - cy) > r:
+        return 0
+    h = math.sqrt(max(r * r - (y - cy) * (y - cy), 0.0))
+    middle = by
+    for end in (-r, r):
+        if turn * (ax - cx) * end > 0.0 and turn * -end * (bx - cx) > 0.0:
+            middle = cy + end
+    count = int((ay <= y) != (middle <= y) and cx + math.copysign(h, turn * (middle - ay)) < x)
+    return count + int((middle <= y) != (by <= y) and cx + math.copysign(h, turn * (by - middle)) < x)
+
+
+@kernel("int64(float64[:, ::1], float64, float64)", counts=False)
+def crossings(rows, x, y):
+    """Return how often the rows cross the ray from a point towards -X, see `_crossings`."""
     count = 0
     for j in range(len(rows)):
-        ax, ay, bx, by, turn = rows[j, 0], rows[j, 1], rows[j, 2], rows[j, 3], rows[j, 7]
-        if turn == 0.0:
-            if (ay <= y) != (by <= y) and ax + (y - ay) / (by - ay) * (bx - ax) < x:
-                count += 1
-            continue
-        cx, cy, r = rows[j, 4], rows[j, 5], rows[j, 6]
-        if abs(y - cy) > r:
-            continue
-        h = math.sqrt(max(r * r - (y - cy) * (y - cy), 0.0))
-        middle = by
-        for end in (-r, r):
-            if turn * (ax - cx) * end > 0.0 and turn * -end * (bx - cx) > 0.0:
-                middle = cy + end
-        if (ay <= y) != (middle <= y) and cx + math.copysign(h, turn * (middle - ay)) < x:
-            count += 1
-        if (middle <= y) != (by <= y) and cx + math.copysign(h, turn * (by - middle)) < x:
-            count += 1
+        count += _crossings(rows, j, x, y)
     return count
 
 
-@kernel("void(float64[:, ::1], float64[:, ::1], boolean[::1])")
-def inside_many(rows, points, inside):
+_TREE = "float64[:, ::1], int64[::1], float64[:, ::1]"
+
+
+@kernel(f"boolean({_TREE}, float64, float64, int64[::1])", counts=False)
+def inside(rows, order, nodes, x, y, stack):
+    """Return whether the closed rows enclose a point by the even-odd rule; `stack` is room for DEPTH nodes."""
+    leaves, count = (len(nodes) + 1) // 2, 0
+    stack[0], top = 0, 1
+    while top > 0:
+        top -= 1
+        k = stack[top]
+        if y < nodes[k, 1] or y > nodes[k, 3] or x < nodes[k, 0]:
+            continue
+        if k < leaves - 1:
+            stack[top], stack[top + 1] = 2 * k + 1, 2 * k + 2
+            top += 2
+            continue
+        first = (k - leaves + 1) * LEAF
+        for place in range(first, min(first + LEAF, len(order))):
+            if order[place] < 0:  # a leaf that is not full
+                break
+            count += _crossings(rows, order[place], x, y)
+    return count % 2 == 1
+
+
+@kernel(f"void({_TREE}, float64[:, ::1], boolean[::1])")
+def inside_many(rows, order, nodes, points, result):
     """Write for each point (m, 2) whether it is inside by the even-odd rule."""
+    stack = np.empty(DEPTH, np.int64)
     for k in range(len(points)):
-        inside[k] = crossings(rows, points[k, 0], points[k, 1]) % 2 == 1
+        result[k] = inside(rows, order, nodes, points[k, 0], points[k, 1], stack)

@@ -5,32 +5,44 @@ the frames of steps 142-148). Every ring comes from the drawing itself, never fr
 
 Method: each line and arc is moved to its left by the level, each vertex at which the boundary turns right becomes an
 arc; the parts of these to which any primitive comes nearer than the level are cut away in closed form; what remains is
-stitched into rings. Then every joint and the middle of every piece is measured against the whole drawing. A level that
-does not close or measures wrong is tried again a fraction of a micrometre further in, and falls back to a fine polyline
-at last.
+stitched into rings. Then every move is proven, along its whole length and in other closed forms, to keep its distance from
+the whole drawing. A level that does not close or measures wrong is tried again a fraction of a micrometre further in, and
+falls back to a fine polyline at last.
 """
 
 from __future__ import annotations
 
+import bisect
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from app import tolerances
-from app.geometry import kernels, offset_kernels, ring_kernels
+from app.geometry import offset_clearance_kernels, offset_kernels, offset_tree_kernels, offset_trim_kernels, ring_kernels
 from app.geometry.distance import DistanceField
 from app.geometry.offset_polyline import polyline_loops
-from app.geometry.primitives import CX, TURN, Indices, Primitives, Rows, boxes, lengths, signed_area
+from app.geometry.primitives import CX, TURN, Indices, Primitives, Rows, lengths, signed_area
 from app.pool import pool
 from app.progress import NO_PROGRESS, Progress
 
 _WORTH_TWO_CORES = 2000
 """Pieces from which a second core is worth its start."""
 
+_FEW = 64
+"""Rows among which it is not worth looking for those that can still block."""
+
 _BANDS = 4
+_BAND = 10_000
+"""Pieces that are cut in less than a fifth of a second."""
+
+_EXACT = 8e-7
+"""How far from its level a path of lines and arcs may measure, mm; more, up to the path's own tolerance, if nothing else closes."""
+
 _NUDGES = (0.0, 1e-7, 3.3e-7, 7.1e-7, -1.3e-7)
+_ATTEMPTS = tuple((nudge, limit) for limit in (_EXACT, tolerances.LEVEL / 2) for nudge in _NUDGES)
 
 
 @dataclass(frozen=True)
@@ -67,7 +79,7 @@ def offset_levels(primitives: Primitives, levels: Sequence[float], progress: Pro
     Args:
         primitives: closed contours, the area to the left.
         levels: distances, mm, > 0, rising.
-        progress: looked at between levels.
+        progress: looked at between levels, and within levels of many pieces.
         frame: the first level is an outermost frame: a tool that fits a slot or a hole exactly goes there too,
             along a ring that is as good as a line or a point.
 
@@ -85,9 +97,12 @@ def offset_levels(primitives: Primitives, levels: Sequence[float], progress: Pro
     engine = _Engine(primitives)
     result = []
     for k, distance in enumerate(levels):
+        if engine.exhausted:
+            break
         progress.step(k / len(levels), f"Offset {distance:.3f} mm")
-        result.append(Level(distance, engine.frame(distance) if frame and k == 0 else engine.rings(distance)))
-    return tuple(result)
+        part = progress.part(k / len(levels), (k + 1) / len(levels))
+        result.append(Level(distance, engine.frame(distance, part) if frame and k == 0 else engine.rings(distance, part)))
+    return *result, *(Level(distance, ()) for distance in levels[len(result):])
 
 
 class _Engine:
@@ -96,113 +111,126 @@ class _Engine:
     def __init__(self, primitives: Primitives) -> None:
         origin = (primitives.rows[:, :2].min(axis=0) + primitives.rows[:, :2].max(axis=0)) / 2
         self._shift = np.concatenate([origin, origin, origin, [0, 0]])
-        rows = primitives.rows - self._shift * np.where(primitives.rows[:, 7:8] != 0, 1, [1, 1, 1, 1, 0, 0, 0, 0])
+        rows = primitives.rows - self._shift
+        rows[rows[:, TURN] == 0, CX:] = 0.0
         self._primitives = primitives
-        self._rows = np.ascontiguousarray(rows)
-        self._field = DistanceField.of(self._rows)
-        self._boxes = np.ascontiguousarray(boxes(self._rows))
-        self._slack = 2e-13 * max(float(np.abs(self._rows[:, :4]).max()), 100.0)
-        self._vertices = np.zeros((len(rows), 2))
-        offset_kernels.vertex_arcs(self._rows, primitives.previous, self._vertices)
-        elements = np.concatenate([np.arange(len(rows)), len(rows) + np.flatnonzero(self._vertices[:, 1] < 0)])
-        self._active = np.stack([elements, np.zeros(len(elements)), np.ones(len(elements))], 1)
-        self._history: list[tuple[float, Rows]] = [(0.0, self._active)]
+        self._rows = rows
+        self._field = DistanceField.of(rows)
+        self._tree: tuple[Indices, Rows, Rows] = offset_tree_kernels.build_runs(rows, self._field.boxes)
+        self._slack = 2e-13 * max(float(np.abs(rows[:, :4]).max()), 100.0)
+        self._angles = np.empty((2 * len(rows), 2))
+        offset_kernels.element_angles(rows, primitives.previous, self._angles)
+        elements = np.concatenate([np.arange(len(rows)), len(rows) + np.flatnonzero(self._angles[len(rows):, 1] < 0)])
+        self._active = np.zeros((len(elements), 3))
+        self._active[:, 0], self._active[:, 2] = elements, 1.0
+        self._levels = [0.0]
+        self._live = np.zeros(len(rows))
+        self._blockers: tuple[Indices, Rows, Rows] = self._tree
 
-    def frame(self, distance: float) -> tuple[Ring, ...]:
+    @property
+    def exhausted(self) -> bool:
+        """Tell whether nothing is as far from the drawing as the last level."""
+        return len(self._active) == 0
+
+    def frame(self, distance: float, progress: Progress) -> tuple[Ring, ...]:
         """Return the rings at the first distance; for regions that the tool passes only just, those at FIT less."""
-        loose, tight = self.rings(distance - tolerances.FIT, keep_ridges=True), self.rings(distance)
+        loose = _by_region(self.rings(distance - tolerances.FIT, progress, keep_ridges=True))
+        tight = _by_region(self.rings(distance, progress))
         chosen: list[Ring] = []
-        for region in dict.fromkeys(ring.region for ring in loose):
-            wide, exact = ([ring for ring in rings if ring.region == region] for rings in (loose, tight))
+        for region, wide in loose.items():
+            exact = tight.get(region, [])
             chosen += exact if _alike(wide, exact) else wide
         return tuple(chosen)
 
-    def rings(self, distance: float, keep_ridges: bool = False) -> tuple[Ring, ...]:
+    def rings(self, distance: float, progress: Progress, keep_ridges: bool = False) -> tuple[Ring, ...]:
         """Return the rings at the next distance, which is greater than the last one."""
         if len(self._active) == 0:
             return ()
-        for nudge in _NUDGES:
-            pieces = self._trim(distance + nudge)
-            rings = self._stitch(pieces, distance + nudge)
+        self._blockers = self._still_blocking(distance)
+        for nudge, limit in _ATTEMPTS:
+            pieces = self._trim(distance + nudge, progress)
+            rings = self._stitch(pieces, distance + nudge, limit)
             if rings is not None:
                 break
         else:
-            pieces, rings = self._trim(distance), self._polylines(distance)
+            pieces, rings = self._trim(distance, progress), self._polylines(distance)
         self._active = pieces
-        self._history.append((distance, pieces))
-        return tuple(self._back(ring) for ring in rings if keep_ridges or not _on_a_ridge(ring))
+        if len(self._blockers[0]) > _FEW:
+            self._levels.append(distance)
+            self._live[pieces[:, 0].astype(np.int64) % len(self._rows)] = distance
+        return tuple(ring for ring in rings if keep_ridges or not _on_a_ridge(ring))
 
-    def _trim(self, distance: float) -> Rows:
-        """Return the pieces (m, 3) of elements to which nothing is nearer than the distance; many are cut on two cores."""
-        order, nodes = self._blockers(distance)
-        level_slack = np.array([distance, self._slack])
-
-        def trimmed(active: Rows) -> Rows:
-            room = 4 * len(active) + 64
-            while True:
-                pieces = np.empty((room, 3))
-                count = offset_kernels.trim(self._rows, self._vertices, order, nodes, self._boxes, active, level_slack, pieces)
-                if count < room:
-                    return pieces[:count]
-                room *= 4
-
-        if len(self._active) < _WORTH_TWO_CORES:
-            return np.ascontiguousarray(trimmed(self._active))
-        return np.concatenate(list(pool().map(trimmed, np.array_split(self._active, _BANDS))))
-
-    def _blockers(self, distance: float) -> tuple[Indices, Rows]:
+    def _still_blocking(self, distance: float) -> tuple[Indices, Rows, Rows]:
         """Return a tree of the rows that can be nearest to any point of this level.
 
         A point left of a level `last` by distance - last at most is nearer to no row than 2 last - distance, and the
-        row that is nearest was then still free at every level up to that.
+        row that is nearest was then still live at every level up to that.
         """
-        safe = 2 * self._history[-1][0] - distance - 1e-6
-        pieces = next(active for level, active in reversed(self._history) if level <= max(safe, 0.0))
-        elements = pieces[:, 0].astype(np.int64)
-        used = np.unique(np.where(elements >= len(self._rows), elements - len(self._rows), elements))
-        order, nodes = kernels.build_tree(np.ascontiguousarray(self._boxes[used]))
-        return used[order], nodes
+        if len(self._blockers[0]) <= _FEW:
+            return self._blockers
+        safe = max(2 * self._levels[-1] - distance - 1e-6, 0.0)
+        known = self._levels[bisect.bisect_right(self._levels, safe) - 1]
+        left: tuple[Indices, Rows, Rows] = offset_trim_kernels.blockers(self._rows, self._field.boxes, *self._blockers, self._live, known)
+        return left
 
-    def _piece_rows(self, pieces: Rows, distance: float) -> Rows:
-        out = np.empty((len(pieces), 8))
-        offset_kernels.piece_rows(self._rows, self._vertices, pieces, distance, out)
-        return out
+    def _trim(self, distance: float, progress: Progress) -> Rows:
+        """Return the pieces (m, 3) of elements to which nothing is nearer than the distance; many are cut on two cores."""
 
-    def _stitch(self, pieces: Rows, distance: float) -> list[Ring] | None:
+        def trimmed(active: Rows) -> Rows:
+            pieces: Rows = offset_trim_kernels.trim(self._rows, self._field.boxes, *self._blockers, self._angles, active,
+                                                    distance, self._slack)
+            return pieces
+
+        if len(self._active) < _WORTH_TWO_CORES:
+            return trimmed(self._active)
+        bands, parts = np.array_split(self._active, max(_BANDS, len(self._active) // _BAND)), []
+        for k, part in enumerate(pool().map(trimmed, bands)):
+            parts.append(part)
+            progress.step(k / len(bands))
+        return np.concatenate(parts)
+
+    def _stitch(self, pieces: Rows, distance: float, limit: float) -> list[Ring] | None:
         """Return closed rings made of all pieces, or None when one has no continuation, measures wrong or lies outside."""
-        rows = self._piece_rows(pieces, distance)
-        count = len(rows)
-        following = np.empty(count, np.int64)
-        ring_kernels.follow(rows, np.argsort(rows[:, 0]), max(2e-5, 8 * math.sqrt(self._slack * distance)), following)
-        if count and following.min() < 0:
+        apart = max(2e-5, 8 * math.sqrt(self._slack * distance))
+        closed, joined, owners, table = ring_kernels.close(self._rows, *self._tree[:2], self._angles, pieces, distance, apart,
+                                                           tolerances.RIDGE)
+        if not closed or not self._measure_right(joined, owners, distance, limit):
             return None
-        joined, order, starts = np.empty((count, 8)), np.empty(count, np.int64), np.empty(count + 1, np.int64)
-        rings = ring_kernels.assemble(rows, following, joined, order, starts)
-        limit = tolerances.LEVEL / 2
-        if ring_kernels.worst_error(joined, self._rows, self._field.order, self._field.nodes, distance, limit) > limit:
-            return None
-        sums = np.empty((rings, 2))
-        ring_kernels.sums(joined, starts, rings, sums)
-        regions = self._primitives.region[pieces[order[starts[:rings]], 0].astype(np.int64) % len(self._rows)]
-        found = [Ring(joined[starts[k]:starts[k + 1]], int(regions[k]), float(sums[k, 0]), float(sums[k, 1])) for k in range(rings)]
-        inside = self._field.inside(joined[starts[:rings], :2])
-        if not all(good or _on_a_ridge(ring) for good, ring in zip(inside, found, strict=True)):
-            return None
-        return [ring for good, ring in zip(inside, found, strict=True) if good]
+        ring_kernels.shift(joined, self._shift[0], self._shift[1])
+        regions = self._primitives.region
+        return [Ring(joined[int(first):int(stop)], int(regions[int(owner)]), area, length)
+                for first, stop, area, length, owner in table.tolist()]
+
+    def _measure_right(self, joined: Rows, owners: Indices, distance: float, limit: float) -> bool:
+        """Return whether all of a level keeps its distance from the whole drawing within a limit, mm."""
+
+        def right(part: slice) -> bool:
+            good: bool = offset_clearance_kernels.measures_right(joined[part], owners[part], self._rows, self._field.boxes, *self._tree,
+                                                                 distance, limit)
+            return good
+
+        if len(joined) < _WORTH_TWO_CORES:
+            return right(slice(None))
+        ends = np.linspace(0, len(joined), max(_BANDS, len(joined) // _BAND) + 1).astype(int)
+        return all(pool().map(right, (slice(*band) for band in pairwise(ends))))
 
     def _polylines(self, distance: float) -> list[Ring]:
         """Return the rings as fine polylines that measure right."""
         rings = []
         for points, region in polyline_loops(self._field, self._rows, self._primitives, distance):
             rows = np.hstack([points, np.roll(points, -1, axis=0), np.zeros((len(points), 4))])
-            rings.append(Ring(rows, region, signed_area(rows), float(lengths(rows).sum()), polyline=True))
+            area, length = signed_area(rows), float(lengths(rows).sum())
+            rows[:, :4] += self._shift[:4]
+            rings.append(Ring(rows, region, area, length, polyline=True))
         return rings
 
-    def _back(self, ring: Ring) -> Ring:
-        """Return the ring in the drawing's coordinates."""
-        rows = ring.rows + self._shift
-        rows[rows[:, TURN] == 0, CX:] = 0.0
-        return replace(ring, rows=rows)
+
+def _by_region(rings: Sequence[Ring]) -> dict[int, list[Ring]]:
+    """Return the rings of each region, regions in the order of their first rings."""
+    regions: dict[int, list[Ring]] = {}
+    for ring in rings:
+        regions.setdefault(ring.region, []).append(ring)
+    return regions
 
 
 def _alike(wide: Sequence[Ring], exact: Sequence[Ring]) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,7 @@ from app.geometry.primitives import (
     Y0,
     Y1,
     Rows,
+    boxes,
     contour_rows,
     lengths,
     points_at,
@@ -56,6 +57,56 @@ def without_crossings(contours: Sequence[Contour]) -> tuple[Contour, ...]:
     return tuple(part for group in groups.values() for part in _parted(group))
 
 
+def without_outlines(contours: Sequence[Contour], outlines: Sequence[Contour]) -> tuple[Contour, ...]:
+    """Return contours of the area that contours bound by the even-odd rule, without what any of some outlines holds.
+
+    Args:
+        contours: closed; they may touch, but cross neither themselves nor one another.
+        outlines: closed; none crosses itself, but they may lie over one another and over the contours.
+
+    Returns:
+        Closed contours that touch at most. Those that lie far from all outlines are as they were.
+    """
+    if not contours or not outlines:
+        return tuple(contours)
+    rows, held = [contour_rows(contour) for contour in contours], [contour_rows(outline) for outline in outlines]
+    area, fields = DistanceField.of(np.concatenate(rows)), [DistanceField.of(each) for each in held]
+
+    def inside(points: NDArray[np.float64]) -> NDArray[np.bool_]:
+        free: NDArray[np.bool_] = area.inside(points)
+        for field in fields:
+            free[free] = ~field.inside(points[free])
+        return free
+
+    near = _boxes_meet(rows, held)
+    changed = [each for each, mine in zip(contours, near, strict=True) if mine]
+    blocks = [*(each for each, mine in zip(rows, near, strict=True) if mine), *held]
+    pieces = _split(np.concatenate([each if signed_area(each) > 0 else reversed_rows(each) for each in blocks]))
+    made = _joined(_once(_turned(pieces[lengths(pieces) > tolerances.WELD], inside)), changed or contours)
+    return (*(each for each, mine in zip(contours, near, strict=True) if not mine), *made)
+
+
+def _boxes_meet(rows: Sequence[Rows], others: Sequence[Rows]) -> NDArray[np.bool_]:
+    """Return which contours (n,) have a box that comes near to the box of another."""
+    mine, theirs = (np.array([boxes(each)[:, :2].min(axis=0).tolist() + boxes(each)[:, 2:].max(axis=0).tolist() for each in some])
+                    for some in (rows, others))  # fmt: skip
+    apart = np.array([(theirs[:, :2] > box[2:] + 1e-3).any(axis=1) | (theirs[:, 2:] < box[:2] - 1e-3).any(axis=1) for box in mine])
+    near: NDArray[np.bool_] = np.logical_not(apart.all(axis=1))
+    return near
+
+
+def _once(pieces: Rows) -> Rows:
+    """Return pieces without those that are there twice the same way round, where an outline lies along a contour or another."""
+    from scipy.spatial import cKDTree
+
+    if len(pieces) < 2:
+        return pieces
+    places = np.column_stack([pieces[:, :4], points_at(pieces, np.full(len(pieces), 0.5))])
+    pairs = cKDTree(places).query_pairs(20 * tolerances.WELD, output_type="ndarray")
+    kept: Rows = np.delete(pieces, np.unique(pairs.max(axis=1)), axis=0)
+    return kept
+
+
 def _meeting(contours: Sequence[Contour]) -> list[int]:
     """Return for each contour the number of the group of contours that meet one another."""
     from scipy.sparse import coo_array
@@ -76,7 +127,12 @@ def _parted(contours: Sequence[Contour]) -> tuple[Contour, ...]:
     whole = np.concatenate([block if signed_area(block) > 0 else reversed_rows(block) for block in rows])
     pieces = _split(whole)
     pieces = pieces[lengths(pieces) > tolerances.WELD]
-    pieces, start, end = _welded(_turned(pieces, DistanceField.of(whole)))
+    return _joined(_turned(pieces, DistanceField.of(whole).inside), contours)
+
+
+def _joined(pieces: Rows, contours: Sequence[Contour]) -> tuple[Contour, ...]:
+    """Return the contours that pieces of some contours make."""
+    pieces, start, end = _welded(pieces)
     loops = _loops(pieces, start, end)
     ids = tuple(dict.fromkeys(i for contour in contours for i in contour.entity_ids))
     deviation = max((contour.deviation for contour in contours), default=0.0)
@@ -114,7 +170,7 @@ def _fractions(rows: Rows, points: NDArray[np.float64]) -> NDArray[np.float64]:
     return clipped
 
 
-def _turned(pieces: Rows, field: DistanceField) -> Rows:
+def _turned(pieces: Rows, inside: Callable[[NDArray[np.float64]], NDArray[np.bool_]]) -> Rows:
     """Return the pieces with the area to their left.
 
     With the area on both sides a piece is an edge that two contours share: a wall without thickness, which each keeps
@@ -123,7 +179,7 @@ def _turned(pieces: Rows, field: DistanceField) -> Rows:
     middle = points_at(pieces, np.full(len(pieces), 0.5))
     ahead = points_at(pieces, np.full(len(pieces), 0.5 + 1e-6)) - points_at(pieces, np.full(len(pieces), 0.5 - 1e-6))
     normal = np.stack([-ahead[:, 1], ahead[:, 0]], 1) / np.maximum(np.hypot(*ahead.T), 1e-300)[:, None]
-    left, right = field.inside(middle + normal * _SIDE), field.inside(middle - normal * _SIDE)
+    left, right = inside(middle + normal * _SIDE), inside(middle - normal * _SIDE)
     back = pieces.copy()
     back[:, [X0, Y0, X1, Y1]] = pieces[:, [X1, Y1, X0, Y0]]
     back[:, TURN] *= -1

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import chain, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,21 +73,28 @@ def _arc_row(a: tuple[float, float], b: tuple[float, float], centre: tuple[float
 
 def contour_rows(contour: Contour) -> Rows:
     """Return the rows (n, 8) of a contour, in its direction."""
+    if all(type(curve) is Line for curve in contour.primitives):  # most of the longest ones
+        ends = chain.from_iterable(chain.from_iterable((curve.start, curve.end) for curve in contour.primitives))
+        rows = np.zeros((len(contour.primitives), 8))
+        rows[:, :4] = np.fromiter(ends, np.float64, 4 * len(rows)).reshape(-1, 4)
+        return rows
     return np.array([row for curve in contour.primitives for row in curve_rows(curve)], dtype=np.float64).reshape(-1, 8)
 
 
 def pack(regions: Sequence[Region]) -> Primitives:
     """Return the rows of all contours of some regions: boundaries counter-clockwise, islands clockwise, none crossing."""
-    rows = [np.zeros((0, 8))]
-    previous: list[int] = []
-    numbers: list[int] = []
+    rows, previous, numbers = [np.zeros((0, 8))], [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
+    first = 0
     for region in regions:
         for contour in region.contours:
             rows.append(contour_rows(contour))
             count = len(rows[-1])
-            previous.extend(len(numbers) + np.roll(np.arange(count), 1))
-            numbers.extend([region.number] * count)
-    return Primitives(np.concatenate(rows), np.array(previous, np.int64), np.array(numbers, np.int64))
+            before = np.arange(first - 1, first + count - 1)
+            before[:1] = first + count - 1
+            previous.append(before)
+            numbers.append(np.full(count, region.number))
+            first += count
+    return Primitives(np.concatenate(rows), np.concatenate(previous), np.concatenate(numbers))
 
 
 def reversed_rows(rows: Rows) -> Rows:
@@ -148,17 +155,11 @@ def signed_area(rows: Rows) -> float:
 
 def boxes(rows: Rows) -> NDArray[np.float64]:
     """Return (n, 4) boxes x0, y0, x1, y1 that hold each row exactly, mm."""
-    low = np.minimum(rows[:, [X0, Y0]], rows[:, [X1, Y1]])
-    high = np.maximum(rows[:, [X0, Y0]], rows[:, [X1, Y1]])
-    turn = sweeps(rows)
-    start = np.arctan2(rows[:, Y0] - rows[:, CY], rows[:, X0] - rows[:, CX])
-    for k, (dx, dy) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
-        ahead = np.where(turn >= 0, (k * math.pi / 2 - start) % math.tau, (start - k * math.pi / 2) % math.tau)
-        touched = (rows[:, TURN] != 0) & (ahead <= np.abs(turn))
-        point = rows[:, [CX, CY]] + rows[:, [R]] * np.array([dx, dy])
-        low = np.where(touched[:, None], np.minimum(low, point), low)
-        high = np.where(touched[:, None], np.maximum(high, point), high)
-    return np.hstack([low, high])
+    from app.geometry import kernels  # here, so that the window opens without the compiler
+
+    around = np.empty((len(rows), 4))
+    kernels.row_boxes(np.ascontiguousarray(rows, np.float64), around)
+    return around
 
 
 def sample(rows: Rows, tolerance: float) -> NDArray[np.float64]:

@@ -6,39 +6,75 @@ import math
 
 import numpy as np
 
-from app.geometry.kernels import nearest
+from app.geometry.kernels import DEPTH, inside
+from app.geometry.offset_kernels import piece_rows
 from app.jit import kernel
 
 
-@kernel("void(float64[:, ::1], int64[::1], float64, int64[::1])")
-def follow(rows, by_x, tolerance, following):
-    """Write for each row the row that starts nearest to its end, each used once; -1 where none is within tolerance.
+@kernel("int64(int64, int64, int64)", counts=False)
+def _slot(i, j, mask):
+    """Return a cell's place in a table of mask + 1 places."""
+    return ((i * 73856093) ^ (j * 19349663)) & mask
 
-    by_x: rows in order of their start's x. Nearest pairs are matched first.
+
+@kernel("int64(float64[:, ::1], boolean[::1], float64, int64[::1], int64[::1])", counts=False)
+def _fill_table(rows, taken, size, last, before):
+    """Enter the starts of rows not taken into a table by square cells; return its mask.
+
+    last: the last row of each place, at least twice as many places as rows. before: the row before each row there.
+    """
+    mask = 1
+    while mask < len(rows):
+        mask *= 2
+    last[:mask] = -1
+    mask -= 1
+    for j in range(len(rows)):
+        if not taken[j]:
+            at = _slot(math.floor(rows[j, 0] / size), math.floor(rows[j, 1] / size), mask)
+            before[j] = last[at]
+            last[at] = j
+    return mask
+
+
+@kernel("int64(float64[:, ::1], int64, boolean[::1], float64, int64[::1], int64[::1], int64)", counts=False)
+def _nearest_start(rows, i, taken, radius, last, before, mask):
+    """Return the row not taken that starts nearest to row i's end, -1 when none does within the radius."""
+    x, y, best, chosen, size = rows[i, 2], rows[i, 3], radius * radius, -1, 4 * radius
+    for u in range(math.floor((x - radius) / size), math.floor((x + radius) / size) + 1):
+        for v in range(math.floor((y - radius) / size), math.floor((y + radius) / size) + 1):
+            j = last[_slot(u, v, mask)]
+            while j >= 0:
+                dx, dy = rows[j, 0] - x, rows[j, 1] - y
+                if not taken[j] and dx * dx + dy * dy <= best:
+                    best, chosen = dx * dx + dy * dy, j
+                j = before[j]
+    return chosen
+
+
+@kernel("boolean(float64[:, ::1], float64, int64[::1])")
+def follow(rows, tolerance, following):
+    """Write for each row the row that starts nearest to its end, each used once; return False when one has none within tolerance.
+
+    Nearest pairs are matched first: ever wider circles.
     """
     m = len(rows)
-    xs = rows[by_x, 0]
-    taken = np.zeros(m, np.bool_)
+    taken, left = np.zeros(m, np.bool_), m
+    last, before = np.empty(2 * m + 2, np.int64), np.empty(m, np.int64)
     following[:] = -1
     reach = 1e-9
-    while reach < 1e3 * tolerance:  # nearest pairs first: ever wider circles
+    while left > 0:
         radius = min(reach, tolerance)
+        mask = _fill_table(rows, taken, 4 * radius, last, before)
         for i in range(m):
-            if following[i] >= 0:
-                continue
-            best, chosen = radius, -1
-            k = np.searchsorted(xs, rows[i, 2] - radius)
-            while k < m and xs[k] <= rows[i, 2] + radius:
-                j = by_x[k]
-                d = math.hypot(rows[j, 0] - rows[i, 2], rows[j, 1] - rows[i, 3])
-                if not taken[j] and d <= best:
-                    best, chosen = d, j
-                k += 1
-            if chosen >= 0:
-                following[i], taken[chosen] = chosen, True
+            if following[i] < 0:
+                chosen = _nearest_start(rows, i, taken, radius, last, before, mask)
+                if chosen >= 0:
+                    following[i], taken[chosen] = chosen, True
+                    left -= 1
         if radius == tolerance:
-            return
+            break
         reach *= 10.0
+    return left == 0
 
 
 @kernel("int64(float64[:, ::1], int64[::1], float64[:, ::1], int64[::1], int64[::1])")
@@ -71,7 +107,7 @@ def assemble(rows, following, out, order, starts):
     return rings
 
 
-@kernel("float64(float64[:, ::1], int64)")
+@kernel("float64(float64[:, ::1], int64)", counts=False)
 def _sweep(rows, i):
     """Return the signed sweep of row i, in (-2 pi, 2 pi)."""
     if rows[i, 7] == 0.0:
@@ -81,36 +117,64 @@ def _sweep(rows, i):
     return ((b - a) * rows[i, 7]) % (2 * math.pi) * rows[i, 7]
 
 
-@kernel("void(float64[:, ::1], int64[::1], int64, float64[:, ::1])")
-def sums(rows, starts, rings, out):
-    """Write (signed area, length) of each ring (rings, 2): Green's theorem, exact for arcs."""
-    for k in range(rings):
-        area = length = 0.0
-        x, y = rows[starts[k], 0], rows[starts[k], 1]
-        for i in range(starts[k], starts[k + 1]):
-            sweep = _sweep(rows, i)
-            area += ((rows[i, 0] - x) * (rows[i, 3] - y) - (rows[i, 2] - x) * (rows[i, 1] - y)) / 2
-            area += rows[i, 6] * rows[i, 6] * (sweep - math.sin(sweep)) / 2
-            length += math.hypot(rows[i, 2] - rows[i, 0], rows[i, 3] - rows[i, 1]) if rows[i, 7] == 0.0 else rows[i, 6] * abs(sweep)
-        out[k, 0], out[k, 1] = area, length
+@kernel("UniTuple(float64, 2)(float64[:, ::1], int64, int64)", counts=False)
+def measure(rows, first, stop):
+    """Return (signed area, length) of the ring of rows first to stop - 1: Green's theorem, exact for arcs."""
+    area = length = 0.0
+    x, y = rows[first, 0], rows[first, 1]
+    for i in range(first, stop):
+        sweep = _sweep(rows, i)
+        area += ((rows[i, 0] - x) * (rows[i, 3] - y) - (rows[i, 2] - x) * (rows[i, 1] - y)) / 2
+        area += rows[i, 6] * rows[i, 6] * (sweep - math.sin(sweep)) / 2
+        length += math.hypot(rows[i, 2] - rows[i, 0], rows[i, 3] - rows[i, 1]) if rows[i, 7] == 0.0 else rows[i, 6] * abs(sweep)
+    return area, length
 
 
-@kernel("float64(float64[:, ::1], float64[:, ::1], int64[::1], float64[:, ::1], float64, float64)")
-def worst_error(rows, drawing, order, nodes, distance, limit):
-    """Return the largest |measured - distance| over all joints and middles of rows, mm; stops at the first above `limit`.
+_TREE = "float64[:, ::1], int64[::1], float64[:, ::1]"
+_SIZES = "float64, float64, float64"
+
+
+@kernel(f"Tuple((boolean, float64[:, ::1], int64[::1], float64[:, ::1]))({_TREE}, float64[:, ::1], float64[:, ::1], {_SIZES})")
+def close(drawing, order, nodes, angles, pieces, level, apart, ridge):
+    """Join all pieces at a level into closed rings; return (whether that can be done, rows, their owners, a table of rings).
+
+    Rings outside the drawing are left out when they are as good as a line or a point; other ones make it fail.
 
     Args:
-        drawing, order, nodes: all rows of the drawing and their tree.
+        drawing, order, nodes: all rows of the drawing and their tree. angles: of their elements.
+        pieces: (m, 3) element, u0, u1.
+        apart: the farthest that ends may be apart, mm. ridge: the height of a ridge, mm.
+
+    Returns:
+        rows: (m, 8) ring after ring. owners: (m,) row of the drawing to which each keeps the level.
+        table: (rings, 5) first row, end, signed area, length, owner of the first row.
     """
-    worst = 0.0
+    m = len(pieces)
+    following, origin, starts = np.empty(m, np.int64), np.empty(m, np.int64), np.empty(m + 1, np.int64)
+    rows, joined, stack, kept = np.empty((m, 8)), np.empty((m, 8)), np.empty(DEPTH, np.int64), 0
+    piece_rows(drawing, angles, pieces, level, rows)
+    if not follow(rows, apart, following):
+        return False, joined, origin, np.empty((0, 5))
+    rings = assemble(rows, following, joined, origin, starts)
+    for i in range(m):
+        origin[i] = int(pieces[origin[i], 0]) % len(drawing)
+    table = np.empty((rings, 5))
+    for k in range(rings):
+        first, stop = starts[k], starts[k + 1]
+        area, length = measure(joined, first, stop)
+        if not inside(drawing, order, nodes, joined[first, 0], joined[first, 1], stack):
+            if length < 4 * ridge or 0.0 <= area < length * ridge:
+                continue
+            return False, joined, origin, table
+        table[kept, 0], table[kept, 1], table[kept, 2], table[kept, 3], table[kept, 4] = first, stop, area, length, origin[first]
+        kept += 1
+    return True, joined, origin, table[:kept]
+
+
+@kernel("void(float64[:, ::1], float64, float64)")
+def shift(rows, x, y):
+    """Move rows, in place."""
     for i in range(len(rows)):
-        x, y = (rows[i, 0] + rows[i, 2]) / 2, (rows[i, 1] + rows[i, 3]) / 2
-        if rows[i, 7] != 0.0:
-            angle = math.atan2(rows[i, 1] - rows[i, 5], rows[i, 0] - rows[i, 4]) + _sweep(rows, i) / 2
-            x, y = rows[i, 4] + rows[i, 6] * math.cos(angle), rows[i, 5] + rows[i, 6] * math.sin(angle)
-        middle = nearest(drawing, order, nodes, x, y, distance + 2 * limit)[0]
-        joint = nearest(drawing, order, nodes, rows[i, 0], rows[i, 1], distance + 2 * limit)[0]
-        worst = max(worst, abs(middle - distance), abs(joint - distance))
-        if worst > limit:
-            break
-    return worst
+        for k in range(0, 4 if rows[i, 7] == 0.0 else 6, 2):
+            rows[i, k] += x
+            rows[i, k + 1] += y

@@ -35,6 +35,8 @@ class FindingKind(Enum):
     BEYOND_STOCK = "beyond_stock"
     AMBIGUOUS = "ambiguous"
     SKIN = "skin"
+    ENTRY = "entry"
+    CLAMP = "clamp"
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,9 +6,19 @@ from dataclasses import dataclass
 from enum import Enum
 
 from app.errors import ParameterError
-from app.model.operation import LEAST_LENGTH, ContourOperation, Cut, Operation, Order, PocketOperation
+from app.model.operation import (
+    LEAST_LENGTH,
+    ContourOperation,
+    Cut,
+    DrillOperation,
+    Operation,
+    Order,
+    PocketOperation,
+    RestOperation,
+    kind_word,
+)
 from app.model.part import Part, Units
-from app.model.tool import Tool
+from app.model.tool import Tool, ToolKind
 
 LARGEST_JOIN = 10.0
 """mm; a wider gap is no loose end any more."""
@@ -47,23 +57,56 @@ class Stock:
                                  "the margin must be 0 or more and the thickness greater than 0.")
 
 
+@dataclass(frozen=True, slots=True)
+class Copies:
+    """A part in a grid: how often, and how far apart.
+
+    Attributes:
+        columns, rows: along X and Y, 1 ... 1,000, at most 10,000 in all.
+        dx, dy: from each to the next, mm, less than 1e6; not 0 where there is more than one.
+    """
+
+    columns: int = 1
+    rows: int = 1
+    dx: float = 0.0
+    dy: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not (1 <= self.columns <= 1000 and 1 <= self.rows <= 1000 and self.columns * self.rows <= 10_000):
+            raise ParameterError(f"{self.columns} x {self.rows} copies are asked for; use 1 to 1000 each way and 10000 in all.")
+        for count, step, axis in ((self.columns, self.dx, "X"), (self.rows, self.dy, "Y")):
+            if not abs(step) < 1e6 or (count > 1 and abs(step) < LEAST_LENGTH):
+                raise ParameterError(f"Copies along {axis} are {step:g} mm apart; give the distance from each to the next, "
+                                     "not 0 and less than 1000000 mm.")
+
+    @property
+    def shifts(self) -> tuple[tuple[float, float], ...]:
+        """Where each copy lies, mm; (0, 0) first, row by row."""
+        return tuple((column * self.dx, row * self.dy) for row in range(self.rows) for column in range(self.columns))
+
+
 @dataclass(frozen=True)
 class Job:
     """Everything that a program of tool paths is computed from.
 
     Attributes:
-        operations: in the order of the list; `order` decides which kind cuts first.
+        operations: in the order of cutting, unless `order` puts contours first.
         safe_z: clearance height, mm above the stock's top, in [0.001, 1e5).
         retract_z: height from which plunges go at plunge rate, mm above the top, in [0.001, safe_z].
         join_tolerance: loose ends nearer than this are joined, mm, in [0, 10].
-        layer_names: layers to machine; empty = all visible ones.
+        layer_names: layers to machine; empty = all visible ones but those of keep-out areas.
+        copies: the part in a grid, cut out of one stock.
+        keep_out_layers: layers whose closed contours are clamps and the like: no tool comes over them below their height.
+        keep_out_height: of these above the stock's top, mm, in [0, 1e5).
         post: name of the post that writes the NC text.
         out_units: units of the NC text, MM or INCH.
     """
 
     part: Part
     tools: tuple[Tool, ...] = (Tool(1, 6.0), Tool(2, 3.0, spindle_speed=18000.0))
-    operations: tuple[Operation, ...] = (PocketOperation(Cut(tool=1)), ContourOperation(Cut(tool=2)))
+    operations: tuple[Operation, ...] = (
+        PocketOperation(Cut(tool=1)), RestOperation(Cut(tool=2)), ContourOperation(Cut(tool=2)),
+    )
     stock: Stock = Stock()
     origin_xy: OriginXY = OriginXY.DRAWING
     origin_z: OriginZ = OriginZ.TOP
@@ -75,6 +118,9 @@ class Job:
     post: str = "linuxcnc"
     out_units: Units = Units.MM
     exact_path: bool = False
+    copies: Copies = Copies()
+    keep_out_layers: tuple[str, ...] = ()
+    keep_out_height: float = 0.0
 
     def __post_init__(self) -> None:
         if not LEAST_LENGTH <= self.retract_z <= self.safe_z < 1e5:
@@ -82,6 +128,13 @@ class Job:
                                  f"both must be {LEAST_LENGTH:g} mm or more and retract not above safe Z.")
         if not 0 <= self.join_tolerance <= LARGEST_JOIN:
             raise ParameterError(f"Join tolerance is {self.join_tolerance:g} mm; use 0 to {LARGEST_JOIN:g} mm.")
+        if not 0 <= self.keep_out_height < 1e5:
+            raise ParameterError(f"Keep-out areas are {self.keep_out_height:g} mm high; use 0 or more above the stock's top.")
+
+    @property
+    def travel_z(self) -> float:
+        """Height at which the tool travels, mm above the top: clear of stock and keep-out areas."""
+        return max(self.safe_z, self.keep_out_height + self.retract_z) if self.keep_out_layers else self.safe_z
 
     def tool(self, number: int) -> Tool:
         """Return the tool with this T number.
@@ -93,3 +146,15 @@ class Job:
             if tool.number == number:
                 return tool
         raise ParameterError(f"The job has no tool T{number}; add it to the tools or choose another.")
+
+    def cutter(self, operation: Operation) -> Tool:
+        """Return the tool of an operation.
+
+        Raises:
+            ParameterError: the job has no such tool, or it is a drill and the operation mills.
+        """
+        tool = self.tool(operation.cut.tool)
+        if tool.kind is ToolKind.DRILL and not isinstance(operation, DrillOperation):
+            raise ParameterError(f"T{tool.number} is a drill, which cannot cut sideways; a {kind_word(operation)} operation needs a mill: "
+                                 "choose another tool, or make it a drill operation.")
+        return tool

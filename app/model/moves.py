@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.model.finding import Finding
-from app.model.part import Region
+from app.model.part import Contour, Region
 
 Floats = NDArray[np.float64]
 
@@ -34,6 +34,8 @@ class Purpose(IntEnum):
     LINK = 4
     LEAD = 5
     DRILL = 6
+    TAB = 7
+    DOG_BONE = 8
 
 
 @dataclass(frozen=True)
@@ -110,6 +112,56 @@ class Moves:
 
 
 @dataclass(frozen=True)
+class Area:
+    """Where the cutter of one operation may be.
+
+    Attributes:
+        regions: the cutter stays within them with all its width and the stock to leave; none = it makes no moves.
+        lines: where its centre stays on lines: these, open and closed; the regions then are what keeps it off clamps.
+        whole: True: the operation is to clear all of its regions; False: what its path covers.
+        bare: outlines that are kept off but not followed: clamps, and the frame round an area outside.
+    """
+
+    regions: tuple[Region, ...] = ()
+    lines: tuple[Contour, ...] = ()
+    whole: bool = False
+    bare: tuple[Contour, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Tab:
+    """A bridge of metal that was left standing.
+
+    Attributes:
+        x, y: its middle on the tool centre's path, mm.
+        width: of the metal along the path, mm.
+        top: height of its top, mm, < 0.
+        diameter: of the cutter that went over it, mm.
+    """
+
+    x: float
+    y: float
+    width: float
+    top: float
+    diameter: float
+
+
+@dataclass(frozen=True, slots=True)
+class DogBone:
+    """A way of the cutter's centre into a corner, beyond where its width keeps off the walls: from (x0, y0) to (x1, y1), mm.
+
+    Attributes:
+        diameter: of the cutter, mm.
+    """
+
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+    diameter: float
+
+
+@dataclass(frozen=True)
 class Program:
     """The answer of a computation: every move of a job, and what there is to say about it.
 
@@ -117,6 +169,10 @@ class Program:
         moves: in the order of cutting.
         regions: the areas that were machined, by region number.
         findings: drawing and path findings, worst first.
+        areas: of each operation of the job, by its index; none = the regions are those of all.
+        lines: open lines that are followed.
+        clamps: that no tool comes over below their height.
+        tabs, dog_bones: where metal was left standing, and where walls were cut into, on purpose.
         strokes: pocket strokes (connected pocket paths without a lift), summed over depth passes.
         polyline_rings: rings that had to fall back to a fine polyline.
         bitmap_area_mm2, exact_area_mm2: area of A' by the bitmap fill and by the exact offset (independent check).
@@ -135,3 +191,8 @@ class Program:
     pitch_mm: float = 0.0
     given_up_mm: float | None = None
     allowance_mm: float = 0.0
+    areas: tuple[Area, ...] = ()
+    lines: tuple[Contour, ...] = ()
+    clamps: tuple[Region, ...] = ()
+    tabs: tuple[Tab, ...] = ()
+    dog_bones: tuple[DogBone, ...] = ()

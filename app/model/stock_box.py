@@ -40,13 +40,13 @@ def extent(contours: Iterable[Contour]) -> tuple[float, float, float, float] | N
     return (min(xs), min(ys), max(xs), max(ys))
 
 
-def stock_box(job: Job, regions: Iterable[Region]) -> StockBox:
-    """Return the stock of a job: the extent of its regions and the margin round it.
+def stock_box(job: Job, regions: Iterable[Region], lines: Iterable[Contour] = ()) -> StockBox:
+    """Return the stock of a job: the extent of its regions and of the open lines that it follows, and the margin round them.
 
     Raises:
-        ParameterError: there is no region.
+        ParameterError: there is neither.
     """
-    box = extent(contour for region in regions for contour in region.contours)
+    box = extent((*(contour for region in regions for contour in region.contours), *lines))
     if box is None:
         raise ParameterError("The part has no closed contour, so there is no stock to set the work origin on; close a contour first.")
     margin = job.stock.margin

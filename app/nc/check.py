@@ -121,9 +121,9 @@ def check(data: bytes, file: NcFile, meant: Meant, progress: Progress = NO_PROGR
     read = read_program(data, options, progress.part(0.0, 0.5))
     stop = file.first + len(file.nc.lines)
     moves = program.moves.part(file.first, stop)
-    origin = work_origin(job, stock_box(job, program.regions))
+    origin = work_origin(job, stock_box(job, program.regions, program.lines))
     step = writing_tolerance(job, post)
-    compared = _Compared(read, moves, MeantPath.of(moves, origin), file, Expected.of(job, post), job.safe_z - origin[2], step)
+    compared = _Compared(read, moves, MeantPath.of(moves, origin), file, Expected.of(job, post), job.travel_z - origin[2], step)
     mine, far, problems = _differences(compared)
     if not problems:
         problems = _elsewhere(compared, data, options, progress.part(0.5, 1.0))

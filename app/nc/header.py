@@ -1,31 +1,7 @@
-"""The comments at the head of a program: for the operator, and for `hitofude cut --against`.
-
-Comments that begin with `hitofude:` hold one `key=value` each, in this order and always in mm, part coordinates:
-
-    program=1                                       version of this list
-    part=NAME                                       as in the first comment, which begins with a word of its own:
-                                                    controls obey comments that begin with MSG or PRINT
-    drawing_units=mm|inch|cm|m|foot|micron          of the drawing that the part came from
-    layer=NAME                                      one a layer, where layers were chosen; see `spelled_name`
-    join_tolerance_mm=T                             at which loose ends of the drawing were joined
-    units=mm|in                                     of the program's words
-    origin_mm=X,Y,Z                                 the work origin; part = program + origin
-    stock_mm=X0,Y0,Z0,X1,Y1,Z1                      the stock's box
-    tool=NUMBER,KIND,DIAMETER                       one a tool, in the order of use; ,CORNER,TIP,ANGLE behind it (radius of the
-                                                    corner, diameter of the tip, full angle in degrees) where it has one of them
-    operation=KIND,TOOL,DEPTH,STOCK_TO_LEAVE        one an operation that cuts
-    path_tolerance_mm=T                             proven: the written path is nowhere nearer to the walls than asked by more
-    allowance_mm=T                                  of paths made from pixels: so thick a skin may they leave along the walls
-    blend_mm=P                                      how far the control may leave the written path
-
-A comment that begins with `hitofude+` goes on with the one before. For a control that knows capitals alone, all of this is
-in capitals, so keys and values are read without regard to case. Where each tool has a file of its own, `tool` and `operation`
-tell of that file.
-"""
+"""The comments at the head of a program for the operator; `app.nc.header_notes` has those for `hitofude cut --against`."""
 
 from __future__ import annotations
 
-import math
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -34,7 +10,15 @@ import numpy as np
 
 from app.model.job import Job
 from app.model.moves import Program
-from app.model.operation import Operation, PocketOperation
+from app.model.operation import (
+    ContourOperation,
+    DrillOperation,
+    Operation,
+    PocketOperation,
+    RestOperation,
+    Side,
+    kind_word,
+)
 from app.model.part import Units
 from app.model.stock_box import StockBox, work_origin
 from app.model.tool import Tool
@@ -84,15 +68,39 @@ def tool_words(tool: Tool, units: Units) -> str:
 
 
 def operation_words(operation: Operation, job: Job) -> str:
-    """Return an operation in words: "Pocket T1: depth 2 mm, ..."."""
+    """Return an operation in words: "Pocket T1: depth 2 mm, ...", the kind first, as `app.nc.read.notes_operation` reads it."""
     cut, units = operation.cut, job.out_units
-    pocket = isinstance(operation, PocketOperation)
-    words = [f"depth {_length(cut.depth, units)}", f"stepdown {_length(cut.stepdown, units)}"]
-    if isinstance(operation, PocketOperation):
-        stepover = operation.stepover or job.tool(cut.tool).radius
-        words.append(f"stepover {_length(stepover, units)}")
-    words += [f"stock to leave {_length(cut.stock_to_leave, units)}", cut.direction.value]
-    return f"{'Pocket' if pocket else 'Contour'} T{cut.tool}: {', '.join(words)}"
+    words = [f"depth {_length(cut.depth, units)}"]
+    if isinstance(operation, DrillOperation):
+        words += _drill_words(operation, units)
+    else:
+        words.append(f"stepdown {_length(cut.stepdown, units)}")
+        if isinstance(operation, (PocketOperation, RestOperation)):
+            words.append("stepover " + (_length(operation.stepover, units) if operation.stepover else "automatic"))
+        words += [f"stock to leave {_length(cut.stock_to_leave, units)}", cut.direction.value]
+    if isinstance(operation, ContourOperation):
+        words += _contour_words(operation, units)
+    thin = (("floor to leave", cut.floor_to_leave), ("finish pass", cut.finish_depth))
+    words += [f"{what} {_length(value, units)}" for what, value in thin if value]
+    words += [f"layers {' and '.join(map(safe_name, cut.layers))}"] if cut.layers else []
+    return f"{kind_word(operation).capitalize()} T{cut.tool}: {', '.join(words)}"
+
+
+def _drill_words(operation: DrillOperation, units: Units) -> list[str]:
+    """Return how holes are drilled, and which."""
+    words = [f"through by {_length(operation.through, units)}"] if operation.through else []
+    words.append(f"peck {_length(operation.peck, units)}" if operation.peck else "in one go")
+    bounds = [f"{word} {_length(value, units)}" for word, value in (("from", operation.least), ("to", operation.most)) if value]
+    return words + ([f"circles {' '.join(bounds)}"] if bounds else [])
+
+
+def _contour_words(operation: ContourOperation, units: Units) -> list[str]:
+    """Return what a contour does beside following the walls inside."""
+    words = [] if operation.side is Side.INSIDE else ["outside" if operation.side is Side.OUTSIDE else "on the line"]
+    words += [f"finish {_length(operation.finish_width, units)}"] if operation.finish_width else []
+    words += [f"{operation.spring_passes} spring passes"] if operation.spring_passes else []
+    words += ["dog-bones"] if operation.dog_bones else []
+    return words + (["tabs"] if operation.tabs.wanted else [])
 
 
 def heading_lines(heading: Heading) -> Iterator[str]:
@@ -107,19 +115,26 @@ def heading_lines(heading: Heading) -> Iterator[str]:
     origin = ", ".join(f"{axis} {_length(value, units)}" for axis, value in zip("XYZ", work_origin(job, heading.box), strict=True))
     yield f"Work origin: {job.origin_xy.value}, {job.origin_z.value}"
     yield f"It is at {origin} of the drawing, whose Z 0 is the top of stock"
-    yield from (tool_words(tool, units) + f", {tool.spindle_speed:.0f} rpm" for tool in _tools(heading))
-    yield from (operation_words(operation, job) + ("" if cuts else ", makes no moves") for operation, cuts in _operations(heading))
+    yield from _copies_and_clamps(job)
+    yield from (tool_words(tool, units) + f", {tool.spindle_speed:.0f} rpm" for tool in tools_of(heading))
+    yield from (operation_words(operation, job) + ("" if cuts else ", makes no moves") for operation, cuts in operations_of(heading))
     if heading.program.given_up_mm is None:
-        yield f"Path within {_length(_path_tolerance(heading), units)} of the exact offset of the drawing"
+        yield f"Path within {_length(path_tolerance(heading), units)} of the exact offset of the drawing"
     else:
-        yield f"Path made from pixels, nowhere nearer to the walls than asked by more than {_length(_path_tolerance(heading), units)}"
+        yield f"Path made from pixels, nowhere nearer to the walls than asked by more than {_length(path_tolerance(heading), units)}"
         yield f"It is up to {_length(heading.program.given_up_mm, units)} farther from them"
     yield _blending_words(heading)
 
 
-def heading_notes(heading: Heading) -> Iterator[str]:
-    """Yield the comments for `hitofude cut --against`, without their brackets."""
-    yield from (f"hitofude: {note}" for note in _notes(heading))
+def _copies_and_clamps(job: Job) -> Iterator[str]:
+    """Yield what an operator has to set up beside the stock."""
+    copies, units = job.copies, job.out_units
+    if len(copies.shifts) > 1:
+        yield f"{copies.columns} x {copies.rows} copies, {_length(copies.dx, units)} apart along X and {_length(copies.dy, units)} along Y"
+    if job.keep_out_layers:
+        names = " and ".join(map(safe_name, job.keep_out_layers))
+        yield f"Clamps of layer {names}, up to {_length(job.keep_out_height, units)} above the stock"
+        yield f"The tool travels at {_length(job.travel_z, units)} above the stock"
 
 
 def _blending_words(heading: Heading) -> str:
@@ -133,47 +148,19 @@ def _blending_words(heading: Heading) -> str:
     return f"Proven on the path; the control may blend by up to {before[-1]} {amount}"
 
 
-def _notes(heading: Heading) -> Iterator[str]:
-    """Yield every key and its value."""
-    job, box = heading.job, heading.box
-    yield "program=1"
-    yield f"part={safe_name(job.part.name)}"
-    yield f"drawing_units={job.part.units.name.lower()}"
-    yield from (f"layer={spelled_name(name)}" for name in job.layer_names)
-    yield f"join_tolerance_mm={_numbers(job.join_tolerance)}"
-    yield f"units={_unit(job.out_units)}"
-    yield f"origin_mm={_numbers(*work_origin(job, box))}"
-    yield f"stock_mm={_numbers(box.x0, box.y0, box.z0, box.x1, box.y1, box.z1)}"
-    for tool in _tools(heading):
-        yield f"tool={tool.number},{tool.kind.value},{_numbers(tool.diameter, *_shape(tool))}"
-    for operation, cuts in _operations(heading):
-        if cuts:
-            kind = "pocket" if isinstance(operation, PocketOperation) else "contour"
-            yield f"operation={kind},{operation.cut.tool},{_numbers(operation.cut.depth, operation.cut.stock_to_leave)}"
-    yield f"path_tolerance_mm={_numbers(_path_tolerance(heading))}"
-    if heading.program.allowance_mm:
-        yield f"allowance_mm={_numbers(heading.program.allowance_mm)}"
-    yield f"blend_mm={_numbers(heading.blend_mm)}"
-
-
-def _shape(tool: Tool) -> tuple[float, ...]:
-    """Return corner radius and tip diameter, mm, and full tip angle, degrees, of a tool that has one of them."""
-    shape = (tool.corner_radius, tool.tip_diameter, math.degrees(tool.tip_angle))
-    return shape if any(shape) else ()
-
-
-def _path_tolerance(heading: Heading) -> float:
+def path_tolerance(heading: Heading) -> float:
     """Return by how much the written path may be too near to the walls, mm: curves as arcs, the path's levels, its writing."""
-    curves = max((contour.deviation for region in heading.program.regions for contour in region.contours), default=0.0)
+    contours = (*(contour for region in heading.program.regions for contour in region.contours), *heading.program.lines)
+    curves = max((contour.deviation for contour in contours), default=0.0)
     return curves + LEVEL + heading.writing_mm
 
 
-def _tools(heading: Heading) -> list[Tool]:
+def tools_of(heading: Heading) -> list[Tool]:
     """Return the tools in the order of their use."""
     return [heading.job.tool(number) for number in dict.fromkeys(heading.program.moves.tool.tolist())]
 
 
-def _operations(heading: Heading) -> list[tuple[Operation, bool]]:
+def operations_of(heading: Heading) -> list[tuple[Operation, bool]]:
     """Return enabled operations, and whether each has moves; in one of several files those that it holds."""
     used = set(np.unique(heading.program.moves.operation).tolist())
     shown = ((i, operation) for i, operation in enumerate(heading.job.operations) if operation.cut.enabled)
@@ -182,14 +169,14 @@ def _operations(heading: Heading) -> list[tuple[Operation, bool]]:
 
 def _length(value: float, units: Units) -> str:
     """Return a length in out units with its unit."""
-    return f"{_numbers(value / units.value)} {_unit(units)}"
+    return f"{plain_numbers(value / units.value)} {unit_sign(units)}"
 
 
-def _unit(units: Units) -> str:
+def unit_sign(units: Units) -> str:
     """Return the unit's sign."""
     return "in" if units is Units.INCH else "mm"
 
 
-def _numbers(*values: float) -> str:
-    """Return numbers with at most 6 decimals and no zeros behind, joined by commas."""
-    return ",".join(f"{round(value, 6) + 0.0:.6f}".rstrip("0").rstrip(".") for value in values)
+def plain_numbers(*values: float, decimals: int = 6) -> str:
+    """Return numbers with at most so many decimals, in 0 ... 9, and no zeros behind, joined by commas."""
+    return ",".join(f"{round(value, decimals) + 0.0:.{decimals}f}".rstrip("0").rstrip(".") for value in values)

@@ -34,8 +34,8 @@ def check_sequence(moves: Moves, job: Job) -> None:
     arc = moves.kind >= MoveKind.ARC_CW
     numbers = np.isfinite(moves.end).all(axis=1) & (np.isfinite(moves.centre).all(axis=1) | ~arc)
     _refuse(moves, ~numbers, "has a coordinate that is no number")
-    _refuse(moves, first & ~(rapid & (np.abs(moves.end[:, 2] - job.safe_z) < SAME)),
-            f"is the first of T{{tool}} and must be a rapid at safe Z {job.safe_z:g}")
+    _refuse(moves, first & ~(rapid & (np.abs(moves.end[:, 2] - job.travel_z) < SAME)),
+            f"is the first of T{{tool}} and must be a rapid at safe Z {job.travel_z:g}")
     _check_rapids(moves, rapid & ~first, job)
     _refuse(moves, ~rapid & ~(moves.feed > 0), "cuts without a feed rate")
     _check_arcs(moves, arc)

@@ -17,7 +17,8 @@ from app.model.stock_box import stock_box, work_origin
 from app.nc.arcs import ArcRules, written_pieces
 from app.nc.blocks import Blocks
 from app.nc.drilling import CycleRules, hole_at
-from app.nc.header import Heading, heading_lines, heading_notes, operation_words, tool_words
+from app.nc.header import Heading, heading_lines, operation_words, tool_words
+from app.nc.header_notes import heading_notes
 from app.nc.post import Post
 from app.nc.sequence import check_sequence
 from app.nc.template_fields import Fields, program_fields, tool_fields
@@ -120,7 +121,7 @@ def _check(program: Program, job: Job, post: Post) -> None:
 
 def _written(program: Program, job: Job, post: Post, file: tuple[int, int], progress: Progress) -> NcText:
     """Return the text of one file; `file` is its number and how many there are."""
-    box = stock_box(job, program.regions)
+    box = stock_box(job, program.regions, program.lines)
     moves = work_moves(program.moves, work_origin(job, box), job.out_units, post.digits(job.out_units))
     sheet = Blocks(post, job.out_units)
     heading = Heading(program, job, post, box, blend_mm(job, post), writing_tolerance(job, post), *file)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,15 +13,7 @@ from app import tolerances
 from app.geometry.distance import DistanceField
 from app.geometry.offset import Level, Ring
 from app.geometry.primitives import Rows, lengths, points_at
-
-
-@dataclass(frozen=True)
-class Place:
-    """A point of a ring: fraction in [0, 1] of one of its rows."""
-
-    ring: int
-    row: int
-    fraction: float
+from app.toolpath.link_rows import Place
 
 
 @dataclass(frozen=True)
@@ -39,7 +30,7 @@ class Bridge:
     length: float
 
 
-def inward_bridges(levels: Sequence[Level], field: DistanceField) -> list[Bridge]:
+def inward_bridges(levels: Sequence[Level], halves: Sequence[Level], field: DistanceField) -> list[Bridge]:
     """Return bridges from every ring to rings of the level before.
 
     From any point of a level the way towards its nearest point on the drawing keeps the distance rule by
@@ -47,36 +38,53 @@ def inward_bridges(levels: Sequence[Level], field: DistanceField) -> list[Bridge
 
     Args:
         levels: the pocket's levels, outermost first; rings are numbered through them in order.
+        halves: closed runs inside each level, numbered on after all levels.
         field: distances from the drawing.
     """
     bridges: list[Bridge] = []
-    first = 0
-    for outer, inner in pairwise(levels):
-        if not inner.rings:
+    first, half_first = 0, sum(len(level.rings) for level in levels)
+    for k, outer in enumerate(levels):
+        if not outer.rings:
             break
-        target = _Target.of(outer.rings, first)
+        target = RingField.of(outer.rings, first)
         first += len(outer.rings)
-        for number, ring in enumerate(inner.rings, first):
-            bridges.extend(_from_ring(ring, number, target, field, inner.distance - outer.distance))
+        for number, some in ((first, levels[k + 1:k + 2]), (half_first, halves[k:k + 1])):
+            for inner in some:
+                for at, ring in enumerate(inner.rings, number):
+                    bridges.extend(_from_ring(ring, at, target, field, inner.distance - outer.distance))
+        half_first += sum(len(half.rings) for half in halves[k:k + 1])
     return bridges
 
 
 @dataclass(frozen=True)
-class _Target:
-    """All rows of one level, and which ring each belongs to."""
+class RingField:
+    """Distances from the rings of one level.
+
+    Attributes:
+        field: of all their rows.
+        ring, row: (n,) which ring each of these belongs to, and its number there.
+    """
 
     field: DistanceField
-    ring: np.ndarray
-    row: np.ndarray
+    ring: NDArray[np.int64]
+    row: NDArray[np.int64]
 
     @staticmethod
-    def of(rings: Sequence[Ring], first: int) -> _Target:
-        return _Target(DistanceField.of(np.concatenate([r.rows for r in rings])),
-                       np.repeat(np.arange(first, first + len(rings)), [len(r.rows) for r in rings]),
-                       np.concatenate([np.arange(len(r.rows)) for r in rings]))
+    def of(rings: Sequence[Ring], first: int) -> RingField:
+        """Return the field of rings, one or more, numbered from `first`."""
+        return RingField(DistanceField.of(np.concatenate([r.rows for r in rings])),
+                         np.repeat(np.arange(first, first + len(rings)), [len(r.rows) for r in rings]),
+                         np.concatenate([np.arange(len(r.rows)) for r in rings]))
+
+    def nearest(self, point: NDArray[np.float64]) -> tuple[float, Place, NDArray[np.float64]]:
+        """Return (distance, place, point there) of the nearest point (2,) of any ring."""
+        distance, found = self.field.nearest(point[None])
+        row = self.field.rows[found[0]]
+        part = fraction_at(row, point)
+        return float(distance[0]), Place(int(self.ring[found[0]]), int(self.row[found[0]]), part), points_at(row[None], np.array([part]))[0]
 
 
-def _from_ring(ring: Ring, number: int, target: _Target, field: DistanceField, step: float) -> list[Bridge]:
+def _from_ring(ring: Ring, number: int, target: RingField, field: DistanceField, step: float) -> list[Bridge]:
     """Return the best bridge from a ring to each ring of the level before that it can reach."""
     size = lengths(ring.rows)
     order = np.argsort(-size)[:64]
@@ -93,6 +101,35 @@ def _from_ring(ring: Ring, number: int, target: _Target, field: DistanceField, s
         at = fraction_at(target.field.rows[rows[k]], arrived[k])
         best[other] = Bridge(Place(number, int(order[k]), 0.5), Place(other, int(target.row[rows[k]]), at), step)
     return list(best.values())
+
+
+def outward(ring: Ring, number: int, targets: Sequence[tuple[float, RingField]], field: DistanceField) -> list[Bridge]:
+    """Return bridges in one straight line from a ring out to the outermost level, the innermost first; none if there is no such line.
+
+    The way from a point to its nearest point on the drawing crosses all levels outside it, each as far from the next as they are.
+
+    Args:
+        number: the ring's.
+        targets: (distance from the drawing, rings there) of the levels outside the ring, outermost first.
+        field: distances from the drawing.
+    """
+    if not targets:
+        return []
+    order = np.argsort(-lengths(ring.rows))[:16]
+    points = points_at(ring.rows[order], np.full(len(order), 0.5))
+    distance, nearest = field.nearest(points)
+    feet = foot(field.rows[nearest], points)
+    for k, point in enumerate(points):
+        line, at, before = [], Place(number, int(order[k]), 0.5), float(distance[k])
+        for level, target in reversed(targets):
+            off, place, _ = target.nearest(point + (feet[k] - point) * ((distance[k] - level) / distance[k]))
+            if off > tolerances.LEVEL:
+                break
+            line.append(Bridge(at, place, before - level))
+            at, before = place, level
+        if len(line) == len(targets):
+            return line
+    return []
 
 
 def foot(rows: Rows, points: np.ndarray) -> np.ndarray:
@@ -113,21 +150,22 @@ def fraction_at(row: Rows, point: np.ndarray) -> float:
     return 1.0 if turn - sweep < 2 * np.pi - turn else 0.0
 
 
-def level_bridges(rings: Sequence[Ring], groups: Sequence[int], spacing: float,
+def level_bridges(rings: Sequence[Ring], some: Sequence[int], groups: Sequence[int], spacing: float,
                   most: int | None = None) -> Iterator[tuple[Bridge, NDArray[np.float64]]]:
-    """Yield candidates between rings of the outermost level with their ends (2, 2), shortest first; clearance is not checked.
+    """Yield candidates between some rings with their ends (2, 2), shortest first; clearance is not checked.
 
     The shortest tree through all rings is part of the Delaunay triangulation of points along them.
 
     Args:
-        rings: the outermost level's rings, numbered from 0.
-        groups: what is already joined has the same number.
+        rings: all rings.
+        some: numbers of those to join.
+        groups: of all rings; what is already joined has the same number.
         spacing: between points, mm.
         most: candidates between any two rings, the shortest; None = all.
     """
-    rows = np.concatenate([r.rows for r in rings])
-    owner = np.repeat(np.arange(len(rings)), [len(r.rows) for r in rings])
-    number = np.concatenate([np.arange(len(r.rows)) for r in rings])
+    rows = np.concatenate([rings[k].rows for k in some])
+    owner = np.repeat(np.array(some), [len(rings[k].rows) for k in some])
+    number = np.concatenate([np.arange(len(rings[k].rows)) for k in some])
     counts = np.maximum(1, np.ceil(lengths(rows) / spacing)).astype(np.int64)
     row = np.repeat(np.arange(len(rows)), counts)
     part = (np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts) + 0.5) / counts[row]

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, Rows, sweeps
+from app.geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, Rows, lengths, reversed_rows, sweeps
 from app.model.moves import MoveKind, Moves, Purpose
 
 _SAME_CENTRE = 1e-6  # mm
@@ -30,6 +30,11 @@ class Label:
     feed: float
     plunge_rate: float
 
+    @property
+    def fast(self) -> Label:
+        """The same, but it plunges at feed rate: over ground that is cut."""
+        return replace(self, plunge_rate=self.feed)
+
 
 @dataclass(frozen=True)
 class Stroke:
@@ -39,11 +44,20 @@ class Stroke:
         rows: (n, 8) lines and arcs, each beginning where the one before ends.
         purpose: (n,) uint8 Purpose of each row.
         region: number of its region.
+        least_z: (n,) height below which each row must not go, mm, -inf where any depth will do; None = nowhere.
+            Where it changes from one row to the next the tool goes straight up or down.
+        at_floor: True: it is cut at the last depth only.
+        follows: True: it is cut right after the stroke before it in the list, at each depth.
+        rank: strokes of a lower rank are cut, at all depths, before those of a higher one.
     """
 
     rows: Rows
     purpose: NDArray[np.uint8]
     region: int
+    least_z: NDArray[np.float64] | None = None
+    at_floor: bool = False
+    follows: bool = False
+    rank: int = 0
 
     @property
     def start(self) -> tuple[float, float]:
@@ -51,16 +65,62 @@ class Stroke:
         return float(self.rows[0, X0]), float(self.rows[0, Y0])
 
     @property
+    def end(self) -> tuple[float, float]:
+        """Where it ends, mm."""
+        return float(self.rows[-1, X1]), float(self.rows[-1, Y1])
+
+    @property
     def closed(self) -> bool:
         """True when it ends where it begins."""
         return bool(np.all(self.rows[-1, 2:4] == self.rows[0, :2]))
+
+    def heights(self, z: float) -> NDArray[np.float64]:
+        """Return (n,) at which height each row is cut by a pass at z, mm."""
+        return np.full(len(self.rows), z) if self.least_z is None else np.maximum(self.least_z, z)
+
+    def part(self, first: int, stop: int) -> Stroke:
+        """Return its rows from `first` up to `stop`, which is left out."""
+        least_z = None if self.least_z is None else self.least_z[first:stop]
+        return replace(self, rows=self.rows[first:stop], purpose=self.purpose[first:stop], least_z=least_z)
+
+    def backwards(self) -> Stroke:
+        """Return it from its end to its beginning."""
+        least_z = None if self.least_z is None else self.least_z[::-1]
+        return replace(self, rows=reversed_rows(self.rows), purpose=self.purpose[::-1], least_z=least_z)
+
+    def split(self, row: int, fraction: float) -> tuple[Stroke, Stroke]:
+        """Return what of it comes before and after a fraction in [0, 1] of a row; either may have no rows."""
+        if fraction <= 0:
+            return self.part(0, row), self.part(row, len(self.rows))
+        if fraction >= 1:
+            return self.part(0, row + 1), self.part(row + 1, len(self.rows))
+        first, second = split_row(self.rows[row], fraction)
+        before, after = self.part(0, row + 1), self.part(row, len(self.rows))
+        return (replace(before, rows=np.concatenate([before.rows[:-1], first[None]])),
+                replace(after, rows=np.concatenate([second[None], after.rows[1:]])))
+
+    def and_then(self, other: Stroke) -> Stroke:
+        """Return one stroke of this one and another that begins where it ends."""
+        least_z = None
+        if self.least_z is not None or other.least_z is not None:
+            least_z = np.concatenate([np.full(len(each.rows), -np.inf) if each.least_z is None else each.least_z for each in (self, other)])
+        return replace(self, rows=np.concatenate([self.rows, other.rows]), purpose=np.concatenate([self.purpose, other.purpose]),
+                       least_z=least_z)
 
 
 class MovesBuilder:
     """Appends moves; knows where the tool is."""
 
     def __init__(self) -> None:
-        self._columns: list[tuple[Rows, Rows, NDArray[np.uint8], Purpose | NDArray[np.uint8], Label, int, float]] = []
+        self._columns: list[tuple[Rows, Rows, NDArray[np.uint8], Purpose | NDArray[np.uint8], Label, int, float | NDArray[np.float64]]] = []
+
+    @property
+    def at(self) -> tuple[float, float, float]:
+        """Where the tool is, mm; NaN before the first move."""
+        if not self._columns:
+            return math.nan, math.nan, math.nan
+        x, y, z = self._columns[-1][0][-1].tolist()
+        return x, y, z
 
     def straight(self, end: tuple[float, float, float], purpose: Purpose, label: Label, region: int = 0) -> None:
         """Append a rapid, or a plunge at plunge rate."""
@@ -70,13 +130,37 @@ class MovesBuilder:
         self._columns.append((np.array([end]), np.array([_NO_CENTRE]), kind, purpose, label, region, feed))
 
     def cut(self, stroke: Stroke, z: float, label: Label) -> None:
-        """Append a whole stroke at height z, mm, at feed rate."""
-        rows, purpose = merge_arcs(stroke.rows, stroke.purpose)
-        end = np.column_stack([rows[:, X1], rows[:, Y1], np.full(len(rows), z)])
+        """Append a whole stroke at height z, mm, at feed rate, over its least heights; the tool is at its beginning."""
+        heights = stroke.heights(z)
+        if stroke.least_z is None or not np.any(np.diff(heights)):
+            self._path(stroke, heights, label, label.feed)
+            return
+        first = 0
+        for k in (*(np.flatnonzero(np.diff(heights)) + 1).tolist(), len(heights)):
+            if first:
+                x, y = stroke.rows[first, :2].tolist()
+                up = heights[first] > heights[first - 1]
+                self.straight((x, y, float(heights[first])), Purpose.TAB if up else Purpose.PLUNGE, label, stroke.region)
+            self._path(stroke.part(first, k), heights[first:k], label, label.feed)
+            first = k
+
+    def ramp(self, stroke: Stroke, heights: NDArray[np.float64], label: Label) -> None:
+        """Append a way down along a stroke, each row of it ending at its own height (n,), mm, and no row faster than may be.
+
+        The cutter cuts with its end and with all of its width, so it goes at half the feed rate, and down no faster than a plunge.
+        """
+        fall = np.abs(np.diff(heights, prepend=self.at[2]))
+        slope = fall / np.maximum(np.hypot(lengths(stroke.rows), fall), 1e-12)
+        feed = np.minimum(max(label.feed / 2, min(label.plunge_rate, label.feed)), label.plunge_rate / np.maximum(slope, 1e-9))
+        self._path(replace(stroke, purpose=np.full(len(heights), Purpose.PLUNGE, np.uint8)), heights, label, feed)
+
+    def _path(self, stroke: Stroke, heights: NDArray[np.float64], label: Label, feed: float | NDArray[np.float64]) -> None:
+        rows = stroke.rows
         arcs = rows[:, TURN] != 0
-        centre = np.where(arcs[:, None], rows[:, [CX, CY]], math.nan)
+        end = np.column_stack([rows[:, X1:CX], heights])
+        centre = np.where(arcs[:, None], rows[:, CX:R], math.nan)
         kind = np.where(arcs, np.where(rows[:, TURN] > 0, MoveKind.ARC_CCW, MoveKind.ARC_CW), MoveKind.LINE).astype(np.uint8)
-        self._columns.append((end, centre, kind, purpose, label, stroke.region, label.feed))
+        self._columns.append((end, centre, kind, stroke.purpose, label, stroke.region, feed))
 
     def moves(self) -> Moves:
         """Return everything appended so far."""
@@ -90,29 +174,32 @@ class MovesBuilder:
             operation=np.repeat(np.array([c[4].operation for c in self._columns], np.int16), counts),
             tool=np.repeat(np.array([c[4].tool for c in self._columns], np.int16), counts),
             region=np.repeat(np.array([c[5] for c in self._columns], np.int16), counts),
-            feed=np.repeat(np.array([c[6] for c in self._columns]), counts),
+            feed=np.concatenate([np.zeros(0), *(np.broadcast_to(c[6], n) for c, n in zip(self._columns, counts, strict=True))]),
             line=np.zeros(sum(counts), np.int32),
         )
 
 
-def merge_arcs(rows: Rows, purpose: NDArray[np.uint8]) -> tuple[Rows, NDArray[np.uint8]]:
-    """Join neighbouring arcs of one circle, as long as they stay less than a full turn."""
+def merged(stroke: Stroke) -> Stroke:
+    """Return a stroke whose neighbouring arcs of one circle, purpose and least height are one, but never a full turn or more."""
+    rows, purpose, least_z = stroke.rows, stroke.purpose, stroke.least_z
     same = ((rows[1:, TURN] != 0) & (rows[1:, TURN] == rows[:-1, TURN]) & (purpose[1:] == purpose[:-1])
             & (np.hypot(rows[1:, CX] - rows[:-1, CX], rows[1:, CY] - rows[:-1, CY]) < _SAME_CENTRE)
             & (np.abs(rows[1:, R] - rows[:-1, R]) < _SAME_CENTRE))
+    if least_z is not None:
+        same &= least_z[1:] == least_z[:-1]
     if not same.any():
-        return rows, purpose
+        return stroke
     turn = np.abs(sweeps(rows))
-    merged, kept, total = [rows[0].copy()], [0], turn[0]
+    joined, kept, total = [rows[0].copy()], [0], turn[0]
     for i in range(1, len(rows)):
         if same[i - 1] and total + turn[i] < math.tau - 1e-3:
-            merged[-1][[X1, Y1]] = rows[i, [X1, Y1]]
+            joined[-1][[X1, Y1]] = rows[i, [X1, Y1]]
             total += turn[i]
             continue
-        merged.append(rows[i].copy())
+        joined.append(rows[i].copy())
         kept.append(i)
         total = turn[i]
-    return np.array(merged), purpose[kept]
+    return replace(stroke, rows=np.array(joined), purpose=purpose[kept], least_z=None if least_z is None else least_z[kept])
 
 
 def split_row(row: Rows, fraction: float) -> tuple[Rows, Rows]:

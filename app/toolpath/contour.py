@@ -1,20 +1,260 @@
-"""Contour paths: the contour tool follows every wall at its radius (step 120, A to A')."""
+"""Contour paths: the contour tool follows every wall at its radius (step 120, A to A'), inside or outside, or its centre the lines."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.geometry.offset import Ring
+from app.geometry.distance import DistanceField
+from app.geometry.offset import Level, Ring, offset_levels
 from app.geometry.primitives import TURN, lengths, reversed_rows
+from app.model.entry import Lead, LeadKind
+from app.model.finding import Finding, FindingKind
 from app.model.moves import Purpose
-from app.model.operation import Direction
+from app.model.operation import ContourOperation, Direction, Side
+from app.model.part import Contour
+from app.model.tool import Tool
+from app.progress import Progress
+from app.toolpath.bitmap_check import check_on_bitmap
 from app.toolpath.build import Stroke, started_at
+from app.toolpath.contour_fit import about_clamps, about_narrow, narrow_places
+from app.toolpath.contour_gaps import Gap, gaps
+from app.toolpath.contour_path import Path
+from app.toolpath.contour_stroke import Extras, stroke_of
+from app.toolpath.dogbone import Bone, about_refused, bones, recorded
+from app.toolpath.lead import Around, Run, about_leads, runs
+from app.toolpath.narrow import too_small
+from app.toolpath.open_line import line_paths
+from app.toolpath.setting import Setting, emit, passes_of
+from app.toolpath.sheets import ROOM, Sheet
+from app.toolpath.side import wall_paths
+from app.toolpath.tab import TabShape, about_far, about_tabs, by_hand, spans_of, spread, tabs_at
+
+_FAR = 4.0
+"""Finish widths; where a finish path is farther than this from what was roughed, it is cut at all depths."""
+
+_THIN = 0.1
+"""Of the cutter's diameter; no more than this is taken off at the full depth of several passes in one."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Work:
+    """A contour operation and what it works on."""
+
+    setting: Setting
+    index: int
+    operation: ContourOperation
+    sheet: Sheet
+    tool: Tool
+
+    @property
+    def wall(self) -> float:
+        """How far the cutter's centre keeps from the walls, mm."""
+        return self.tool.radius + self.operation.cut.stock_to_leave
+
+    @property
+    def is_thick(self) -> bool:
+        """True when the metal left for finishing is too wide to be cut at the full depth in one pass, where there are several."""
+        return passes_of(self.setting, self.index) > 1 and self.operation.finish_width > _THIN * self.tool.diameter * (1 + 1e-9)
+
+    def around(self, distance: float) -> Around:
+        """Return what leads of paths at a distance from the walls go by."""
+        away = 1.0 if self.operation.cut.direction is Direction.CLIMB else -1.0
+        lead = Lead(LeadKind.NONE) if self.operation.side is Side.ON else self.operation.lead
+        return Around(self.sheet.distances, self.tool, distance, away, lead)
+
+
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """Paths with their beginnings and leads, their strokes, and where their tabs are, mm along each."""
+
+    runs: tuple[Run, ...]
+    strokes: tuple[Stroke, ...]
+    tabs: tuple[tuple[float, ...], ...]
+
+
+def contour(setting: Setting, index: int, progress: Progress) -> None:
+    """Steps 120 and 130: offset every contour by the contour tool's radius, and fill the area it bounds; or follow the lines.
+
+    Every path gets its beginning, its leads, its tabs and its dog-bones here. What lies inside other contours is cut before them. A
+    finish pass follows what was roughed at the finish width; spring passes run the last path again, at the floor.
+    """
+    operation = setting.job.operations[index]
+    assert isinstance(operation, ContourOperation)
+    sheet = setting.sheets.of(operation)
+    if sheet is None:
+        return
+    work = _Work(setting, index, operation, sheet, setting.job.tool(operation.cut.tool))
+    rough = None
+    if operation.side is Side.ON:
+        paths, told = line_paths(sheet, work.tool, operation.cut.direction, progress.part(0.0, 0.5))
+        setting.findings.extend(told)
+        finish = _finish(work, paths, ())
+    else:
+        levels = _levels(work, progress.part(0.0, 0.5))
+        found = _looked_at(work, levels[0], progress)
+        paths = wall_paths(levels[0], sheet, operation.cut.direction)
+        finish = _finish(work, paths, _bones(work, found, levels[0], progress))
+        if len(levels) > 1:
+            ways = _bones(work, gaps(levels[1], sheet), levels[1], progress) if operation.dog_bones else ()
+            rough = _rough(work, wall_paths(levels[1], sheet, operation.cut.direction), levels[1].distance, finish, ways)
+            setting.findings.extend(_about_thick(work))
+    progress.step(0.7, "Contours")
+    emit(setting, index, sheet, _together(work, finish, rough), progress.part(0.7, 1.0))
+
+
+def _about_thick(work: _Work) -> list[Finding]:
+    """Return the remark that the finish pass is stepped down though it was asked for once, at the floor."""
+    if work.operation.finish_each_pass or not work.is_thick:
+        return []
+    width, tool = work.operation.finish_width, work.tool
+    text = (f"The finish pass of T{tool.number} {tool.label} takes {width:g} mm, more than {100 * _THIN:g} % of the cutter's diameter; "
+            "too much for the full depth at once, so it is cut at every depth.")
+    return [Finding(FindingKind.ENGAGEMENT, text, counts=False, amount=width)]
+
+
+def _levels(work: _Work, progress: Progress) -> tuple[Level, ...]:
+    width = work.operation.finish_width
+    distances = [work.wall, work.wall + width] if width else [work.wall]
+    levels = offset_levels(work.sheet.primitives, distances, progress, frame=True)
+    work.setting.note(levels)
+    return levels
+
+
+def _looked_at(work: _Work, level: Level, progress: Progress) -> list[Gap]:
+    """Return what of the walls the cutter does not touch; say where it does not fit, and whether the bitmap agrees (step 130)."""
+    setting, sheet, tool = work.setting, work.sheet, work.tool
+    progress.step(0.5, "Fill")
+    setting.on_bitmap = check_on_bitmap(sheet.distances, level, setting.observer)
+    setting.findings.extend(setting.on_bitmap.findings())
+    found = gaps(level, sheet)
+    places = narrow_places(found, sheet, level.distance)
+    setting.findings.extend(too_small(sheet.regions, level, tool, counts=work.operation.side is Side.INSIDE or _is_last(work)))
+    setting.findings.extend(about_narrow(places, tool, level.distance, work.operation.side is Side.OUTSIDE and _is_last(work)))
+    layers = work.operation.cut.layers
+    walls: list[Contour] = [each for each in setting.sheets.drawn.closed if not layers or each.layer in layers]
+    setting.findings.extend(about_clamps(places, walls, setting.sheets.drawn.clamps, tool))
+    return found
+
+
+def _is_last(work: _Work) -> bool:
+    """Tell whether no other contour operation of the job follows the same walls with a smaller tool, as deep."""
+    job, own = work.setting.job, work.operation
+    others = [each for each in job.operations if isinstance(each, ContourOperation) and each.cut.enabled and each.side is own.side]
+    return not any(each.cut.layers == own.cut.layers and each.cut.floor >= own.cut.floor
+                   and job.tool(each.cut.tool).radius + each.cut.stock_to_leave < work.wall - 1e-9 for each in others)  # fmt: skip
+
+
+def _bones(work: _Work, found: Sequence[Gap], level: Level, progress: Progress) -> tuple[Bone, ...]:
+    if not work.operation.dog_bones:
+        return ()
+    made, refused = bones(found, work.sheet, level.distance, progress)
+    work.setting.dog_bones.extend(recorded(made, work.tool.diameter))
+    work.setting.findings.extend(about_refused(refused))
+    return made
+
+
+def _finish(work: _Work, paths: Sequence[Path], ways: Sequence[Bone]) -> _Made:
+    """Return the paths along the walls themselves, with tabs by hand and automatic ones."""
+    setting, wanted = work.setting, work.operation.tabs
+    shape = TabShape.of(work.operation, work.tool)
+    own = by_hand(paths, shape, setting.job.copies.shifts, _followed(work, paths))
+    taken = [spans_of(path, places, shape.half) for path, places in zip(paths, own, strict=True)]
+    around = work.around(work.wall)
+    made = runs(paths, taken, around)
+    tabs = tuple((*places, *spread(run, places, shape, around)) for run, places in zip(made, own, strict=True))
+    setting.findings.extend(about_leads(made, around, ROOM if work.operation.side is Side.OUTSIDE else 0.0))
+    if wanted.wanted:
+        setting.findings.extend(about_far(paths, shape, setting.job.copies.shifts))
+        setting.findings.extend(about_tabs(made, tabs, shape, work.operation))
+        setting.tabs.extend(tab for run, places in zip(made, tabs, strict=True) for tab in tabs_at(run.path, places, shape))
+    extras = Extras(shape.half, shape.top, ways)
+    return _Made(made, tuple(stroke_of(run, places, extras) for run, places in zip(made, tabs, strict=True)), tabs)
+
+
+def _followed(work: _Work, paths: Sequence[Path]) -> DistanceField | None:
+    """Return what the paths follow: real walls, or themselves."""
+    if work.operation.side is not Side.ON:
+        return DistanceField.of(work.sheet.distances.rows[~work.sheet.bare]) if not work.sheet.bare.all() else None
+    return DistanceField.of(np.concatenate([path.rows for path in paths])) if paths else None
+
+
+def _rough(work: _Work, paths: Sequence[Path], distance: float, finish: _Made, ways: Sequence[Bone]) -> _Made:
+    """Return the paths that leave the finish width, with their tabs where the finish path has its own."""
+    shape = TabShape.of(work.operation, work.tool)
+    width = work.operation.finish_width
+    tabs: list[list[float]] = [[] for _ in paths]
+    middles = [run.path.points(np.array(places)) for run, places in zip(finish.runs, finish.tabs, strict=True) if places]
+    if middles and paths:
+        points = np.concatenate(middles)
+        near = [path.nearest(points) for path in paths]
+        for k, owner in enumerate(np.argmin(np.array([far for _, far in near]), axis=0).tolist()):
+            if near[owner][1][k] <= _FAR * width:
+                tabs[owner].append(float(near[owner][0][k]))
+    taken = [spans_of(path, places, shape.half) for path, places in zip(paths, tabs, strict=True)]
+    made = runs(paths, taken, work.around(distance), _beginnings(paths, finish, _FAR * width))
+    extras = Extras(shape.half, shape.top, ways)
+    return _Made(made, tuple(stroke_of(run, places, extras) for run, places in zip(made, tabs, strict=True)), tuple(map(tuple, tabs)))
+
+
+def _beginnings(paths: Sequence[Path], finish: _Made, most: float) -> list[list[float]]:
+    """Return for each path that is roughed where finish paths begin beside it, so that the leads of both lie over one another."""
+    wished: list[list[float]] = [[] for _ in paths]
+    if paths and finish.runs:
+        points = np.concatenate([run.path.points(np.array([run.start])) for run in finish.runs])
+        for path, own in zip(paths, wished, strict=True):
+            where, far = path.nearest(points)
+            own.extend(where[far <= most].tolist())
+    return wished
+
+
+def _together(work: _Work, finish: _Made, rough: _Made | None) -> list[Stroke]:
+    """Return all strokes in groups: what is roughed, its finish path, and that once more for each spring pass.
+
+    Paths that lie in others have a lower rank, so that a part is cut out last. A finish path that does not run beside what was roughed,
+    such as in a neck that only it fits into, is cut at every depth, and so nowhere through full metal in one pass; so is every finish path
+    that takes off more than thin metal.
+    """
+    operation = work.operation
+    top = max((run.path.rank for run in finish.runs), default=0) if operation.side is not Side.INSIDE else 0
+    owners = _owners(finish, rough) if rough else []
+    stepped = operation.finish_each_pass or work.is_thick
+    beside = _beside(finish.runs, rough.runs, operation.finish_width) if rough else [False] * len(finish.runs)
+    strokes: list[Stroke] = []
+    for k, (run, stroke) in enumerate(zip(finish.runs, finish.strokes, strict=True)):
+        before = [rough.strokes[j] for j, owner in enumerate(owners) if owner == k] if rough else []
+        last = replace(stroke, at_floor=beside[k] and not stepped)
+        group = [*before, last, *[replace(stroke, at_floor=True)] * operation.spring_passes]
+        rank = top - run.path.rank if operation.side is not Side.INSIDE else 0
+        strokes.extend(replace(each, follows=j > 0, rank=rank) for j, each in enumerate(group))
+    return strokes
+
+
+def _owners(finish: _Made, rough: _Made) -> list[int]:
+    """Return for each path that is roughed which finish path it belongs to: the nearest."""
+    if not rough.runs:
+        return []
+    points = np.array([run.path.rows[0, :2] for run in rough.runs])
+    far = np.array([run.path.nearest(points)[1] for run in finish.runs])
+    return [int(k) for k in np.argmin(far, axis=0)]
+
+
+def _beside(finish: Sequence[Run], rough: Sequence[Run], width: float) -> list[bool]:
+    """Tell for each finish path whether all of it runs beside what was roughed."""
+    if not rough:
+        return [False] * len(finish)
+    field = DistanceField.of(np.concatenate([run.path.rows for run in rough]))
+    found = []
+    for run in finish:
+        where = np.arange(0.0, run.path.length, max(width, run.path.length / 2000))
+        found.append(bool((field.nearest(run.path.points(where))[0] <= _FAR * width).all()))
+    return found
 
 
 def contour_strokes(rings: Sequence[Ring], direction: Direction) -> tuple[Stroke, ...]:
-    """Return one closed stroke a ring.
+    """Return one closed stroke a ring that is no exact level, such as those of pixels; it has no leads, tabs or dog-bones.
 
     The wall is on the right of a ring's own direction, so climb milling keeps it. Each starts in the middle of its
     longest line, away from corners.
@@ -29,22 +269,3 @@ def contour_strokes(rings: Sequence[Ring], direction: Direction) -> tuple[Stroke
         rows = started_at(rows, int(np.argmax(size)), 0.5)
         strokes.append(Stroke(rows, np.full(len(rows), Purpose.CONTOUR, np.uint8), ring.region))
     return tuple(strokes)
-
-
-def nearest_first(strokes: Sequence[Stroke], start: tuple[float, float] = (0.0, 0.0)) -> tuple[Stroke, ...]:
-    """Return the strokes in an order of short rapids: always on to the one that begins nearest.
-
-    Args:
-        start: where the tool is before the first one, mm.
-    """
-    starts = np.array([stroke.start for stroke in strokes]).reshape(-1, 2)
-    left = np.ones(len(strokes), np.bool_)
-    at = np.array(start)
-    order = []
-    for _ in strokes:
-        distance = np.where(left, np.hypot(*(starts - at).T), np.inf)
-        k = int(np.argmin(distance))
-        left[k] = False
-        order.append(strokes[k])
-        at = strokes[k].rows[-1, 2:4]
-    return tuple(order)

@@ -1,18 +1,17 @@
 """What is left on the floor: measured from the moves themselves, not from what made them.
 
-Three areas are told apart on the floor of the deepest pass: cleared; left although a tool of the job could cut it
-(must be 0); out of reach of every tool of the job. Of paths made from pixels, the skin that they leave along the walls
+Three areas are told apart on every floor: cleared; left although a tool of the job could cut it
+(must be 0); out of reach of every tool of the job (`wanted.py`). Of paths made from pixels, the skin that they leave along the walls
 so as to be nowhere too near is a fourth: what no tool reaches that keeps their allowance from the walls, next to floor
-that is cleared; a passage with no path in it is no skin. A tool of radius r
-that keeps the stock to leave reaches the opening of the area by its disc. The swept area is the union of all cutting
+that is cleared; a passage with no path in it is no skin. The swept area is the union of all cutting
 moves at full depth, each as wide as its tool. Method: polygons (shapely), arcs as chords within CHORD, wherever exact
 distances do not prove the floor cleared; strips thinner than STRIP are numeric and not counted.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 import shapely
@@ -24,20 +23,15 @@ from app.geometry.primitives import Rows
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program
-from app.model.operation import Operation, PocketOperation
-from app.model.part import Region
+from app.model.tool import ToolKind
 from app.progress import NO_PROGRESS, Progress
-from app.toolpath.flat import flattened, grown, lines, move_rows, region_shapes
+from app.toolpath.flat import flattened, grown, lines, move_rows
 from app.toolpath.proven import uncertain
-
-CHORD = 1e-3
-"""mm; arcs are measured as chords that stay within this of them."""
+from app.toolpath.reachable import Fields, reached
+from app.toolpath.wanted import CHORD, Wanted, wanted_of
 
 STRIP = 0.01
 """mm; what is narrower than this is no material but the chords' own error."""
-
-_FITS = 2e-3
-"""mm by which a gap may be narrower than a tool that still counts as fitting: chords make it so by up to 1 um a side."""
 
 _THICK = 1.5
 """Allowances; metal in which a disc of this radius fits is no skin, not even in a corner."""
@@ -48,6 +42,12 @@ _TIP = 4.0
 _DEPTH = 1e-6
 """mm by which a computed move may miss the floor and still count as on it."""
 
+
+_BACK = -0.9
+"""Cosine of a turn; a sharper one counts as going back."""
+
+_ASKED = 16
+"""Points on the rim of a piece towards which it is asked whether a cutter's centre can be near."""
 
 _RUN = 64
 """Moves that are widened in one go; longer runs cross themselves too often for the library."""
@@ -84,8 +84,8 @@ class Coverage:
         unreachable_mm2: out of reach of every tool of the job.
         largest_disc_mm: diameter of the largest disc that would fit where no tool reaches, mm; 0 = nowhere.
         places: every piece, the largest disc first.
-        area_mm2: the whole floor.
-        floor_mm: depth at which it was measured, mm.
+        area_mm2: all floors.
+        floor_mm: depth of the deepest floor, mm.
         given_up: the skin that paths made from pixels left along the walls on purpose, the largest disc first; not among the places.
         given_up_mm: how thick it may be, mm; 0 for exact paths.
     """
@@ -118,21 +118,36 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: 
         Cancelled: the job was asked to stop.
     """
     progress.step(0.0, "Measuring what is left")
-    areas = areas_of(program.regions, job)
-    if areas is None:
-        return Coverage()
-    left = _left(areas.wanted, program.moves, (job, areas.depth - miss), progress)
-    corners = _solid(shapely.difference(areas.floor, areas.reach))
-    off = program.allowance_mm
-    if not off:
-        return _coverage(areas.floor.area, areas.depth, _places(left, True), _places(corners, False))
-    skin = _skin(left, areas, _reached(region_shapes(program.regions, CHORD), _enabled(job), job, off), off)
-    left = _solid(shapely.difference(left, skin))
-    found = _coverage(areas.floor.area, areas.depth, _places(left, True), _places(corners, False))
-    return replace(found, given_up=_places(skin, True), given_up_mm=off)
+    found = wanted_of(program, job)
+    inner = wanted_of(program, job, program.allowance_mm) if program.allowance_mm else found
+    fields = Fields()
+    left: list[Place] = []
+    corners: list[Place] = []
+    skins: list[Place] = []
+    for k, (each, deeper) in enumerate(zip(found, inner, strict=True)):
+        metal = _left(each.wanted, program.moves, (job, each.depth - miss), progress.part(k / len(found), (k + 1) / len(found)))
+        if program.allowance_mm:
+            skin = _skin(metal, each, deeper.reach, program.allowance_mm)
+            metal = _solid(shapely.difference(metal, skin))
+            skins += _places(skin, True)
+        for place in _places(metal, True):
+            within = reached(_inner(place), each.cutters, fields) or not each.cutters
+            (left if within else corners).append(place if within else replace(place, reachable=False))
+        corners += _places(_solid(shapely.difference(each.floor, each.reach)), False)
+    for places in (left, corners, skins):
+        places.sort(key=lambda place: -place.disc_mm)
+    return Coverage(
+        reachable_left_mm2=sum(place.area_mm2 for place in left),
+        unreachable_mm2=sum(place.area_mm2 for place in corners),
+        largest_disc_mm=max((place.disc_mm for place in corners), default=0.0),
+        places=(*left, *corners),
+        area_mm2=sum(float(each.floor.area) for each in found),
+        floor_mm=max((each.depth for each in found), default=0.0),
+        given_up=tuple(skins), given_up_mm=program.allowance_mm,
+    )  # fmt: skip
 
 
-def _skin(left: Shape, areas: Areas, inner: Shape, off: float) -> Shape:
+def _skin(left: Shape, areas: Wanted, inner: Shape, off: float) -> Shape:
     """Return what of the metal left is but a skin along walls that paths follow.
 
     Args:
@@ -144,85 +159,12 @@ def _skin(left: Shape, areas: Areas, inner: Shape, off: float) -> Shape:
     return _solid(shapely.intersection(shapely.difference(beyond, thick), cleared))
 
 
-@dataclass(frozen=True, eq=False)
-class Areas:
-    """Areas at the floor of the deepest pass, part coordinates.
-
-    Attributes:
-        depth: of the floor, mm below Z 0.
-        floor: within the walls and their stock to leave.
-        reach: of it, what some tool of the job reaches.
-        wanted: of that, what is to be cleared.
-    """
-
-    depth: float
-    floor: Shape
-    reach: Shape
-    wanted: Shape
-
-
-def areas_of(regions: Sequence[Region], job: Job) -> Areas | None:
-    """Return what a job has to clear of regions; None where it clears nothing.
-
-    With a pocket operation that is the whole of every region; with contour operations alone, the band along the walls that a
-    contour tool is wide.
-    """
-    operations = _enabled(job)
-    if not operations or not regions:
-        return None
-    pockets = [operation for operation in operations if isinstance(operation, PocketOperation)]
-    shapes = region_shapes(regions, CHORD)
-    leave = min(operation.cut.stock_to_leave for operation in operations)
-    floor = shapely.union_all(grown(shapes, -leave, CHORD) if leave else shapes)
-    reach = _reached(shapes, operations, job)
-    wanted = reach if pockets else shapely.difference(reach, _beyond_band(shapes, operations, job))
-    return Areas(max(operation.cut.depth for operation in pockets or operations), floor, reach, wanted)
-
-
-def _coverage(area: float, floor: float, left: tuple[Place, ...], corners: tuple[Place, ...]) -> Coverage:
-    return Coverage(
-        reachable_left_mm2=sum(place.area_mm2 for place in left),
-        unreachable_mm2=sum(place.area_mm2 for place in corners),
-        largest_disc_mm=max((place.disc_mm for place in corners), default=0.0),
-        places=left + corners,
-        area_mm2=float(area),
-        floor_mm=floor,
-    )
-
-
-def _farthest(operations: list[Operation], job: Job) -> list[Operation]:
-    """Return the operations whose tools reach farthest: what any other one reaches, one of these does."""
-    size = [(job.tool(each.cut.tool).radius, each.cut.stock_to_leave) for each in operations]
-    smallest = [a for a in set(size) if not any(b != a and b[0] <= a[0] and b[1] <= a[1] for b in size)]
-    return [operations[size.index(each)] for each in smallest]
-
-
-def _enabled(job: Job) -> list[Operation]:
-    return [operation for operation in job.operations if operation.cut.enabled]
-
-
-def _reached(regions: NDArray[np.object_], operations: list[Operation], job: Job, off: float = 0.0) -> Shape:
-    """Return what some tool can cut that keeps `off` mm farther from the walls than asked."""
-    return shapely.union_all([_reach(regions, operation, job, off) for operation in _farthest(operations, job)])
-
-
-def _reach(regions: NDArray[np.object_], operation: Operation, job: Job, off: float) -> Shape:
-    """Return what the operation's tool can cut without touching a wall: the opening by its disc."""
-    radius = job.tool(operation.cut.tool).radius - _FITS
-    return shapely.union_all(grown(grown(regions, -radius - operation.cut.stock_to_leave - off, CHORD), radius, CHORD))
-
-
-def _beyond_band(regions: NDArray[np.object_], operations: list[Operation], job: Job) -> Shape:
-    """Return what lies farther from the walls than a contour pass is wide."""
-    widths = [2 * job.tool(each.cut.tool).radius + each.cut.stock_to_leave for each in operations]
-    return shapely.union_all(grown(regions, -min(widths), CHORD))
-
-
 def _left(wanted: Shape, moves: Moves, where: tuple[Job, float], progress: Progress) -> Shape:
     """Return what of a wanted area no move has cut that is as deep as the floor, or deeper."""
     job, depth = where
     deep = np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -depth
-    chosen = deep & (moves.kind != MoveKind.RAPID)
+    drills = [tool.number for tool in job.tools if tool.kind is ToolKind.DRILL]  # their tips leave a cone
+    chosen = deep & (moves.kind != MoveKind.RAPID) & ~np.isin(moves.tool, drills)
     numbers = [int(number) for number in np.unique(moves.tool[chosen])]
     paths = [_Path(np.flatnonzero(chosen & (moves.tool == number)), moves, job.tool(number).radius) for number in numbers]
     tiles = uncertain(wanted, [(path.rows, path.radius) for path in paths], progress)
@@ -245,7 +187,21 @@ class _Path:
         rough = self.radius / 20  # who is near is asked with few chords, and with as much more reach
         moves = np.unique(near(tree, lines(self.rows, rough), self.radius + rough + STRIP)[0])
         runs = _runs(self.rows[moves], self._chosen[moves])
-        return shapely.union_all([shape for points in runs for shape in _widened(points, self.radius)])
+        parts = [part for points in runs for part in _between_reversals(points)]
+        return shapely.union_all([shape for points in parts for shape in _widened(points, self.radius)])
+
+
+def _between_reversals(points: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    """Return the parts of a path between places where it goes back the way it came: there the library rounds off no end."""
+    moved = np.any(np.diff(points, axis=0) != 0, axis=1)
+    if not moved.any():
+        return [points]
+    points = points[np.concatenate([[True], moved])]
+    way = np.diff(points, axis=0)
+    size = np.hypot(way[:, 0], way[:, 1])
+    back = np.einsum("ij,ij->i", way[1:], way[:-1]) < _BACK * size[1:] * size[:-1]
+    cuts = [0, *(np.flatnonzero(back) + 1).tolist(), len(points) - 1]
+    return [points[a:b + 1] for a, b in pairwise(cuts)]
 
 
 def _widened(points: NDArray[np.float64], radius: float) -> list[Shape]:
@@ -294,6 +250,16 @@ def _places(shape: Shape, reachable: bool) -> tuple[Place, ...]:
     return tuple(sorted(places, key=lambda place: -place.disc_mm))
 
 
+def _inner(place: Place) -> NDArray[np.float64]:
+    """Return points (n, 2) all over a piece, the middle of its largest disc first."""
+    middle = np.array([[place.x, place.y]])
+    rim = place.outline[np.unique(np.linspace(0, len(place.outline) - 1, _ASKED).astype(int))]
+    points = np.concatenate([middle, *(middle + part * (rim - middle) for part in (0.45, 0.9))])
+    shape = shapely.Polygon(place.outline, place.holes)
+    inside: NDArray[np.float64] = points[np.asarray(shapely.intersects(shape, shapely.points(points)))]
+    return inside
+
+
 def coverage_findings(coverage: Coverage) -> tuple[Finding, ...]:
     """Return what there is to say: material left within reach counts, corners out of reach are a remark."""
     findings = []
@@ -304,9 +270,9 @@ def coverage_findings(coverage: Coverage) -> tuple[Finding, ...]:
         worst, count = places[0], len(places)
         spots = "1 place" if count == 1 else f"{count} places"
         if reachable:
-            remedy = "a smaller pocket tool or a larger bitmap" if coverage.given_up_mm else "a smaller pocket tool or stepover"
+            remedy = "use a smaller pocket tool or a larger bitmap" if coverage.given_up_mm else "add rest machining, or use a smaller tool"
             text = (f"{area:.3f} mm2 of material within reach is left in {spots}, the worst {worst.disc_mm:.3f} mm wide "
-                    f"at ({worst.x:.3f}, {worst.y:.3f}); use {remedy}.")
+                    f"at ({worst.x:.3f}, {worst.y:.3f}); {remedy}.")
         else:
             text = (f"{area:.3f} mm2 in {spots} is out of reach of every tool; a disc of {worst.disc_mm:.3f} mm "
                     f"would fit at ({worst.x:.3f}, {worst.y:.3f}); a smaller contour tool reaches farther.")

@@ -7,15 +7,36 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
 
 from app.geometry.distance import DistanceField
-from app.geometry.offset import Level, Ring
-from app.geometry.primitives import contour_rows, sample
+from app.geometry.offset import Level, Ring, offset_levels
+from app.geometry.primitives import Primitives, contour_rows, sample
 from app.model.finding import Finding, FindingKind
 from app.model.part import Region
 from app.model.tool import Tool
+from app.toolpath.bridge import level_bridges
+from app.toolpath.link_tree import Tree
 
 _CHORD = 1e-3
+
+_NARROWER = 1e-3
+"""mm; a neck that a tool does not pass is told as at least so much narrower than the tool needs."""
+
+_TELL = 20
+"""Necks told one by one."""
+
+_LOWER = 8
+"""Levels below the tool's at which is looked for where parts come together."""
+
+_WINDOWS = ((0.8, 25), (0.8, 161), (2.0, 161), (6.0, 161))
+"""Half sides of grids, in distances between the two parts, and points along a side: a neck may lie far off, or be much narrower."""
+
+_REFINED = 3
+
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -71,49 +92,120 @@ def largest_disc(region: Region) -> tuple[float, float, float]:
     return float(x), float(y), 2 * float(radius.length)
 
 
-def necks(level: Level, field: DistanceField, tool: Tool) -> list[Finding]:
-    """Return a finding for each place where a region falls into parts because the tool does not fit through.
+def necks(level: Level, primitives: Primitives, field: DistanceField, tool: Tool) -> list[Finding]:
+    """Return a finding for each place where a region falls into parts because the tool does not fit through; one for all beyond some.
 
-    The place is the narrowest one on the straight way between two parts, moved across the way to where there is most room.
+    The place is the narrowest one of the widest way between two parts next to each other.
+
+    Args:
+        level: the rings of the tool's centre.
+        primitives, field: what bounds the regions, and distances from it.
     """
     need = Need(tool, 2 * level.distance)
     findings = []
-    for number in dict.fromkeys(ring.region for ring in level.rings):
-        parts = [_polygon(ring) for ring in level.rings if ring.region == number and ring.area > 0]
-        for a, b in _nearest_pairs(parts):
-            (x, y), room = _narrowest(a, b, field)
-            text = f"Region {number} has a neck at ({x:.3f}, {y:.3f}), about {2 * room:.2f} mm wide; {need.text}."
-            findings.append(Finding(FindingKind.NECK_TOO_NARROW, text, float(x), float(y), counts=False, amount=2 * room))
+    pairs = _nearest_pairs(level)
+    lower = offset_levels(primitives, [level.distance * k / _LOWER for k in range(1, _LOWER)]) if pairs else ()
+    outlines = [np.array([_outline(ring) for ring in each.rings if ring.area > 0], dtype=object) for each in lower]
+    for a, b, region in pairs[:_TELL]:
+        (x, y), room = _narrowest(*_at_the_neck(a, b, outlines), field)
+        width = min(2 * room, need.width - _NARROWER)
+        text = f"Region {region} has a neck at ({x:.3f}, {y:.3f}), about {width:.3f} mm wide; {need.text}."
+        findings.append(Finding(FindingKind.NECK_TOO_NARROW, text, float(x), float(y), counts=False, amount=width))
+    if len(pairs) > _TELL:
+        x, y = (float(value) for value in (pairs[_TELL][0] + pairs[_TELL][1]) / 2)
+        text = f"{len(pairs) - _TELL} more necks are too narrow; {need.text}."
+        findings.append(Finding(FindingKind.NECK_TOO_NARROW, text, x, y, counts=False, amount=float(len(pairs) - _TELL)))
     return findings
 
 
-def _narrowest(a: np.ndarray, b: np.ndarray, field: DistanceField) -> tuple[np.ndarray, float]:
-    """Return (place, distance from the drawing) of the neck between two points."""
-    way = np.linspace(a, b, 65)
-    place = way[int(np.argmin(field.nearest(way)[0]))]
-    along = (b - a) / max(float(np.hypot(*(b - a))), 1e-9)
-    across = np.array([-along[1], along[0]])
-    reach = float(field.nearest(place[None])[0][0])
-    for _ in range(6):  # ever finer steps across the way, towards more room
-        places = place + across * np.linspace(-reach, reach, 33)[:, None]
-        room = field.nearest(places)[0]
-        place, reach = places[int(np.argmax(room))], reach / 8
-    return place, float(room.max())
+def _nearest_pairs(level: Level) -> list[tuple[Floats, Floats, int]]:
+    """Return (ends of the shortest ways that join all parts of a region, region), one less than there are parts."""
+    parts = [k for k, ring in enumerate(level.rings) if ring.area > 0]
+    if len(parts) < 2:
+        return []
+    tree = Tree(len(level.rings))
+    pairs = []
+    for bridge, (a, b) in level_bridges(level.rings, parts, range(len(level.rings)), level.distance / 2):
+        if not tree.joined(bridge):
+            tree.add(bridge)
+            pairs.append((a, b, level.rings[bridge.a.ring].region))
+    return pairs
 
 
-def _polygon(ring: Ring) -> shapely.Polygon:
+def _outline(ring: Ring) -> shapely.Polygon:
     return shapely.Polygon(sample(ring.rows, _CHORD)) if len(ring.rows) > 2 else shapely.Point(ring.rows[0, :2]).buffer(1e-6)
 
 
-def _nearest_pairs(parts: Sequence[shapely.Polygon]) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return the ends of the shortest ways that join all parts, one less than there are parts."""
-    joined, rest = list(parts[:1]), list(parts[1:])
-    pairs = []
-    while rest:
-        tree = shapely.STRtree(joined)
-        (own, other), distance = tree.query_nearest(rest, return_distance=True, all_matches=False)
-        k = int(np.argmin(distance))
-        part = rest.pop(int(own[k]))
-        pairs.append(tuple(shapely.get_coordinates(shapely.shortest_line(part, joined[int(other[k])]))))
-        joined.append(part)
-    return pairs
+def _at_the_neck(a: Floats, b: Floats, outlines: Sequence[NDArray[np.object_]]) -> tuple[Floats, Floats]:
+    """Return the nearest points of the areas round two points at the first level that parts them.
+
+    Args:
+        outlines: of the areas at rising levels.
+    """
+    for areas in outlines:
+        if not len(areas):
+            return a, b
+        sizes = shapely.area(areas)
+        one, other = (areas[np.lexsort((sizes, shapely.distance(areas, shapely.Point(point))))[0]] for point in (a, b))
+        if one is not other:
+            ends = shapely.get_coordinates(shapely.shortest_line(one, other))
+            return (ends[0], ends[1]) if np.any(ends[0] != ends[1]) else (a, b)
+    return a, b
+
+
+def _narrowest(a: Floats, b: Floats, field: DistanceField) -> tuple[Floats, float]:
+    """Return (place, distance from the drawing) of the neck between two points: where the widest way is narrowest."""
+    way, reach = next((widest for window in _WINDOWS if len((widest := _widest_way(a, b, window, field))[0])),
+                      (a + (b - a) * np.linspace(0, 1, 65)[:, None], float(np.hypot(*(b - a))) / 16))  # fmt: skip
+    for _ in range(_REFINED):
+        way = _to_the_middle(way, reach, field)
+        room = field.nearest(way)[0]
+        k = int(np.argmin(room))
+        found: tuple[Floats, float] = way[k], float(room[k])
+        before, after, part = way[max(k - 1, 0)], way[min(k + 1, len(way) - 1)], np.linspace(0, 1, 5)[:, None]
+        way = np.concatenate([before + (way[k] - before) * part, (way[k] + (after - way[k]) * part)[1:]])
+        reach /= 2
+    return found
+
+
+def _to_the_middle(way: Floats, reach: float, field: DistanceField) -> Floats:
+    """Return the points (n, 2) of a way moved across it, by `reach` mm or less, to where they have most room; over no wall."""
+    along = np.gradient(way, axis=0)
+    size = np.hypot(*along.T)
+    across = np.stack([-along[:, 1], along[:, 0]], 1) / np.where(size > 0, size, 1.0)[:, None]
+    for _ in range(5):
+        steps = np.linspace(-reach, reach, 9)
+        places = way[:, None] + across[:, None] * steps[:, None]
+        room = field.nearest(places.reshape(-1, 2))[0].reshape(len(way), -1)
+        room[field.nearest(way)[0][:, None] + room <= np.abs(steps)] = -1.0
+        way = places[np.arange(len(way)), np.argmax(room, axis=1)]
+        reach /= 3
+    return way
+
+
+def _widest_way(a: Floats, b: Floats, window: tuple[float, int], field: DistanceField) -> tuple[Floats, float]:
+    """Return (points (n, 2) of the way over a grid round two points that keeps most distance, pitch of the grid, mm).
+
+    Two grid points are neighbours when their discs without a wall overlap, so no way crosses one; n = 0 without such a way.
+
+    Args:
+        window: half the grid's side in distances of the two points, and how many points it has along a side.
+    """
+    half, side = window[0] * float(np.hypot(*(b - a))), window[1]
+    axis, pitch = np.linspace(-half, half, side), 2 * half / (side - 1)
+    points = (a + b) / 2 + np.stack(np.meshgrid(axis, axis, indexing="ij"), -1).reshape(-1, 2)
+    room = field.nearest(points)[0]
+    number = np.arange(side**2).reshape(side, side)
+    sides = ((number[1:], number[:-1]), (number[:, 1:], number[:, :-1]), (number[1:, 1:], number[:-1, :-1]),
+             (number[1:, :-1], number[:-1, 1:]))
+    pairs = np.concatenate([np.stack([one.ravel(), other.ravel()], 1) for one, other in sides])
+    pairs = pairs[room[pairs].sum(axis=1) > np.hypot(*(points[pairs[:, 0]] - points[pairs[:, 1]]).T)]
+    graph = coo_matrix((2 * room.max() - room[pairs].min(axis=1), (pairs[:, 0], pairs[:, 1])), (side**2, side**2))
+    start, end = (int(np.argmin(np.hypot(*(points - point).T))) for point in (a, b))
+    before = breadth_first_order(minimum_spanning_tree(graph), start, directed=False)[1]
+    way = [end]
+    while way[-1] != start:
+        if before[way[-1]] < 0:
+            return points[:0], pitch
+        way.append(int(before[way[-1]]))
+    return points[way[::-1]], pitch

@@ -3,17 +3,137 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from app import tolerances
 from app.errors import ParameterError
 from app.geometry.distance import DistanceField
-from app.geometry.offset import Level
-from app.model.operation import PocketOperation
+from app.geometry.offset import Level, offset_levels
+from app.geometry.primitives import lengths
+from app.model.job import Job
+from app.model.operation import ContourOperation, PocketOperation, Side
 from app.model.tool import Tool
+from app.progress import NO_PROGRESS, Progress
+from app.toolpath.build import Stroke
+from app.toolpath.link import Manner, link
+from app.toolpath.narrow import necks, too_small
+from app.toolpath.runs import NOTHING, Filling, between, fill
+from app.toolpath.setting import Setting, emit, passes_of
+from app.toolpath.sheets import Sheet
+
+_SHARES = (1.6, 1.8, 1.7, 1.75, 1.65, 1.5, 1.4)
+"""Of the radius: stepovers that are compared; the first is the best guess."""
+
+MOST_COMPARED = 20_000
+"""Rows of a drawing up to which stepovers are compared."""
+
+MOST_LINKED = 0.05
+"""Share of a path that bridges and runs between rings should not exceed."""
+
+_FAR_TOO_LINKED = 0.075
+"""Where it is this much, larger stepovers are not looked at."""
+
+
+def pocket(setting: Setting, index: int, progress: Progress) -> None:
+    """Steps 141-148: rings inside A', linked to one stroke a connected area."""
+    operation = setting.job.operations[index]
+    assert isinstance(operation, PocketOperation)
+    sheet, tool = setting.sheets.of(operation), setting.job.tool(operation.cut.tool)
+    if sheet is None:
+        return
+    wall = wall_distance(setting.job, operation)
+    outermost = max(wall, operation.cut.stock_to_leave) + tool.radius
+    stepovers = (stepover_of(operation, tool),) if operation.stepover else candidates(tool.radius, len(sheet.primitives.rows))
+    manner = Manner(operation.cut.direction, operation.outside_in)
+    chosen = shortest(sheet, Wanted(outermost, tool.radius, manner), stepovers, progress.part(0, 0.9))
+    setting.note((*chosen.levels, *chosen.filling.halves))
+    first = chosen.levels[0] if chosen.levels else Level(outermost, ())
+    setting.findings.extend(too_small(sheet.regions, first, tool, counts=wall == 0))
+    setting.findings.extend(necks(first, sheet.primitives, sheet.distances, tool))
+    setting.strokes += len(chosen.strokes) * passes_of(setting, index)
+    emit(setting, index, sheet, chosen.strokes, progress.part(0.9, 1.0))
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """How an area is to be cleared.
+
+    Attributes:
+        outermost: distance of the outermost rings from the walls, mm.
+        radius: of the tool, mm.
+        manner: direction and order.
+    """
+
+    outermost: float
+    radius: float
+    manner: Manner
+
+
+@dataclass(frozen=True, eq=False)
+class Cleared:
+    """Rings that clear an area, and the strokes through them.
+
+    Attributes:
+        levels: rings, outermost first. filling: what cuts all that they leave. strokes: all of it.
+        length: of all strokes, mm.
+        linked: share of it that is no ring: bridges, and runs between rings.
+    """
+
+    levels: tuple[Level, ...] = ()
+    filling: Filling = NOTHING
+    strokes: tuple[Stroke, ...] = ()
+    length: float = 0.0
+    linked: float = 0.0
+
+
+def candidates(radius: float, rows: int) -> tuple[float, ...]:
+    """Return the stepovers that are looked at for the shortest path, mm; one alone where a drawing has very many rows."""
+    return tuple(share * radius for share in (_SHARES if rows <= MOST_COMPARED else _SHARES[:1]))
+
+
+def shortest(sheet: Sheet, wanted: Wanted, stepovers: Sequence[float], progress: Progress = NO_PROGRESS) -> Cleared:
+    """Return the shortest of the ways to clear an area, each with another stepover, that keep to the share of links if one does.
+
+    Raises:
+        Cancelled: by progress.
+    """
+    plans = [(spaced, between(spaced, stepover, wanted.radius)) for stepover in stepovers
+             if (spaced := pocket_distances(wanted.outermost, stepover, sheet.distances))]
+    each = sorted({distance for plan in plans for part in plan for distance in part})
+    found = dict(zip(each, offset_levels(sheet.primitives, each, progress.part(0, 0.5), frame=True), strict=True))
+    best, too_far = Cleared(), math.inf
+    for k, (distances, halves) in enumerate(plans):
+        progress.step(0.5 + 0.5 * k / len(plans), "Link rings")
+        levels = without_empty(tuple(found[distance] for distance in distances))
+        if not levels:
+            return best
+        rings = sum(ring.length for level in levels for ring in level.rings)
+        if best.strokes and ((best.linked <= MOST_LINKED and rings >= best.length) or stepovers[k] > too_far):
+            continue
+        filling = fill(levels, [found[distance] for distance in halves], sheet.distances, wanted.radius) if halves else NOTHING
+        strokes = link(levels, sheet.distances, wanted.manner, filling)
+        length = sum(float(lengths(stroke.rows).sum()) for stroke in strokes)
+        made = Cleared(levels, filling, strokes, length, 1 - rings / length)
+        if not best.strokes or (made.linked > MOST_LINKED, length) < (best.linked > MOST_LINKED, best.length):
+            best = made
+        if made.linked > _FAR_TOO_LINKED:
+            too_far = min(too_far, stepovers[k])
+    return best
+
+
+def wall_distance(job: Job, operation: PocketOperation) -> float:
+    """Return how far A' lies inside the walls, mm: the contour tool's radius and the stock it leaves (step 120).
+
+    Without a contour operation that goes inside the walls of the same layers, as deep, the pocket goes up to the walls itself.
+    """
+    followers = [each.cut for each in job.operations if isinstance(each, ContourOperation) and each.cut.enabled
+                 and each.side is Side.INSIDE and each.cut.layers == operation.cut.layers and each.cut.floor >= operation.cut.floor]
+    return max((job.tool(cut.tool).radius + cut.stock_to_leave for cut in followers), default=0.0)
 
 
 def stepover_of(operation: PocketOperation, tool: Tool) -> float:
-    """Return the distance between rings, mm: as asked, or the largest that covers everything by itself.
+    """Return the distance between rings, mm: as asked, or the largest at which rings cover everything by themselves.
 
     A stepover s <= R leaves no point farther than R from some ring. Overlap of the 1986 text = 2 R - s.
 
@@ -24,7 +144,7 @@ def stepover_of(operation: PocketOperation, tool: Tool) -> float:
         return tool.radius
     if operation.stepover > tool.diameter:
         raise ParameterError(f"Stepover is {operation.stepover:g} mm, more than the diameter of T{tool.number} ({tool.diameter:g} mm); "
-                             f"use at most {tool.radius:g} mm to clear everything.")
+                             "use that or less.")
     return operation.stepover
 
 

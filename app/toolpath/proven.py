@@ -57,7 +57,7 @@ def uncertain(wanted: Shape, paths: Sequence[tuple[Rows, float]], progress: Prog
         if last:
             return np.concatenate(kept)
         half /= 2
-        centres = _quarters(centres[~whole], half)
+        centres = quarters(centres[~whole], half)
 
 
 def _boxes(centres: Floats, half: float) -> NDArray[np.object_]:
@@ -86,8 +86,8 @@ def _grid(bounds: tuple[float, float, float, float]) -> tuple[Floats, float]:
     return np.stack(np.meshgrid(x, y), -1).reshape(-1, 2), half
 
 
-def _quarters(centres: Floats, half: float) -> Floats:
+def quarters(centres: Floats, half: float) -> Floats:
     """Return the centres of the four quarters, of half side `half`, of each square."""
     corners = np.array([[-half, -half], [half, -half], [-half, half], [half, half]])
-    quarters: Floats = (centres[:, None] + corners).reshape(-1, 2)
-    return quarters
+    parts: Floats = (centres[:, None] + corners).reshape(-1, 2)
+    return parts

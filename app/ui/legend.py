@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QRectF, Qt, Signal
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from app.model.job import Job
-from app.model.operation import ContourOperation, Operation, PocketOperation
+from app.model.operation import ContourOperation, Operation, PocketOperation, RestOperation
+from app.ui.canvas.engaged import STEPS, colours
 from app.ui.canvas.modes import ColourBy
 from app.ui.icons import IconButton
 from app.ui.labels import muted
@@ -51,6 +52,35 @@ class LegendRow(QToolButton):
         self.label.setFont(font)
 
 
+class EngagedScale(QWidget):
+    """The colours of engagement, and the shares of the diameter between them."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._theme = LIGHT
+        self.setFixedHeight(30)
+        self.setToolTip("Share of the diameter that is engaged: from little to a full slot")
+
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme."""
+        self._theme = theme
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Paint a band of colours with figures under their borders."""
+        painter = QPainter(self)
+        shown = colours(self._theme)
+        wide = self.width() / len(shown)
+        font = painter.font()
+        font.setPixelSize(10)
+        painter.setFont(font)
+        for k, colour in enumerate(shown):
+            painter.fillRect(QRectF(k * wide, 6, wide, 6), colour)
+        painter.setPen(self._theme.muted)
+        for k, share in enumerate(STEPS, 1):
+            painter.drawText(QRectF(k * wide - 20, 14, 40, 14), Qt.AlignmentFlag.AlignCenter, f"{100 * share:.0f} %")
+
+
 class Legend(QFrame):
     """A quiet sheet in the canvas' upper right corner.
 
@@ -85,10 +115,14 @@ class Legend(QFrame):
         column.addWidget(hairline())
         column.addSpacing(8)
         column.addWidget(muted("Colour by"))
-        self.colour = ChoiceField("", [(ColourBy.TOOL, "Tool"), (ColourBy.REGION, "Region")])
+        self.colour = ChoiceField("", [(ColourBy.TOOL, "Tool"), (ColourBy.REGION, "Region"), (ColourBy.ENGAGEMENT, "Load")])
+        self.colour.buttons[ColourBy.ENGAGEMENT].setToolTip("The largest share of the diameter that is engaged along each move")
         self.colour.show_value(ColourBy.TOOL)
         self.colour.chosen.connect(self._choose_colour)
         column.addWidget(self.colour)
+        self.scale = EngagedScale()
+        self.scale.hide()
+        column.addWidget(self.scale)
 
     def _head(self) -> QHBoxLayout:
         head = QHBoxLayout()
@@ -119,7 +153,9 @@ class Legend(QFrame):
 
     def _choose_colour(self, by: ColourBy) -> None:
         for row in self.rows.values():
-            row.line.set_any_colour(by is ColourBy.REGION)
+            row.line.set_any_colour(by is not ColourBy.TOOL)
+        self.scale.setVisible(by is ColourBy.ENGAGEMENT)
+        self._fit()
         self.colour_chosen.emit(by)
 
     def set_theme(self, theme: Theme) -> None:
@@ -131,6 +167,10 @@ class Legend(QFrame):
         """Have entries for what is left on the floor only when there is some."""
         self.rows[Sample.LEFT].setVisible(left)
         self.rows[Sample.UNREACHABLE].setVisible(unreachable)
+        self._fit()
+
+    def _fit(self) -> None:
+        """Take the height of the rows that are shown."""
         for widget in (self.body, self):
             layout = widget.layout()
             if layout is not None:
@@ -138,9 +178,12 @@ class Legend(QFrame):
         self.adjustSize()
 
     def show_job(self, job: Job) -> None:
-        """Name the tools of pocket and contour paths."""
-        for sample, kind in ((Sample.POCKET, PocketOperation), (Sample.CONTOUR, ContourOperation)):
+        """Name the tools of the paths, and have entries for rest machining and keep-out areas only when there are any."""
+        for sample, kind in ((Sample.POCKET, PocketOperation), (Sample.REST, RestOperation), (Sample.CONTOUR, ContourOperation)):
             self.rows[sample].label.setText(f"{sample.value} {_tools(job.operations, kind)}".strip())
+        self.rows[Sample.REST].setVisible(bool(_tools(job.operations, RestOperation)))
+        self.rows[Sample.CLAMP].setVisible(bool(job.keep_out_layers))
+        self._fit()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Keep clicks beside a row from reaching the canvas."""

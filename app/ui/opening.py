@@ -40,9 +40,9 @@ class Opened:
     size: tuple[float, float] | None = None
 
 
-def size_of(part: Part) -> tuple[float, float] | None:
-    """Return width and height of what is drawn, mm; None when nothing is."""
-    box = union([bounds(entity.curve) for entity in part.entities])
+def size_of(part: Part, without: tuple[str, ...] = ()) -> tuple[float, float] | None:
+    """Return width and height of what is drawn but on some layers, mm; None when nothing is."""
+    box = union([bounds(entity.curve) for entity in part.entities if entity.layer not in without])
     return None if box is None else (box[2] - box[0], box[3] - box[1])
 
 

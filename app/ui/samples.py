@@ -16,18 +16,21 @@ class Sample(Enum):
 
     PART = "Part"
     POCKET = "Pocket"
+    REST = "Rest"
     CONTOUR = "Contour"
     LINK = "Link"
     RAPID = "Rapid"
     PLUNGE = "Plunge"
     LEFT = "Left material"
     UNREACHABLE = "Out of reach"
+    CLAMP = "Keep-out"
 
 
 def sample_pen(sample: Sample, theme: Theme) -> QPen:
     """Return the pen that paths of this kind are drawn with."""
-    colours = {Sample.PART: theme.ink, Sample.POCKET: theme.pocket, Sample.CONTOUR: theme.contour, Sample.LINK: theme.pocket,
-               Sample.RAPID: theme.rapid, Sample.PLUNGE: theme.plunge, Sample.LEFT: theme.left, Sample.UNREACHABLE: theme.unreachable}
+    colours = {Sample.PART: theme.ink, Sample.POCKET: theme.pocket, Sample.REST: theme.rest, Sample.CONTOUR: theme.contour,
+               Sample.LINK: theme.pocket, Sample.RAPID: theme.rapid, Sample.PLUNGE: theme.plunge,
+               Sample.LEFT: theme.left, Sample.UNREACHABLE: theme.unreachable, Sample.CLAMP: theme.warning}
     pen = QPen(colours[sample], 1.0 if sample in (Sample.LINK, Sample.RAPID, Sample.PART) else 1.8)
     pen.setCapStyle(Qt.PenCapStyle.FlatCap)
     if sample is Sample.CONTOUR:
@@ -62,7 +65,7 @@ class LineSample(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setOpacity(1.0 if self.isEnabled() else 0.35)
         pen = sample_pen(self._sample, self._theme)
-        if self._any_colour and self._sample in (Sample.POCKET, Sample.CONTOUR, Sample.LINK):
+        if self._any_colour and self._sample in (Sample.POCKET, Sample.REST, Sample.CONTOUR, Sample.LINK):
             pen.setColor(self._theme.muted)
         painter.setPen(pen)
         middle = QPointF(self.width() / 2, self.height() / 2)
@@ -71,7 +74,7 @@ class LineSample(QWidget):
             painter.drawEllipse(middle, 4.2, 4.2)
             painter.setPen(QPen(self._theme.plunge, 2.6, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
             painter.drawPoint(middle)
-        elif self._sample in (Sample.LEFT, Sample.UNREACHABLE):
+        elif self._sample in (Sample.LEFT, Sample.UNREACHABLE, Sample.CLAMP):
             self._hatch(painter, painter.pen().color())
         else:
             painter.drawLine(QPointF(1, middle.y()), QPointF(self.width() - 1, middle.y()))

@@ -18,9 +18,9 @@ from app.ui.verdict import Level, Verdict, verdict
 from app.ui.views import View
 
 _LAYERS = {
-    Sample.PART: PathLayers.PART, Sample.POCKET: PathLayers.POCKET, Sample.CONTOUR: PathLayers.CONTOUR,
+    Sample.PART: PathLayers.PART, Sample.POCKET: PathLayers.POCKET, Sample.REST: PathLayers.REST, Sample.CONTOUR: PathLayers.CONTOUR,
     Sample.LINK: PathLayers.LINK, Sample.RAPID: PathLayers.RAPID, Sample.PLUNGE: PathLayers.PLUNGE,
-    Sample.LEFT: PathLayers.LEFT, Sample.UNREACHABLE: PathLayers.UNREACHABLE,
+    Sample.LEFT: PathLayers.LEFT, Sample.UNREACHABLE: PathLayers.UNREACHABLE, Sample.CLAMP: PathLayers.CLAMP,
 }
 
 
@@ -67,7 +67,7 @@ class Showing(QObject):
         self._layers = PathLayers.ALL
         self._shown_program: object = None
         self._empty_action = "open"
-        self._sized: tuple[Part, tuple[float, float] | None] | None = None
+        self._sized: tuple[Part, tuple[str, ...], tuple[float, float] | None] | None = None
         self._computation.changed.connect(self._on_computation)
         window.worker.progress.connect(window.status.show_progress)
         window.worker.busy_changed.connect(self._on_busy)
@@ -89,15 +89,15 @@ class Showing(QObject):
         return tuple(finding for finding in self.findings if finding.counts)
 
     def part_size(self) -> tuple[float, float] | None:
-        """Return width and height of the drawing, mm; None when it is empty."""
-        part = self._document.part
-        if self._sized is None or self._sized[0] is not part:
-            self._sized = (part, size_of(part))
-        return self._sized[1]
+        """Return width and height of the drawing without its keep-out layers, mm; None when it is empty."""
+        part, apart = self._document.part, self._document.job.keep_out_layers
+        if self._sized is None or self._sized[0] is not part or self._sized[1] != apart:
+            self._sized = (part, apart, size_of(part, apart))
+        return self._sized[2]
 
     def know_size(self, part: Part, size: tuple[float, float] | None) -> None:
         """Take over the size of a part that was measured on another thread."""
-        self._sized = (part, size)
+        self._sized = (part, (), size)
 
     def show_view(self, view: View) -> None:
         """Bring a view to the front."""
@@ -119,9 +119,7 @@ class Showing(QObject):
     def refresh(self, change: Change) -> None:
         """Show what changed in the document."""
         if change & (Change.PART | Change.JOB):
-            size = self.part_size()
-            margin = 2 * self._document.job.stock.margin
-            self._window.panel.show_size(None if size is None else (size[0] + margin, size[1] + margin))
+            self._window.panel.show_size(self.part_size(), self._document.job)
             self._window.views.legend.show_job(self._document.job)
             self.show_missing()
         self._show_titles()

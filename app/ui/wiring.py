@@ -11,11 +11,13 @@ from PySide6.QtCore import QObject
 
 from app.edit.document import Change
 from app.errors import HitofudeError
-from app.model.operation import ContourOperation, PocketOperation
+from app.model.operation import OPERATION_KINDS
 from app.settings import ThemeChoice
+from app.ui.advising import Advising
 from app.ui.canvas.modes import CanvasTool
 from app.ui.cut.cutting import Cutting
 from app.ui.cut.saving import CutSaving
+from app.ui.engaging import Engaging
 from app.ui.figures import counted
 from app.ui.files import Files, Openers
 from app.ui.help import show_about, show_keys
@@ -31,6 +33,7 @@ from app.ui.session1986.opening import SessionOpening
 from app.ui.showing import Showing
 from app.ui.stages.picturing import Picturing
 from app.ui.stages.staging import Staging
+from app.ui.tabbing import Tabbing
 from app.ui.verdict import Level, verdict
 from app.ui.views import View
 
@@ -65,6 +68,9 @@ class Wiring(QObject):
         self.picturing = Picturing(window, self.log)
         self.files = Files(window, self.showing, self.log, Openers(self.nc.open, self.picturing.open))
         self.tools = ToolExchange(window, self.log)
+        self.tabbing = Tabbing(window)
+        self.advising = Advising(window)
+        self.engaging = Engaging(window)
         self.cut_saving = CutSaving(window, self.log)
         self.session_1986 = SessionOpening(window, self.showing, self.log)
         self._connect_stages()
@@ -164,10 +170,11 @@ class Wiring(QObject):
         self._on("job_properties", lambda: panel.choose(Subject(SubjectKind.JOB)))
         self._on("add_tool", panel.tools.added.emit)
         self._on("tool_library", panel.switch_library)
+        self._on("which_tool", panel.switch_advice)
         self._on("import_tools", self.tools.choose_file)
         self._on("export_tools", self.tools.choose_place)
-        self._on("add_pocket", lambda: panel.operations.added.emit(PocketOperation))
-        self._on("add_contour", lambda: panel.operations.added.emit(ContourOperation))
+        for word, kind in OPERATION_KINDS.items():
+            self._on(f"add_{word}", partial(panel.operations.added.emit, kind))
         self._on("compute", self.compute)
         self._on("cancel", self.cancel)
         self._on("findings", self.showing.open_findings)

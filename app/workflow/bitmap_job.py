@@ -13,7 +13,7 @@ from app.bitmap.faces import inner_faces, shows
 from app.bitmap.frame import Frame
 from app.bitmap.picture import Picture, PictureOptions, Shows, read_picture
 from app.bitmap.walls import Mask, free_contours
-from app.errors import GeometryError
+from app.errors import GeometryError, ParameterError
 from app.files.drawing import read_drawing
 from app.geometry.region import nest
 from app.model.finding import Finding, FindingKind
@@ -22,7 +22,7 @@ from app.model.part import Entity, Part, Region
 from app.toolpath.compute import regions_of
 from app.workflow.bitmap_options import BitmapOptions, BitmapSize, is_picture
 from app.workflow.bitmap_part import BitmapPart, part_of_mask, part_of_regions
-from app.workflow.options import MakeOptions, job_with_options
+from app.workflow.options import MakeOptions, job_with_options, layers_of_drawing
 
 _TOLD = 20
 """Doubtful places of one kind that are findings of their own."""
@@ -61,8 +61,7 @@ def bitmap_job(name: str, data: bytes, options: MakeOptions) -> BitmapJob:
     bitmap = options.bitmap or BitmapOptions()
     if is_picture(name):
         return picture_job(read_picture(name, data, bitmap.picture), options, bitmap.picture, PurePath(name).stem)
-    layers = options.layers or (options.job.layer_names if options.job else ())
-    drawing = read_drawing(name, data, options.units, layers)
+    drawing = read_drawing(name, data, options.units, layers_of_drawing(options))
     job = job_with_options(drawing.part, options)
     return drawn_job(job, bitmap.size, drawing.findings)
 
@@ -75,8 +74,10 @@ def drawn_job(job: Job, size: BitmapSize, findings: tuple[Finding, ...] = ()) ->
 
     Raises:
         GeometryError: nothing in it is closed.
-        ParameterError: the bitmap cannot hold it.
+        ParameterError: the bitmap cannot hold it, or clamps are to be kept off, which paths made from pixels cannot do.
     """
+    if job.keep_out_layers:
+        raise ParameterError("Paths made from pixels do not know clamps; compute the drawing exactly, or take the keep-out layers away.")
     regions, own = regions_of(job)
     if not regions:
         raise GeometryError(f"{job.part.name}: there is no closed contour to machine; draw one, or choose other layers.")

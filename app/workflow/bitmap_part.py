@@ -14,7 +14,6 @@ from app.bitmap.frame import Frame
 from app.bitmap.peel import frame_pixels
 from app.bitmap.walls import Mask, free_pixels, wall_rows
 from app.errors import ParameterError
-from app.geometry import kernels
 from app.geometry.distance import DistanceField
 from app.geometry.primitives import boxes, contour_rows, pack
 from app.model.part import Region
@@ -87,9 +86,8 @@ def _labels(frame: Frame, free: Mask, regions: Sequence[Region]) -> NDArray[np.i
     rows, cols = np.unravel_index(first, areas.shape)
     centres = frame.to_mm(np.stack([cols + 0.5, rows + 0.5], axis=1))
     number = np.zeros(count, np.int32)
-    inside = np.empty(count, np.bool_)
     for region in regions:
-        kernels.inside_many(np.concatenate([contour_rows(contour) for contour in region.contours]), centres, inside)
+        inside = DistanceField.of(np.concatenate([contour_rows(contour) for contour in region.contours])).inside(centres)
         number[inside & (number == 0)] = region.number
     number[0] = 0
     labels: NDArray[np.int32] = number[areas]

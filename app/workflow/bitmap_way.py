@@ -25,15 +25,16 @@ from app.geometry.primitives import Rows, lengths, pack, points_at, signed_area,
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.moves import Program
-from app.model.operation import ContourOperation, Cut, Order, PocketOperation
+from app.model.operation import ContourOperation, Cut, Operation, Order, PocketOperation, RestOperation, Side, kind_word
 from app.model.tool import Tool
 from app.progress import NO_PROGRESS, Progress
-from app.toolpath.build import MovesBuilder
-from app.toolpath.compute import Setting, emit, in_order, slotting, wall_distance
+from app.toolpath.compute import in_order, slotting
 from app.toolpath.contour import contour_strokes
-from app.toolpath.depth import pass_heights
+from app.toolpath.drawn import Drawn
 from app.toolpath.link import link_by_proof
-from app.toolpath.pocket import stepover_of
+from app.toolpath.pocket import stepover_of, wall_distance
+from app.toolpath.setting import Setting, emit, passes_of
+from app.toolpath.sheets import Sheet, Sheets
 from app.workflow.bitmap_part import BitmapPart
 from app.workflow.pixel_path import TOLERANCE_PX, Keep, chain_points, pixel_path
 
@@ -132,22 +133,37 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
         Cancelled: by progress.
     """
     primitives = pack(part.regions)
-    setting = Setting(job, part.regions, primitives, DistanceField.of(primitives.rows), MovesBuilder())
-    order, paths = in_order(job), []
+    setting = Setting(job, part.regions, Sheets(job, Drawn()))
+    walls = Sheet(part.regions, primitives, part.squares, np.zeros(len(primitives.rows), np.bool_))
+    order, paths = [index for index in in_order(job) if on_pixels(job.operations[index])], []
     for k, index in enumerate(order):
         share = progress.part(k / len(order), (k + 1) / len(order))
         paths.append(operation_paths(job, index, part, share.part(0.0, 0.7)))
         share.step(0.7, "Link paths")
-        _emit(setting, paths[-1], part)
+        _emit(setting, paths[-1], (part, walls), share.part(0.7, 1.0))
     if job.order is Order.PATENT_1986:
         setting.findings.extend(slotting(job))
-    given_up = _given_up(paths, setting.distances, part.frame.pitch)
+    given_up = _given_up(paths, DistanceField.of(primitives.rows), part.frame.pitch)
     rough = sum(not path.smoothed.exact for each in paths for level in each.levels for path in level)
     setting.findings.extend(_findings(part, paths, given_up, job))
+    setting.findings.extend(_left_out(job))
     findings = tuple(sorted(setting.findings, key=lambda finding: not finding.counts))
     program = Program(setting.builder.moves(), part.regions, findings, setting.strokes, pitch_mm=part.frame.pitch,
                       given_up_mm=given_up.most_mm, allowance_mm=min(given_up.most_mm, MOST_SKIN_PX * part.frame.pitch))
     return BitmapProgram(program, tuple(paths), given_up, rough)
+
+
+def on_pixels(operation: Operation) -> bool:
+    """Tell whether the way of 1986 knows an operation: pockets, and contours inside the walls."""
+    return isinstance(operation, PocketOperation) or (isinstance(operation, ContourOperation) and operation.side is Side.INSIDE)
+
+
+def _left_out(job: Job) -> list[Finding]:
+    """Return which operations make no moves on pixels."""
+    left = [operation for operation in job.operations if operation.cut.enabled and not on_pixels(operation)]
+    return [Finding(FindingKind.LEFT_OUT, f"The {kind_word(operation)} operation with T{operation.cut.tool} makes no moves: "
+                    "on pixels only pockets, and contours inside the walls, are cut.", counts=not isinstance(operation, RestOperation))
+            for operation in left]  # fmt: skip
 
 
 def operation_paths(job: Job, index: int, part: BitmapPart, progress: Progress = NO_PROGRESS) -> OperationPaths:
@@ -180,7 +196,7 @@ def _pocket_paths(job: Job, part: BitmapPart, index: int, progress: Progress) ->
     assert isinstance(operation, PocketOperation)
     tool, pitch, leave = job.tool(operation.cut.tool), part.frame.pitch, operation.cut.stock_to_leave
     step = _stepover(operation, tool, pitch)
-    wall = max(wall_distance(job), leave)
+    wall = max(wall_distance(job, operation), leave)
     area = offset_area(part.free, wall / pitch, TOLERANCE_PX)
     steps = RingSteps(tool.radius / pitch, step / pitch, min(SAFE_PX + TOLERANCE_PX, step / pitch - 1))
     index_plane = ring_index(area, steps)
@@ -201,7 +217,7 @@ def _stepover(operation: PocketOperation, tool: Tool, pitch: float) -> float:
         ParameterError: it is less than a pixel, or more than the tool.
     """
     if operation.stepover is None:
-        return max(stepover_of(operation, tool) - SPARE_STEP_PX * pitch, pitch)
+        return max(tool.radius - SPARE_STEP_PX * pitch, pitch)
     if operation.stepover < pitch:
         raise ParameterError(f"The stepover of {operation.stepover:g} mm is less than a pixel of {pitch:.3g} mm; "
                              "use a larger bitmap or a smaller pitch.")
@@ -226,18 +242,19 @@ def _ring(path: PixelPath, part: BitmapPart) -> Ring:
     return Ring(rows, int(part.label[path.chain.start]), signed_area(rows), float(lengths(rows).sum()))
 
 
-def _emit(setting: Setting, paths: OperationPaths, part: BitmapPart) -> None:
+def _emit(setting: Setting, paths: OperationPaths, walls: tuple[BitmapPart, Sheet], progress: Progress) -> None:
     """Append the moves of one operation."""
+    part, sheet = walls
     operation = setting.job.operations[paths.index]
     direction = operation.cut.direction
     rings = [tuple(_ring(path, part) for path in level) for level in paths.levels]
     levels = [Level(distance, level) for distance, level in zip(paths.distances, rings, strict=True)]
     if isinstance(operation, ContourOperation):
-        emit(setting, paths.index, contour_strokes(levels[0].rings, direction))
+        emit(setting, paths.index, sheet, contour_strokes(levels[0].rings, direction), progress)
         return
     strokes = link_by_proof(levels, part.squares, direction, max(part.frame.pitch, setting.job.tool(operation.cut.tool).radius / 4))
-    setting.strokes += len(strokes) * len(pass_heights(operation.cut.depth, operation.cut.stepdown))
-    emit(setting, paths.index, strokes)
+    setting.strokes += len(strokes) * passes_of(setting, paths.index)
+    emit(setting, paths.index, sheet, strokes, progress)
 
 
 def _given_up(paths: Sequence[OperationPaths], walls: DistanceField, pitch: float) -> GivenUp:

@@ -35,13 +35,15 @@ def cut_job(program: Program, job: Job, written: Written, measured: tuple[Depths
         HitofudeError: a tool makes no shape.
         Cancelled: the job was asked to stop.
     """
-    box = stock_box(job, program.regions)
+    box = stock_box(job, program.regions, program.lines)
     origin = work_origin(job, box)
     x, y, z = origin
     stock = BoxStock(StockBox(box.x0 - x, box.y0 - y, box.z0 - z, box.x1 - x, box.y1 - y, box.z1 - z))
-    deviation = max((contour.deviation for region in program.regions for contour in region.contours), default=0.0)
+    outlines = (*(contour for region in program.regions for contour in region.contours), *program.lines)
+    deviation = max((contour.deviation for contour in outlines), default=0.0)
     part = FlatPart(job, program.regions, origin, FlatPart.wall_tolerance + written.largest_distance_mm + deviation,
-                    allowance=program.allowance_mm)
+                    allowance=program.allowance_mm, areas=program.areas, lines=program.lines, clamps=program.clamps,
+                    tabs=program.tabs, dog_bones=program.dog_bones)
     programs = tuple(
         replace(read, states=tuple(replace(state, tool=state.tool or int(program.moves.tool[file.first])) for state in read.states))
         for file, read in zip(written.files, written.programs, strict=True)

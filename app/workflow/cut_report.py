@@ -30,6 +30,9 @@ ENGINE = "cpu: the lowest height of every sweep in every cell, in closed form, a
 LENGTH_METHOD = "cut: motions at feed rate that took metal from the cells; link: those at feed rate that took none; G0 is rapid"
 GOUGE_METHODS = {True: "closed-form distance of every motion from every wall, less tool radius and stock to leave; floors by the cells",
                  False: "the cells' heights below the part's"}  # fmt: skip
+_TELLING = 10.0
+"""Cells; a bound on gouges between the cells that is wider says nothing that a person could use."""
+
 HEIGHTS = 5e-6
 HEIGHTS_METHOD = "bound, times 1 + the surface's slope, for heights up to 32 mm; cells beside an upright wall may fall to either side"
 SPOTS = 100
@@ -240,7 +243,7 @@ def _summary(data: Json) -> Iterator[str]:
                       _counted(data["retracts"], "retract")))  # fmt: skip
     yield (f"{names}: {data['removed_mm3']:.1f} mm3 removed; {part}; {path}, {sum(data['length_mm'].values()):.0f} mm, "
            f"{_clock(data['time_s'])} min")
-    if certificate is not None:
+    if certificate is not None and certificate["gouge_mm"] < _TELLING * certificate["pitch_mm"]:
         yield (f"  between the cells, {certificate['pitch_mm']:.4g} mm wide, too: no point deeper than {certificate['gouge_mm']:.4f} mm "
                "inside the part was cut")
     if not data["removed_mm3"]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from app.dexel.trim import Course
 from app.model.job import Job
-from app.model.moves import Moves, Program
+from app.model.moves import Moves
 from app.model.stock_box import StockBox
 from app.model.tool import ToolKind
 from app.progress import NO_PROGRESS, Progress
@@ -47,11 +47,11 @@ def exact_of(part: FlatPart, courses: Sequence[Course], stock: StockBox,
     before = np.cumsum([0, *(len(course.motions) for course in courses)])
     moves = _joined([each.moves for each in found])
     motion = np.concatenate([each.motion + count for each, count in zip(found, before.tolist(), strict=False)])
-    program = Program(moves, part.regions, allowance_mm=part.allowance)
+    program = part.program(moves)
     progress.step(0.0, "Checking clearance")
     x, y, z = part.origin
     box = StockBox(stock.x0 + x, stock.y0 + y, stock.z0 + z, stock.x1 + x, stock.y1 + y, stock.z1 + z)
-    depths = gouge_depths(program, part.job, box)
+    depths = gouge_depths(program, part.job, box, by_tool=True)
     flat = _flat(moves, part.job)
     coverage = measure(program, part.job, progress.part(0.2, 1.0), part.tolerance) if flat else None
     return Exact(replace(depths, move=motion[depths.move]), coverage)
@@ -64,5 +64,5 @@ def _joined(parts: Sequence[Moves]) -> Moves:
 
 
 def _flat(moves: Moves, job: Job) -> bool:
-    """Return whether all tools that move are flat."""
-    return all(job.tool(number).kind is ToolKind.FLAT for number in np.unique(moves.tool).tolist())
+    """Return whether all tools that move are flat, but for drills, which clear no floor."""
+    return all(job.tool(number).kind in (ToolKind.FLAT, ToolKind.DRILL) for number in np.unique(moves.tool).tolist())

@@ -12,11 +12,15 @@ from shapely import Geometry as Shape
 from app.dexel.outline import inside
 from app.dexel.target import MARGIN, Target
 from app.dexel.workpiece import Grid
-from app.toolpath.coverage import CHORD, areas_of
-from app.toolpath.flat import grown
+from app.toolpath.build import MovesBuilder
+from app.toolpath.flat import grown, region_shapes
+from app.toolpath.wanted import CHORD, bone_shape, wanted_of
+from app.workflow.bounds import bounds_of
 from app.workflow.parts import FlatPart
 
 Mask = NDArray[np.bool_]
+
+NO_MOVES = MovesBuilder().moves()
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,27 +34,29 @@ class FlatTarget:
 def flat_target(part: FlatPart, grid: Grid) -> FlatTarget:
     """Return the heights of a part over a grid, program coordinates.
 
-    Within the walls and their stock to leave metal is wanted down to the floor; it is gouged below the deepest operation's depth.
-    Elsewhere the part's top is wanted, and what stands on it is not spoken of.
+    Within the walls and their stock to leave metal is wanted down to the floor; it is gouged below the deepest operation that may
+    be there. Elsewhere the part's top is wanted, and what stands on it is not spoken of.
     """
-    areas = areas_of(part.regions, part.job)
+    found = wanted_of(part.program(NO_MOVES), part.job)
     top, shape = np.float32(-part.origin[2]), (grid.rows, grid.cols)
     wanted, low = np.full(shape, top, np.float32), np.full(shape, top, np.float32)
     high, reach = np.full(shape, np.inf, np.float32), np.zeros(shape, bool)
-    if areas is None:
-        return FlatTarget(Target(grid, np.pad(wanted, MARGIN, mode="edge"), low, high), reach)
-    deepest = max(operation.cut.depth for operation in part.job.operations if operation.cut.enabled)
-    floor, slack = top - np.float32(areas.depth), part.wall_tolerance + CHORD
-    wanted[_cells(areas.floor, part, grid)] = floor
-    low[_cells(grown(areas.floor, slack, CHORD), part, grid)] = top - np.float32(deepest)
-    high[_cells(shapely.union(grown(areas.wanted, -slack, CHORD), _unreached(areas.floor, areas.reach, slack)), part, grid)] = floor
-    reach = _cells(grown(areas.reach, -slack, CHORD), part, grid)
+    slack, pockets = part.wall_tolerance + CHORD, any(each.whole for each in found)
+    for each in found:  # from the shallowest to the deepest, which has the last word
+        floor = top - np.float32(each.depth)
+        mine = _cells(each.floor, part, grid)
+        wanted[mine if each.whole or not pockets else _cells(each.wanted, part, grid)] = floor
+        left = shapely.union(grown(each.wanted, -slack, CHORD), grown(shapely.difference(each.floor, each.reach), -slack, CHORD))
+        high[_cells(left, part, grid)] = floor
+        reach[mine] = False  # what a tool reaches that does not go as deep is no reach here
+        reach |= _cells(grown(each.reach, -slack, CHORD), part, grid)
+    for bound in bounds_of(part.program(NO_MOVES), part.job):
+        mine = _cells(shapely.union_all(grown(region_shapes(bound.area.regions, CHORD), slack - bound.leave, CHORD)), part, grid)
+        low[mine] = np.minimum(low[mine], top - np.float32(bound.floor))
+        for bone in part.dog_bones:
+            cells = _cells(grown(bone_shape(bone), slack, CHORD), part, grid)
+            low[cells] = np.minimum(low[cells], top - np.float32(bound.floor))
     return FlatTarget(Target(grid, np.pad(wanted, MARGIN, mode="edge"), low, high), reach)
-
-
-def _unreached(floor: Shape, reach: Shape, slack: float) -> Shape:
-    """Return the part of the floor that no tool reaches, without a rim."""
-    return grown(shapely.difference(floor, reach), -slack, CHORD)
 
 
 def _cells(shape: Shape, part: FlatPart, grid: Grid) -> Mask:

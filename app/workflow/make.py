@@ -15,6 +15,7 @@ from app.model.finding import Finding, FindingKind, worst_first
 from app.model.job import Job
 from app.model.machine import Machine
 from app.model.moves import Program
+from app.model.operation import follows_lines
 from app.model.stock_box import stock_box, work_origin
 from app.model.tool import ToolKind
 from app.nc.extent import Extent
@@ -27,9 +28,10 @@ from app.toolpath.coverage import Coverage, coverage_findings, measure
 from app.workflow.bitmap_options import is_picture
 from app.workflow.cut import CutProgram
 from app.workflow.cut_job import cut_job, news
-from app.workflow.options import MakeOptions, job_with_options
+from app.workflow.machining import check_order
+from app.workflow.options import MakeOptions, job_with_options, layers_of_drawing
 from app.workflow.report import Measured, Report, make_report, rings_in_words
-from app.workflow.verdict import Gouge, RapidInMaterial, deepest_of, gouge_depths, rapids_in_material
+from app.workflow.verdict import Gouge, RapidInMaterial, clamps_met, deepest_of, gouge_depths, rapids_in_material
 from app.workflow.written import write_and_check
 
 NO_TEXT = NcText("", np.zeros(0, np.int32))
@@ -74,7 +76,9 @@ class Made:
         Raises:
             ParameterError: nothing is cut.
         """
-        height = self.job.safe_z - work_origin(self.job, stock_box(self.job, self.program.regions))[2] if self.files else 0.0
+        program = self.program
+        top = work_origin(self.job, stock_box(self.job, program.regions, program.lines))[2] if self.files else 0.0
+        height = self.job.travel_z - top if self.files else 0.0
         tool = int(self.program.moves.tool[0]) if self.files else 0
         return frame_text(Frame(self.box, height, tool), self.job, load_post(self.job.post))
 
@@ -88,10 +92,11 @@ def job_from_drawing(drawing: Drawing, options: MakeOptions) -> Job:
     """Return the job for a drawing: the given or the default one with every given option put in.
 
     Raises:
-        ParameterError: an option is out of its range, or two contradict one another.
+        ParameterError: an option is out of its range or has no effect on the job, or two contradict one another.
         InputError: there is no such post, or a layer is not in the drawing.
     """
     job = job_with_options(drawing.part, options)
+    check_order(job, options.order)
     load_post(job.post)
     return job
 
@@ -110,12 +115,11 @@ def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_P
     progress.step(0.0, f"Reading {name}")
     if options.bitmap is not None or is_picture(name):
         return _make_on_bitmap(name, data, options, progress)
-    units = options.units
-    drawing = read_drawing(name, data, units, options.layers or (options.job.layer_names if options.job else ()))
+    drawing = read_drawing(name, data, options.units, layers_of_drawing(options))
     job = job_from_drawing(drawing, options)
     made = export(job, progress.part(0.1, 1.0), drawing.findings, options.machine)
     if not len(made.program.moves):
-        raise GeometryError(_nothing(name, made.findings))
+        raise GeometryError(_nothing(name, job, made.findings))
     return made
 
 
@@ -129,12 +133,14 @@ def _make_on_bitmap(name: str, data: bytes, options: MakeOptions, progress: Prog
     program = compute_on_bitmap(ready.job, ready.part, progress.part(0.1, 0.5)).program
     made = finish(program, ready.job, progress.part(0.5, 1.0), ready.findings, options.machine)
     if not len(program.moves):
-        raise GeometryError(_nothing(name, made.findings))
+        raise GeometryError(_nothing(name, ready.job, made.findings))
     return made
 
 
-def _nothing(name: str, findings: tuple[Finding, ...]) -> str:
+def _nothing(name: str, job: Job, findings: tuple[Finding, ...]) -> str:
     """Return why a drawing gave no path."""
+    if not any(each.cut.enabled for each in job.operations):
+        return f"{name}: every operation of the job is switched off, so nothing is cut; switch one on (enabled = true)."
     if not findings:
         return f"{name}: there is no closed contour to machine; draw one, or choose other layers."
     telling = sorted(findings, key=lambda finding: (not finding.counts, finding.kind is not FindingKind.OPEN_CONTOUR))
@@ -157,6 +163,9 @@ def export(job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[F
     """
     from app.toolpath.compute import compute
 
+    for operation in job.operations:
+        if operation.cut.enabled:
+            job.cutter(operation)
     return finish(compute(job, progress.part(0.0, 0.6)), job, progress.part(0.6, 1.0), drawing_findings, machine)
 
 
@@ -164,19 +173,23 @@ def finish(
     program: Program, job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[Finding, ...] = (),
     machine: Machine | None = None,
 ) -> Made:  # fmt: skip
-    """Write the NC text of a computed program, read it back, and measure it: for a caller that has the program already.
+    """Slow the feed where too much is engaged, write the NC text, read it back, and measure it: for a caller that has the program.
 
     Args and errors: as `export`.
     """
-    progress.step(0.0, "Writing NC")
-    written = write_and_check(program, job, load_post(job.post), machine, progress.part(0.0, 0.2))
+    from app.toolpath.engagement_feed import followed  # compiled code: loaded where it is used
+
+    program = followed(program, job, progress.part(0.0, 0.1))
+    progress.step(0.1, "Writing NC")
+    written = write_and_check(program, job, load_post(job.post), machine, progress.part(0.1, 0.2))
     lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
     program = replace(program, moves=replace(program.moves, line=lines))
     progress.step(0.2, "Checking clearance")
     depths, rapids = gouge_depths(program, job), rapids_in_material(program, job)
     deepest = deepest_of(depths)
     coverage = measure(program, job, progress.part(0.3, 0.7))
-    unsafe = (*_gouge_findings(deepest, program), *_rapid_findings(rapids, program))
+    clamped = deepest_of(clamps_met(program, job, depths))
+    unsafe = (*_gouge_findings(deepest, program), *_clamp_findings(clamped, program), *_rapid_findings(rapids, program))
     metal = cut_job(program, job, written, (depths, coverage), progress.part(0.7, 0.98)) if written.files else None
     own = (*unsafe, *(news(metal, unsafe) if metal is not None else ()), *_shape_findings(program, job),
            *written.coarseness(job.out_units), *(written.misfits() if machine else ()),
@@ -188,8 +201,9 @@ def finish(
 
 
 def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:
-    """Return what is to say of tools that do not cut straight walls and a flat floor, as the paths take them to do."""
-    tools = [job.tool(number) for number in dict.fromkeys(program.moves.tool.tolist())]
+    """Return what is to say of tools that do not cut straight walls and a flat floor, as paths beside walls take them to do."""
+    moves, bare = program.moves, [k for k, each in enumerate(job.operations) if follows_lines(each)]
+    tools = [job.tool(number) for number in dict.fromkeys(moves.tool[~np.isin(moves.operation, bare)].tolist())]
     return tuple(
         Finding(FindingKind.TOOL_SHAPE, f"T{tool.number} is a {tool.kind.value} cutter, and its path is that of a flat one of "
                 f"{tool.diameter:g} mm: walls and floor will not come out as they are shown; choose a flat cutter.")
@@ -209,6 +223,14 @@ def _gouge_findings(gouge: Gouge, program: Program) -> tuple[Finding, ...]:
     text = (f"{gouge.count} moves cut into the part, the worst by {gouge.max_mm:.4f} mm at ({gouge.x:.3f}, {gouge.y:.3f}), "
             f"NC line {program.moves.line[gouge.move]}; do not run this program.")
     return (Finding(FindingKind.GOUGE, text, gouge.x, gouge.y, amount=gouge.max_mm),)
+
+
+def _clamp_findings(met: Gouge, program: Program) -> tuple[Finding, ...]:
+    if met.max_mm <= LEVEL or met.x is None or met.y is None:
+        return ()
+    text = (f"{met.count} moves reach into a keep-out area, the worst by {met.max_mm:.4f} mm at ({met.x:.3f}, {met.y:.3f}), "
+            f"NC line {program.moves.line[met.move]}; do not run this program.")
+    return (Finding(FindingKind.CLAMP, text, met.x, met.y, amount=met.max_mm),)
 
 
 def _rapid_findings(rapids: tuple[RapidInMaterial, ...], program: Program) -> tuple[Finding, ...]:

@@ -2,15 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from app.errors import ParameterError
 from app.model.job import Job, OriginXY, OriginZ, Stock
 from app.model.machine import Machine
-from app.model.operation import LEAST_LENGTH, ContourOperation, Cut, Direction, Operation, Order, PocketOperation
+from app.model.operation import (
+    LEAST_LENGTH,
+    ContourOperation,
+    Cut,
+    Direction,
+    DrillOperation,
+    Operation,
+    Order,
+    PocketOperation,
+    RestOperation,
+    Side,
+)
 from app.model.part import Part, Units
 from app.model.tool import Tool
 from app.workflow.bitmap_options import BitmapOptions
+from app.workflow.layers import layers_to_read, with_layers_spelled
+from app.workflow.machining import Machining, contours_alone, no_effect, with_drills, with_machining
 
 LEAST_PER_CENT = 1.0
 """Of the diameter; a smaller stepover is a slip of the pen."""
@@ -21,7 +34,7 @@ class Stepover:
     """Distance between rings.
 
     Attributes:
-        value: mm, in [0.001, diameter), or per cent of the tool's diameter, in [1, 100).
+        value: mm, in [0.001, diameter], or per cent of the tool's diameter, in [1, 100].
         percent: True when `value` is per cent.
     """
 
@@ -34,8 +47,8 @@ class Stepover:
         Raises:
             ParameterError: the percentage is out of its range.
         """
-        if self.percent and not LEAST_PER_CENT <= self.value < 100:
-            raise ParameterError(f"Stepover is {self.value:g} %; it must be {LEAST_PER_CENT:g} % or more and less than 100 %.")
+        if self.percent and not LEAST_PER_CENT <= self.value <= 100:
+            raise ParameterError(f"Stepover is {self.value:g} %; it must be {LEAST_PER_CENT:g} % to 100 %.")
         return self.value * diameter / 100 if self.percent else self.value
 
 
@@ -46,13 +59,15 @@ class MakeOptions:
     Attributes:
         job: tools, operations, stock, origin to start from (its part is not used); None = the default job.
         contour_diameter, pocket_diameter: tool diameters; with only one given that tool does both jobs.
-        stepover: distance between pocket rings. overlap: the same as diameter - stepover; give one of the two.
+        stepover: distance between pocket rings; None = as the job says, or the one with the shortest path.
+        overlap: the same as diameter - stepover; give one of the two.
         depth, stepdown, stock_to_leave, direction: of every operation.
         safe_z: clearance height above the stock's top.
         feed, plunge (mm/min), speed (rpm): of every tool.
         machine: that the program has to fit and is timed on; None = timed on a usual one.
         units: of a drawing that names none. layers: to machine; empty = all visible ones.
         bitmap: compute on pixels, and how they are made; None = exactly, but for pictures.
+        machining: sides, entries, leads, tabs, drills, copies, clamps.
     """
 
     job: Job | None = None
@@ -79,27 +94,33 @@ class MakeOptions:
     exact_path: bool = False
     machine: Machine | None = None
     bitmap: BitmapOptions | None = None
+    machining: Machining = field(default_factory=Machining)
 
 
 def job_with_options(part: Part, options: MakeOptions) -> Job:
     """Return the job for a part: the given job or the default one, with every given option put in.
 
     Raises:
-        ParameterError: an option is out of its range, or two contradict one another.
+        ParameterError: an option is out of its range or has no effect on the job, or two contradict one another.
+        InputError: a layer is not in the drawing.
     """
     base = replace(options.job, part=part) if options.job is not None else Job(part=part)
+    if options.job is None and options.machining.side in (Side.OUTSIDE, Side.ON):
+        base = contours_alone(base)
+    _check_effects(base, options)
     tools, operations = _tools(base, options)
     operations = tuple(_operation(each, tools, options) for each in operations)
     safe_z = base.safe_z if options.safe_z is None else options.safe_z
     if not safe_z >= LEAST_LENGTH:
         raise ParameterError(f"Safe Z is {safe_z:g} mm; it must be {LEAST_LENGTH:g} mm or more above the top of the stock.")
-    return replace(
-        base,
-        tools=tuple(_speeds(tool, options) for tool in tools.values()),
-        operations=operations,
+    asked = with_drills(replace(base, tools=tuple(tools.values()), operations=operations), options.machining.drills, options.depth)
+    asked = with_machining(asked, options.machining)
+    return with_layers_spelled(replace(
+        asked,
+        tools=tuple(_speeds(tool, options) for tool in asked.tools),
         safe_z=safe_z,
         retract_z=min(base.retract_z, safe_z),
-        stock=_stock(base, operations),
+        stock=_stock(base, asked.operations, options),
         origin_xy=options.origin_xy or base.origin_xy,
         origin_z=options.origin_z or base.origin_z,
         order=options.order or base.order,
@@ -108,13 +129,33 @@ def job_with_options(part: Part, options: MakeOptions) -> Job:
         layer_names=options.layers or base.layer_names,
         join_tolerance=base.join_tolerance if options.join_tolerance is None else options.join_tolerance,
         exact_path=options.exact_path or base.exact_path,
-    )
+    ))  # fmt: skip
+
+
+def layers_of_drawing(options: MakeOptions) -> tuple[str, ...]:
+    """Return the layers that are to be read of a drawing; empty = all."""
+    job = options.job or Job(Part())
+    asked = replace(job, layer_names=options.layers or job.layer_names,
+                    keep_out_layers=options.machining.keep_out or job.keep_out_layers)  # fmt: skip
+    return layers_to_read(asked)
+
+
+def _check_effects(base: Job, options: MakeOptions) -> None:
+    """Refuse options for operations that the job does not have."""
+    kinds = {type(each) for each in base.operations if each.cut.enabled}
+    pocket = {"pocket_tool": options.pocket_diameter, "stepover": options.stepover, "overlap": options.overlap}
+    one_tool = options.job is None and (options.pocket_diameter is None) != (options.contour_diameter is None)
+    for name, value in pocket.items():
+        if value is not None and PocketOperation not in kinds and not (name == "pocket_tool" and one_tool):
+            raise no_effect(name, "the job has no pocket operation")
+    if options.contour_diameter is not None and not kinds & {ContourOperation, RestOperation} and not one_tool:
+        raise no_effect("contour_tool", "the job has no contour or rest operation")
 
 
 def _tools(base: Job, options: MakeOptions) -> tuple[dict[int, Tool], tuple[Operation, ...]]:
     """Return tools by number, and the operations with the numbers of their tools."""
     tools = {tool.number: tool for tool in base.tools}
-    given = {PocketOperation: options.pocket_diameter, ContourOperation: options.contour_diameter}
+    given = {PocketOperation: options.pocket_diameter, **dict.fromkeys((ContourOperation, RestOperation), options.contour_diameter)}
     diameters = {value for value in given.values() if value is not None}
     if not diameters:
         return tools, base.operations
@@ -123,9 +164,9 @@ def _tools(base: Job, options: MakeOptions) -> tuple[dict[int, Tool], tuple[Oper
         return {one.number: one}, tuple(replace(each, cut=replace(each.cut, tool=one.number)) for each in base.operations)
     operations = []
     for operation in base.operations:
-        diameter, number = given[type(operation)], operation.cut.tool
+        diameter, number = given.get(type(operation)), operation.cut.tool
         if diameter is not None:
-            shared = any(each.cut.tool == number and type(each) is not type(operation) for each in base.operations)
+            shared = any(each.cut.tool == number and given.get(type(each)) != diameter for each in base.operations)
             new = max(tools) + 1 if shared and tools[number].diameter != diameter else number
             tools[new] = replace(base.tool(number), number=new, diameter=diameter, name="")
             operation = replace(operation, cut=replace(operation.cut, tool=new))
@@ -136,8 +177,11 @@ def _tools(base: Job, options: MakeOptions) -> tuple[dict[int, Tool], tuple[Oper
 
 def _operation(operation: Operation, tools: dict[int, Tool], options: MakeOptions) -> Operation:
     """Return the operation with the given depth, stepdown, stock, direction and stepover."""
+    if isinstance(operation, DrillOperation):
+        depth = operation.cut.depth if options.depth is None else options.depth
+        return replace(operation, cut=replace(operation.cut, depth=depth))
     operation = replace(operation, cut=_cut(operation.cut, options))
-    if isinstance(operation, ContourOperation):
+    if not isinstance(operation, PocketOperation):
         return operation
     if operation.cut.tool not in tools:
         raise ParameterError(f"The job has no tool T{operation.cut.tool}; add it to the tools or choose another.")
@@ -147,9 +191,9 @@ def _operation(operation: Operation, tools: dict[int, Tool], options: MakeOption
         stepover = options.stepover.of(diameter)
     if options.overlap is not None:
         stepover = _stepover_of_overlap(options, diameter)
-    if stepover is not None and not LEAST_LENGTH <= stepover < diameter:
+    if stepover is not None and not LEAST_LENGTH <= stepover <= diameter:
         raise ParameterError(f"Stepover is {stepover:g} mm with a pocket tool of {diameter:g} mm; "
-                             f"it must be {LEAST_LENGTH:g} mm or more and less than the tool's diameter.")
+                             f"it must be {LEAST_LENGTH:g} mm or more and not more than the tool's diameter.")
     return replace(operation, stepover=stepover)
 
 
@@ -185,7 +229,9 @@ def _speeds(tool: Tool, options: MakeOptions) -> Tool:
     )
 
 
-def _stock(base: Job, operations: tuple[Operation, ...]) -> Stock:
-    """Return the stock; a deeper cut makes it thicker, never thinner."""
+def _stock(base: Job, operations: tuple[Operation, ...], options: MakeOptions) -> Stock:
+    """Return the stock; a deeper cut makes that of the default job thicker, never one that a job has said."""
+    if options.job is not None:
+        return base.stock
     deepest = max((each.cut.depth for each in operations), default=0.0)
     return replace(base.stock, thickness=max(base.stock.thickness, deepest))

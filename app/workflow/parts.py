@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from app.dexel.solid import SolidStock
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
-from app.model.part import Region
+from app.model.moves import Area, DogBone, Moves, Program, Tab
+from app.model.part import Contour, Region
 from app.model.stock_box import StockBox, extent
 
 TOLERANCE = 0.01
@@ -26,6 +27,7 @@ class FlatPart:
         wall_tolerance: within which a wall counts as met, mm: what path and writing may be off.
         tolerance: of heights, mm.
         allowance: so thick a skin may paths made from pixels leave along the walls, mm.
+        areas, lines, clamps, tabs, dog_bones: as of a `Program`.
     """
 
     job: Job
@@ -34,6 +36,16 @@ class FlatPart:
     wall_tolerance: float = 0.002
     tolerance: float = TOLERANCE
     allowance: float = 0.0
+    areas: tuple[Area, ...] = ()
+    lines: tuple[Contour, ...] = ()
+    clamps: tuple[Region, ...] = ()
+    tabs: tuple[Tab, ...] = ()
+    dog_bones: tuple[DogBone, ...] = ()
+
+    def program(self, moves: Moves) -> Program:
+        """Return moves as a program that makes this part."""
+        return Program(moves, self.regions, allowance_mm=self.allowance, areas=self.areas, lines=self.lines, clamps=self.clamps,
+                       tabs=self.tabs, dog_bones=self.dog_bones)
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +71,7 @@ def part_box(part: Part) -> StockBox | None:
     if isinstance(part, SolidPart):
         low, high = part.solid.triangles.min(axis=(0, 1)).tolist(), part.solid.triangles.max(axis=(0, 1)).tolist()
         return StockBox(*low, *high)
-    box = extent(contour for region in part.regions for contour in region.contours)
+    box = extent((*(contour for region in part.regions for contour in region.contours), *part.lines))
     if box is None:
         return None
     (x, y, z), depth = part.origin, max((each.cut.depth for each in part.job.operations if each.cut.enabled), default=0.0)

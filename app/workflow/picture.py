@@ -10,14 +10,17 @@ from app.model.moves import MoveKind, Moves, Program, Purpose
 from app.toolpath.coverage import Coverage
 from app.toolpath.flat import move_rows
 
-_STYLES = {Purpose.RAPID: RAPID, Purpose.LINK: LINK, Purpose.LEAD: LINK, Purpose.POCKET: POCKET, Purpose.CONTOUR: CONTOUR}
+_STYLES = {Purpose.RAPID: RAPID, Purpose.LINK: LINK, Purpose.LEAD: LINK, Purpose.POCKET: POCKET, Purpose.CONTOUR: CONTOUR,
+           Purpose.TAB: CONTOUR, Purpose.DOG_BONE: CONTOUR, Purpose.PLUNGE: LINK, Purpose.DRILL: LINK}
 _ORDER = (RAPID, LINK, POCKET, CONTOUR)
 
 
 def picture_of(name: str, program: Program, coverage: Coverage) -> Picture:
     """Return the picture of a program, seen from above."""
     moves = program.moves
-    plunge = np.isin(moves.purpose, (Purpose.PLUNGE, Purpose.DRILL)) & (moves.end[:, 2] < moves.start[:, 2])
+    down = np.isin(moves.purpose, (Purpose.PLUNGE, Purpose.DRILL)) & (moves.end[:, 2] < moves.start[:, 2])
+    straight = np.all(moves.end[:, :2] == moves.start[:, :2], axis=1)
+    plunge = down & straight
     return Picture(
         title=name,
         contours=tuple(contour_rows(contour) for region in program.regions for contour in region.contours),
@@ -40,7 +43,7 @@ def _runs(moves: Moves) -> list[tuple[Style, np.ndarray]]:
         return []
     rows, purpose = move_rows(moves), np.where(moves.kind == MoveKind.RAPID, Purpose.RAPID, moves.purpose)
     arc = rows[:, 7] != 0
-    shown = ((rows[:, 0] != rows[:, 2]) | (rows[:, 1] != rows[:, 3]) | arc) & ~np.isin(purpose, (Purpose.PLUNGE, Purpose.DRILL))
+    shown = (rows[:, 0] != rows[:, 2]) | (rows[:, 1] != rows[:, 3]) | arc
     cuts = np.flatnonzero((np.diff(purpose) != 0) | (np.diff(shown.astype(int)) != 0)) + 1
     runs = np.split(np.arange(len(moves)), cuts)
     return [(_STYLES[Purpose(int(purpose[run[0]]))], rows[run]) for run in runs if shown[run[0]]]

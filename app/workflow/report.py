@@ -11,15 +11,17 @@ import numpy as np
 from app import tolerances
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
-from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import Operation, PocketOperation
-from app.model.stock_box import extent
+from app.model.moves import MoveKind, Program
+from app.model.stock_box import extent, stock_box, work_origin
+from app.model.tool import Tool
 from app.nc.extent import Extent
 from app.nc.write import blend_mm, writing_tolerance
-from app.toolpath.coverage import CHORD, STRIP, Coverage, Place
+from app.toolpath.coverage import STRIP, Coverage, Place
+from app.toolpath.wanted import CHORD
 from app.workflow.cut import CutProgram
 from app.workflow.judgement import SpotKind
-from app.workflow.verdict import Gouge, RapidInMaterial, in_stock
+from app.workflow.report_path import LENGTHS_METHOD, operation_values, path_lengths, retracts
+from app.workflow.verdict import Gouge, RapidInMaterial
 from app.workflow.written import Written
 
 ENGINE = "exact lines and arcs; pocket rings are levels of one distance field"
@@ -86,6 +88,7 @@ class Report:
 def make_report(measured: Measured) -> Report:
     """Return the report of what was made and measured."""
     program, job, moves, written = measured.program, measured.job, measured.program.moves, measured.written
+    top = -_origin(measured)[2]
     return Report({
         "gouge": _gouge(measured),
         "left": {
@@ -102,9 +105,9 @@ def make_report(measured: Measured) -> Report:
         "rapids_in_material": [
             {"x": hit.x, "y": hit.y, "z": hit.z, **_line(measured, hit.move)} for hit in measured.rapids
         ],
-        "strokes": pocket_strokes(moves),
+        "strokes": measured.program.strokes,
         "retracts": retracts(moves),
-        "length_mm": path_lengths(moves, written),
+        "length_mm": path_lengths(moves, written, top), "length_method": LENGTHS_METHOD,
         **_times(written),
         "moves": {f"G{kind.value}": int(np.sum(written.kind == kind)) for kind in MoveKind},
         "moves_method": MOVES_METHOD,
@@ -119,10 +122,9 @@ def make_report(measured: Measured) -> Report:
         "findings": [as_values(each) for each in measured.findings],
         "regions": _regions(program),
         "area_check_mm2": {"exact": program.exact_area_mm2, "bitmap": program.bitmap_area_mm2, "pitch_mm": program.pitch_mm},
-        "tools": [{"number": t.number, "kind": t.kind.value, "diameter_mm": t.diameter, "spindle_rpm": t.spindle_speed,
-                   "feed_mm_min": t.feed_rate, "plunge_mm_min": t.plunge_rate, "time_s": _tool_time(t.number, measured)}
-                  for t in job.tools],
-        "operations": [_operation(each, index, measured) for index, each in enumerate(job.operations)],
+        "tools": [_tool(tool, measured) for tool in job.tools],
+        "operations": [operation_values(job, index, moves, written, top) for index in range(len(job.operations))],
+        **_setup(measured),
         "post": job.post,
         "out_units": "in" if job.out_units.value == 25.4 else "mm",
     })  # fmt: skip
@@ -170,10 +172,27 @@ def _times(written: Written) -> Json:
             "time_method": TIME_METHOD.format(written.machine.title)}
 
 
-def _tool_time(number: int, measured: Measured) -> float:
-    """Return the seconds that a tool's motions take."""
-    written = measured.written
-    return float(np.sum(written.moving[measured.program.moves.tool[written.move] == number]))
+def _tool(tool: Tool, measured: Measured) -> Json:
+    """Return a tool, how thick its chips are where it is in full cut, and how long its motions take."""
+    mine = measured.program.moves.tool[measured.written.move] == tool.number
+    return {"number": tool.number, "kind": tool.kind.value, "diameter_mm": tool.diameter, "flutes": tool.flutes,
+            "spindle_rpm": tool.spindle_speed, "feed_mm_min": tool.feed_rate, "plunge_mm_min": tool.plunge_rate,
+            "chip_load_mm": tool.feed_rate / (tool.spindle_speed * tool.flutes), "time_s": float(np.sum(measured.written.moving[mine]))}
+
+
+def _origin(measured: Measured) -> tuple[float, float, float]:
+    """Return the work origin in part coordinates; the drawing's zero where nothing is machined."""
+    program, job = measured.program, measured.job
+    return work_origin(job, stock_box(job, program.regions, program.lines)) if len(program.moves) else (0.0, 0.0, 0.0)
+
+
+def _setup(measured: Measured) -> Json:
+    """Return copies, clamps, and what stands or is cut on purpose."""
+    job, program = measured.job, measured.program
+    return {"copies": {"columns": job.copies.columns, "rows": job.copies.rows, "dx_mm": job.copies.dx, "dy_mm": job.copies.dy},
+            "keep_out": {"layers": list(job.keep_out_layers), "height_mm": job.keep_out_height, "travel_z_mm": job.travel_z},
+            "tabs": [{"x": tab.x, "y": tab.y, "width_mm": tab.width, "top_mm": tab.top} for tab in program.tabs],
+            "dog_bones": len(program.dog_bones)}
 
 
 def _gouge(measured: Measured) -> Json:
@@ -226,18 +245,6 @@ def _regions(program: Program) -> list[Json]:
     return found
 
 
-def _operation(operation: Operation, index: int, measured: Measured) -> Json:
-    cut, written = operation.cut, measured.written
-    mine = measured.program.moves.operation[written.move] == index
-    pocket = isinstance(operation, PocketOperation)
-    result: Json = {"kind": "pocket" if pocket else "contour", "tool": cut.tool, "depth_mm": cut.depth, "stepdown_mm": cut.stepdown,
-                    "stock_to_leave_mm": cut.stock_to_leave, "direction": cut.direction.value, "enabled": cut.enabled,
-                    "time_s": float(np.sum(written.moving[mine]))}
-    if isinstance(operation, PocketOperation):
-        result["stepover_mm"] = operation.stepover or measured.job.tool(cut.tool).diameter / 2
-    return result
-
-
 def rings_in_words(count: int) -> str:
     """Return what rings are that no lines and arcs fit, without a full stop.
 
@@ -246,25 +253,3 @@ def rings_in_words(count: int) -> str:
     """
     rings = "1 ring is a fine polyline" if count == 1 else f"{count} rings are fine polylines"
     return f"{rings} within {tolerances.LEVEL * 1000:g} um instead of lines and arcs"
-
-
-def path_lengths(moves: Moves, written: Written) -> dict[str, float]:
-    """Return lengths of what was written, mm: cut, link (links and leads), plunge, rapid; MOVES_METHOD tells how the first one counts."""
-    purpose, rapid = moves.purpose[written.move], written.kind == MoveKind.RAPID
-    link = ~rapid & np.isin(purpose, (Purpose.LINK, Purpose.LEAD))
-    plunge = ~rapid & (purpose == Purpose.PLUNGE)
-    chosen = {"cut": ~rapid & ~link & ~plunge, "link": link, "plunge": plunge, "rapid": rapid}
-    return {name: float(np.sum(written.length[mask])) for name, mask in chosen.items()}
-
-
-def retracts(moves: Moves) -> int:
-    """Return how often the tool leaves the stock."""
-    below = in_stock(moves)
-    return int(np.sum(below & (moves.end[:, 2] >= 0)))
-
-
-def pocket_strokes(moves: Moves) -> int:
-    """Return how many unbroken runs of feed moves hold pocket moves."""
-    feed = moves.kind != MoveKind.RAPID
-    run = np.cumsum(~feed)
-    return len(np.unique(run[feed & (moves.purpose == Purpose.POCKET)]))

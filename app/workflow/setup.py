@@ -9,21 +9,23 @@ import numpy as np
 
 from app.dexel.solid import SolidStock, read_solid
 from app.dexel.workpiece import BoxStock, Stock
-from app.errors import InputError
+from app.errors import HitofudeError, InputError
 from app.files.drawing import read_drawing
 from app.files.job_toml import JobFile
 from app.model.finding import Finding
-from app.model.job import Job, OriginXY, OriginZ
+from app.model.job import Copies, Job, OriginXY, OriginZ
 from app.model.job import Stock as JobStock
 from app.model.motion import Floats, MotionKind
-from app.model.operation import ContourOperation, Cut, Operation, PocketOperation
+from app.model.moves import DogBone, Tab
+from app.model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, RestOperation
+from app.model.part import Contour, Region, Units
 from app.model.part import Part as DrawnPart
-from app.model.part import Region, Units
 from app.model.stock_box import stock_box, work_origin
-from app.nc.read.program import HeaderNote
+from app.nc.read.program import HeaderNote, OperationNote
 from app.progress import NO_PROGRESS, Progress
 from app.workflow.cut import CutSetup
 from app.workflow.examine import Examined
+from app.workflow.layers import layers_to_read, with_layers_spelled
 from app.workflow.parts import TOLERANCE, FlatPart, Part, SolidPart
 from app.workflow.setup_stock import KnownStock, told_stock
 from app.workflow.setup_tools import KnownTool, ToolsTold, other_tools, with_tools
@@ -121,7 +123,7 @@ def _stock(programs: tuple[Examined, ...], tools: dict[int, KnownTool], part: Pa
     if wishes.stock is not None:
         return KnownStock(wishes.stock, "as given")
     if wishes.job is not None and "stock" in wishes.job.tables and isinstance(part, FlatPart):
-        box, (x, y, z) = stock_box(part.job, part.regions), part.origin
+        box, (x, y, z) = stock_box(part.job, part.regions, part.lines), part.origin
         moved = replace(box, x0=box.x0 - x, y0=box.y0 - y, z0=box.z0 - z, x1=box.x1 - x, y1=box.y1 - y, z1=box.z1 - z)
         return KnownStock(BoxStock(moved), "the job file, round the drawing")
     return told_stock(programs, max(each.tool.radius for each in tools.values()), None if part is None else _part_box(part))
@@ -132,7 +134,8 @@ def _part_box(part: Part) -> Floats:
     if isinstance(part, SolidPart):
         corners = part.solid.triangles.reshape(-1, 3)
         return np.array([corners.min(axis=0), corners.max(axis=0)])
-    box, depth = stock_box(replace(part.job, stock=JobStock()), part.regions), max(each.cut.depth for each in part.job.operations)
+    box = stock_box(replace(part.job, stock=JobStock()), part.regions, part.lines)
+    depth = max(each.cut.depth for each in part.job.operations)
     return np.array([[box.x0, box.y0, -depth], [box.x1, box.y1, 0.0]]) - part.origin
 
 
@@ -165,33 +168,45 @@ def _solid(name: str, data: bytes, wishes: Wishes) -> SolidPart:
 
 def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> tuple[FlatPart, tuple[Finding, ...]]:
     """Return the drawing and what of it is milled, and what there is to say about it."""
-    from app.toolpath.compute import regions_of
+    from app.toolpath.compute import about_drawing, followed_lines, machined
+    from app.toolpath.drawn import drawn
+    from app.toolpath.sheets import Sheets
 
     assert wishes.against is not None
     header, (name, data) = _header(programs), wishes.against
-    layers = wishes.layers or (wishes.job.job.layer_names if wishes.job else ()) or header.layers
     units = wishes.units or (wishes.job.units if wishes.job else None) or header.drawing_units
-    drawing = read_drawing(name, data, units, layers)
-    job = _job(drawing.part, programs, tools, wishes)
-    job = replace(job, layer_names=tuple(dict.fromkeys(each.layer for each in drawing.part.entities)) if layers else ())
-    regions, findings = regions_of(job)
-    if not regions:
-        said = " ".join(finding.text for finding in findings[:3])
+    asked = _job(DrawnPart(), programs, tools, wishes)
+    drawing = read_drawing(name, data, units, layers_to_read(asked))
+    job = with_layers_spelled(replace(asked, part=drawing.part))
+    parts = drawn(job)
+    regions, lines = machined(parts), followed_lines(job, parts)
+    if not regions and not lines:
+        said = " ".join(finding.text for finding in parts.findings[:3])
         raise InputError(f"{name}: there is no closed contour to compare with; choose other layers, or join loose ends: "
                          f"--join-tolerance. {said}".rstrip())
     proven = header.path_tolerance if wishes.tolerance is None else None
     tolerance = TOLERANCE if wishes.tolerance is None else wishes.tolerance
-    origin = _origin(job, regions, wishes, header)
-    part = FlatPart(job, regions, origin, tolerance if proven is None else proven, tolerance, header.allowance or 0.0)
-    return part, (*drawing.findings, *findings)
+    tabs, dog_bones = _on_purpose(programs)
+    part = FlatPart(job, regions, _origin(job, (regions, lines), wishes, header), tolerance if proven is None else proven, tolerance,
+                    header.allowance or 0.0, Sheets(job, parts).areas(), lines, clamps=parts.clamps, tabs=tabs, dog_bones=dog_bones)
+    return part, (*drawing.findings, *about_drawing(job, parts, lines))
 
 
-def _origin(job: Job, regions: tuple[Region, ...], wishes: Wishes, header: HeaderNote) -> tuple[float, float, float]:
+def _on_purpose(programs: tuple[Examined, ...]) -> tuple[tuple[Tab, ...], tuple[DogBone, ...]]:
+    """Return tabs and dog-bones that headers of our own tell of, each once."""
+    headers = [each.program.header for each in programs if each.program.header is not None]
+    return (tuple(dict.fromkeys(tab for header in headers for tab in header.tabs)),
+            tuple(dict.fromkeys(bone for header in headers for bone in header.dog_bones)))
+
+
+def _origin(
+    job: Job, milled: tuple[tuple[Region, ...], tuple[Contour, ...]], wishes: Wishes, header: HeaderNote,
+) -> tuple[float, float, float]:  # fmt: skip
     """Return the program's zero in the drawing's coordinates."""
     asked = wishes.origin is not None or (wishes.job is not None and "origin" in wishes.job.tables)
     if not asked:
         return header.origin or (0.0, 0.0, 0.0)
-    return work_origin(job, stock_box(job, regions))
+    return work_origin(job, stock_box(job, *milled))
 
 
 def _job(part: DrawnPart, programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> Job:
@@ -204,10 +219,14 @@ def _job(part: DrawnPart, programs: tuple[Examined, ...], tools: dict[int, Known
     header = _header(programs)
     xy, z = wishes.origin or (base.origin_xy, base.origin_z)
     join = next((t for t in (wishes.join_tolerance, base.join_tolerance if wishes.job else header.join_tolerance) if t is not None), None)
+    layers = wishes.layers or (base.layer_names if wishes.job else ()) or header.layers
+    copies, (clamps, height) = base.copies, (base.keep_out_layers, base.keep_out_height)
     return replace(
         base, part=part, tools=tuple(mine.values()), operations=operations, stock=_job_stock(base, operations, programs, wishes),
         origin_xy=xy or OriginXY.DRAWING, origin_z=z or OriginZ.TOP,
-        join_tolerance=base.join_tolerance if join is None else join,
+        join_tolerance=base.join_tolerance if join is None else join, layer_names=layers,
+        copies=copies if wishes.job and "copies" in wishes.job.tables else header.copies or Copies(),
+        keep_out_layers=clamps or header.keep_out[0], keep_out_height=height or header.keep_out[1],
     )  # fmt: skip
 
 
@@ -237,8 +256,25 @@ def _operations(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wis
 def _noted(programs: tuple[Examined, ...]) -> list[Operation]:
     """Return the operations that headers of our own tell of, each once."""
     notes = dict.fromkeys(note for each in programs if each.program.header is not None for note in each.program.header.operations)
-    kinds = {"pocket": PocketOperation, "contour": ContourOperation}
-    return [kinds[note.kind](Cut(note.tool, note.depth, note.depth, note.leave)) for note in notes]
+    return [_as_noted(note) for note in notes]
+
+
+def _as_noted(note: OperationNote) -> Operation:
+    """Return the operation that a header tells of, with what its part depends on.
+
+    Raises:
+        InputError: its numbers make none.
+    """
+    try:
+        cut = Cut(note.tool, note.depth, note.depth, note.leave, floor_to_leave=note.floor_to_leave, layers=note.layers)
+        if note.kind == "contour":
+            return ContourOperation(cut, note.side)
+        if note.kind == "drill":
+            least, most, through = note.holes
+            return DrillOperation(cut, None, least or None, most or None, through)
+        return RestOperation(cut) if note.kind == "rest" else PocketOperation(cut)
+    except HitofudeError as error:
+        raise InputError(f"The program's comments tell of an operation that is none: {error}") from error
 
 
 def _with(operation: Operation, wishes: Wishes) -> Operation:

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from app.dexel.cutter import cutter_of
 from app.geometry.near import near
 from app.geometry.primitives import TURN, contour_rows
 from app.model.job import Job
-from app.model.moves import MoveKind, Moves, Program
+from app.model.moves import Area, MoveKind, Moves, Program
+from app.model.part import Region
 from app.model.stock_box import StockBox
-from app.model.tool import ToolKind
 from app.tolerances import LEVEL
 from app.toolpath.flat import lines, move_rows, region_shapes
+from app.workflow.bounds import bounds_of, cutting_radius, in_dog_bones, off_lines
 from app.workflow.clearance import curve_distance
 
 Floats = NDArray[np.float64]
@@ -62,23 +63,6 @@ def in_stock(moves: Moves, top: float = 0.0) -> NDArray[np.bool_]:
     return np.minimum(moves.start[:, 2], moves.end[:, 2]) < top - _SURFACE
 
 
-def required_clearance(moves: Moves, job: Job) -> Floats:
-    """Return (n,) the least distance of each move's centre line from walls: the cutter's radius + stock to leave, mm.
-
-    A cutter that is not as wide as that at its tip counts as wide as it is at Z 0, where the walls end, when the move is deepest.
-    """
-    shapes = {tool.number: None if tool.kind is ToolKind.FLAT else cutter_of(tool) for tool in job.tools}
-    straight = {tool.number: tool.radius for tool in job.tools}
-    leave = [operation.cut.stock_to_leave for operation in job.operations]
-    height = -np.minimum(moves.start[:, 2], moves.end[:, 2])
-    need = np.array([straight[int(t)] + leave[int(o)] for t, o in zip(moves.tool, moves.operation, strict=True)])
-    for number, cutter in shapes.items():
-        if cutter is not None:
-            mine = moves.tool == number
-            need[mine] += np.array([cutter.radius_at(each) for each in height[mine].tolist()]) - straight[number]
-    return need
-
-
 @dataclass(frozen=True, eq=False)
 class Depths:
     """How deep moves in the stock cut into the part, n of them.
@@ -94,33 +78,74 @@ class Depths:
     places: Floats
 
 
-def gouge_depths(program: Program, job: Job, stock: StockBox | None = None) -> Depths:
-    """Return how deep each move in the stock cuts into walls, by exact distances, or below the floor of its tool's operations.
+def gouge_depths(program: Program, job: Job, stock: StockBox | None = None, by_tool: bool = False) -> Depths:
+    """Return how deep each move in the stock cuts into walls, by exact distances, or below the floor of its operation.
 
     Args:
-        program: its regions' contours are the walls; what lies outside of all regions is part.
+        program: what lies outside of an operation's area is part, or a clamp.
         job: its tools and its stock to leave are what the path must keep clear of.
         stock: moves above it, and those that keep off it by their cutter's radius, cut nothing; straight ones count up to where they
             leave it. None = it is everywhere below Z 0.
+        by_tool: True: nobody knows which operation a move belongs to, so it may be wherever one of its tool's may.
     """
     moves = program.moves
     top = min(0.0, stock.z1) if stock is not None else 0.0
-    chosen = np.flatnonzero(in_stock(moves, top)) if program.regions else np.zeros(0, np.int64)
+    chosen = np.flatnonzero(in_stock(moves, top)) if program.regions or program.lines else np.zeros(0, np.int64)
     if stock is not None and len(chosen):
         chosen = chosen[_touches(moves, job, stock)[chosen]]
+    depth, places = np.full(len(chosen), np.inf), np.zeros((len(chosen), 2))
+    low = np.minimum(moves.start[chosen, 2], moves.end[chosen, 2])
+    rows = move_rows(moves)[chosen]
+    rows = _clipped(rows, stock) if stock is not None else rows
+    radius = cutting_radius(moves, job)[chosen]
+    exempt = in_dog_bones(rows, program.dog_bones)
+    for bound in bounds_of(program, job):
+        mine = np.flatnonzero(np.isin(moves.tool[chosen], bound.tools) if by_tool else np.isin(moves.operation[chosen], bound.operations))
+        if not len(mine):
+            continue
+        deep, where = _beyond_walls(rows[mine], radius[mine] + bound.leave, bound.area)
+        deep[exempt[mine]] = -np.inf
+        too_deep = -low[mine] - bound.floor
+        deeper = too_deep > np.maximum(deep, _SURFACE)
+        deep[deeper], where[deeper] = too_deep[deeper], rows[mine][deeper, 2:4]
+        better = deep < depth[mine]
+        depth[mine[better]], places[mine[better]] = deep[better], where[better]
+    return Depths(chosen, depth, np.column_stack([places, low]))
+
+
+def _beyond_walls(rows: Floats, need: Floats, area: Area) -> tuple[Floats, Floats]:
+    """Return how far moves leave an area, with all the width that they need (<= 0: they do not), mm, and where, (n, 2)."""
+    walls = np.concatenate([contour_rows(contour) for region in area.regions for contour in region.contours])
+    depth, places = _depths(rows, need, walls)
+    outside, beyond = _outside(rows, area.regions)
+    depth[outside], places[outside] = need[outside] + beyond, rows[outside, 2:4]
+    if area.lines:
+        off, where = off_lines(rows, area.lines)
+        farther = off > np.maximum(depth, 0.0)
+        depth[farther], places[farther] = off[farther], where[farther]
+    return depth, places
+
+
+def clamps_met(program: Program, job: Job, depths: Depths | None = None) -> Depths:
+    """Return how far each move below the clamps' tops, rapids too, reaches into a clamp with its cutter.
+
+    Args:
+        program: its clamps are as high as the job says.
+        depths: of moves in the stock, by walls, clamps among them; those that are gouges there are not told again.
+    """
+    moves = program.moves
+    low = np.minimum(moves.start[:, 2], moves.end[:, 2])
+    chosen = np.flatnonzero(low < job.keep_out_height - _SURFACE) if program.clamps else np.zeros(0, np.int64)
+    if depths is not None:
+        chosen = np.setdiff1d(chosen, depths.move[depths.depth > LEVEL])
     if not len(chosen):
         return Depths(chosen, np.zeros(0), np.zeros((0, 3)))
-    rows, need = move_rows(moves)[chosen], required_clearance(moves, job)[chosen]
-    rows = _clipped(rows, stock) if stock is not None else rows
-    walls = np.concatenate([contour_rows(contour) for region in program.regions for contour in region.contours])
-    depth, places = _depths(rows, need, walls)
-    outside, beyond = _outside(rows, program)
-    depth[outside], places[outside] = need[outside] + beyond, rows[outside, 2:4]
-    low = np.minimum(moves.start[chosen, 2], moves.end[chosen, 2])
-    too_deep = -low - _floors(moves, job)[chosen]
-    deeper = too_deep > np.maximum(depth, _SURFACE)
-    depth[deeper], places[deeper] = too_deep[deeper], rows[deeper, 2:4]
-    return Depths(chosen, depth, np.column_stack([places, low]))
+    rows, need = move_rows(moves)[chosen], np.array([job.tool(number).radius for number in moves.tool[chosen].tolist()])
+    depth, places = _depths(rows, need, np.concatenate([contour_rows(c) for region in program.clamps for c in region.contours]))
+    held = shapely.union_all(region_shapes(program.clamps, _CHORD))
+    over = np.asarray(shapely.intersects(shapely.points(rows[:, 2:4]), held))
+    depth[over] = np.maximum(depth[over], need[over])
+    return Depths(chosen, depth, np.column_stack([places, low[chosen]]))
 
 
 def _touches(moves: Moves, job: Job, stock: StockBox) -> NDArray[np.bool_]:
@@ -160,15 +185,6 @@ def deepest_of(depths: Depths) -> Gouge:
     return Gouge(float(depths.depth[worst]), x, y, z, int(depths.move[worst]), int(np.sum(depths.depth > LEVEL)))
 
 
-def _floors(moves: Moves, job: Job) -> Floats:
-    """Return (n,) how deep each move's tool may go, mm: the depth of the deepest operation that it is used in."""
-    deepest: dict[int, float] = {}
-    for operation in job.operations:
-        if operation.cut.enabled:
-            deepest[operation.cut.tool] = max(deepest.get(operation.cut.tool, 0.0), operation.cut.depth)
-    return np.array([deepest.get(number, 0.0) for number in moves.tool.tolist()])
-
-
 def _depths(rows: Floats, need: Floats, walls: Floats) -> tuple[Floats, Floats]:
     """Return (n,) how far each move comes nearer to a wall than it may (<= 0: it does not), and where, (n, 2)."""
     tree = shapely.STRtree(lines(walls, _CHORD))
@@ -181,9 +197,9 @@ def _depths(rows: Floats, need: Floats, walls: Floats) -> tuple[Floats, Floats]:
     return depth, places
 
 
-def _outside(rows: Floats, program: Program) -> tuple[NDArray[np.int64], Floats]:
+def _outside(rows: Floats, regions: Sequence[Region]) -> tuple[NDArray[np.int64], Floats]:
     """Return the moves whose end lies in no region, and how far outside, mm."""
-    polygons = shapely.union_all(region_shapes(program.regions, _CHORD))
+    polygons = shapely.union_all(region_shapes(regions, _CHORD))
     ends = shapely.points(rows[:, 2:4])
     shapely.prepare(polygons)
     distance = np.zeros(len(rows))
@@ -214,9 +230,14 @@ def rapids_in_material(program: Program, job: Job) -> tuple[RapidInMaterial, ...
 
 
 def _cleared_before(moves: Moves, k: int, radius: dict[int, float]) -> bool:
-    """Tell whether a cut before move k, at least as deep, covered the whole cutter where move k ends."""
+    """Tell whether a cut before move k, at least as deep, covered the whole cutter where move k ends.
+
+    What the same tool has cut straight down it can go down again; of other cuts all must be as deep.
+    """
     before = np.arange(k)
-    deep = np.maximum(moves.start[:k, 2], moves.end[:k, 2]) <= moves.end[k, 2] + 1e-6
+    heights = np.array([moves.start[:k, 2], moves.end[:k, 2]])
+    straight = (np.hypot(*(moves.end[:k, :2] - moves.start[:k, :2]).T) < 1e-9) & (moves.tool[:k] == moves.tool[k])
+    deep = np.where(straight, heights.min(axis=0), heights.max(axis=0)) <= moves.end[k, 2] + 1e-6
     chosen = before[deep & (moves.kind[:k] != MoveKind.RAPID)]
     if not len(chosen):
         return False

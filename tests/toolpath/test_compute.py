@@ -9,10 +9,11 @@ import pytest
 
 from app.errors import ParameterError
 from app.geometry.region import polygon_contour
+from app.model.curves import Line
 from app.model.finding import FindingKind
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import ContourOperation, Cut, Direction, Order, PocketOperation
+from app.model.operation import ContourOperation, Cut, Direction, DrillOperation, Order, PocketOperation, Side
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
 from app.toolpath.compute import compute
@@ -77,12 +78,12 @@ def test_contour_path_is_the_exact_offset_with_arcs_kept() -> None:
     assert {6.5, 9.5, 10.5} <= {round(float(r), 6) for r in radii}  # bulge 8 - 1.5, bay 8 + 1.5, circle 12 - 1.5
 
 
-def test_pocket_cuts_first_and_every_stroke_is_one_plunge() -> None:
+def test_pocket_cuts_first_and_the_tool_comes_down_once_a_stroke() -> None:
     program = compute(job_of(fig2()))
     assert program.strokes == 2
     assert list(dict.fromkeys(program.moves.tool.tolist())) == [1, 2]
-    plunges = program.moves.purpose == Purpose.PLUNGE
-    assert int((plunges & (program.moves.tool == 1)).sum()) == 2 and int((plunges & (program.moves.tool == 2)).sum()) == 3
+    down = (program.moves.kind == MoveKind.RAPID) & (program.moves.end[:, 2] == 1.0)
+    assert [int((down & (program.moves.tool == tool)).sum()) for tool in (1, 2)] == [2, 3]
 
 
 def test_order_1986_cuts_the_contour_first_and_warns() -> None:
@@ -96,9 +97,12 @@ def test_rapids_travel_at_clearance_height_only() -> None:
     rapid = moves.kind == MoveKind.RAPID
     travels = rapid & (np.hypot(*(moves.end - moves.start)[:, :2].T) > 0)
     assert np.all(moves.end[travels, 2] == 5.0) and np.all(moves.start[travels, 2] == 5.0)
-    assert np.all(moves.end[rapid, 2] >= 1.0)
+    low = rapid & (moves.end[:, 2] < 1.0)
+    assert np.all(moves.end[low, 2] > moves.start[low, 2]) and np.all(moves.end[low, :2] == moves.start[low, :2])
     plunge = moves.purpose == Purpose.PLUNGE
-    assert np.all(moves.end[plunge, :2] == moves.start[plunge, :2])
+    fall = (moves.start[:, 2] - moves.end[:, 2])[plunge]
+    aside = np.sqrt(np.maximum(moves.lengths()[plunge] ** 2 - fall**2, 0.0))
+    assert np.all((aside < 1e-9) | (fall <= aside * np.tan(np.radians(3)) + 1e-9)) and np.all(fall > 0)
 
 
 def test_depth_passes_are_equal_and_reach_the_floor() -> None:
@@ -190,3 +194,41 @@ def test_the_same_job_gives_the_same_moves() -> None:
     first, second = (compute(job_of(fig2())).moves for _ in range(2))
     for name, column in first.columns().items():
         assert np.array_equal(column, second.columns()[name], equal_nan=column.dtype.kind == "f"), name
+
+
+def test_that_lines_are_open_is_nothing_to_say_of_an_engraving() -> None:
+    part = Part().with_entities((Entity(1, Line((0.0, 0.0), (30.0, 10.0))), Entity(2, Line((30.0, 10.0), (50.0, 0.0)))))
+    engraving = Job(part, (Tool(1, 2.0),), (ContourOperation(Cut(1), Side.ON),))
+    program = compute(engraving)
+    assert FindingKind.OPEN_CONTOUR not in {finding.kind for finding in program.findings}
+    assert len(program.moves)
+    assert len(program.lines) == 1
+    inside = replace(engraving, operations=(ContourOperation(Cut(1)),))
+    assert FindingKind.OPEN_CONTOUR in {finding.kind for finding in compute(inside).findings}
+
+
+def test_metal_under_a_clamp_in_the_middle_of_a_pocket_is_told() -> None:
+    clamp = [Entity(50 + k, curve, "clamps") for k, curve in enumerate(circle(4.0, 20.0, 15.0).primitives)]
+    task = job_of([square(40.0)])
+    task = replace(task, part=task.part.with_entities((*task.part.entities, *clamp)), keep_out_layers=("clamps",), keep_out_height=5.0)
+    (told,) = [finding for finding in compute(task).findings if "under clamps" in finding.text]
+    assert told.counts
+    assert told.amount == pytest.approx(np.pi * 16, rel=1e-3)
+    along = replace(task, operations=(ContourOperation(Cut(2)),))
+    assert not any("is to be cleared" in finding.text for finding in compute(along).findings)
+
+
+def test_lines_that_cross_count_for_nothing_where_they_are_engraved() -> None:
+    part = Part().with_entities((Entity(1, Line((0.0, 0.0), (30.0, 0.0))), Entity(2, Line((15.0, -9.0), (15.0, 9.0)))))
+    engraving = Job(part, (Tool(1, 2.0),), (ContourOperation(Cut(1), Side.ON),))
+    assert not any(finding.counts for finding in compute(engraving).findings)
+
+
+def test_a_circle_that_is_drilled_is_not_followed_as_well() -> None:
+    contours = [square(40.0), circle(2.5, 20.0, 15.0)]
+    task = job_of(contours, 5.0, 3.0, operations=(DrillOperation(Cut(1)), ContourOperation(Cut(2), Side.ON)))
+    moves = compute(task).moves
+    mill = (moves.tool == 2) & (moves.kind != MoveKind.RAPID)
+    assert np.hypot(*(moves.end[mill, :2] - (20, 15)).T).min() > 10
+    alone = compute(replace(task, operations=task.operations[1:])).moves
+    assert np.hypot(*(alone.end[:, :2] - (20, 15)).T).min() < 3

@@ -17,7 +17,7 @@ from app.model.job import Job
 from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.model.part import Contour, Part, Region
 from app.model.tool import Tool
-from app.toolpath.coverage import _solid, _widened, coverage_findings, measure
+from app.toolpath.coverage import _between_reversals, _solid, _widened, coverage_findings, measure
 from app.toolpath.proven import uncertain
 from tests.nc.programs import Path, square
 
@@ -179,3 +179,14 @@ def test_lines_and_slivers_together_are_nothing_that_is_left() -> None:
     line = shapely.LineString([(2, 0), (5, 5)])
     assert _solid(shapely.GeometryCollection([line, sliver])).is_empty
     assert _solid(shapely.GeometryCollection([line, sliver, corner])).area == pytest.approx(4)
+
+
+def test_the_end_of_a_spur_there_and_back_is_covered() -> None:
+    """The library rounds off no end where a path turns back on itself."""
+    path = rings(7.0, 4.0, 1.0).into_work(0, 0, -2)
+    for x, y in ((8.5, 0.0), (0.0, 0.0), (0.0, 8.5), (0.0, 0.0), (-8.5, 0.0), (0.0, 0.0)):
+        path.line(x, y, -2)
+    spur = np.array([[0, 0], [8.5, 0], [8.5, 0], [0, 0.0]])
+    swath = shapely.union_all([shape for part in _between_reversals(spur) for shape in _widened(part, 3.0)])
+    assert swath.contains(shapely.Point(11.4, 0.0))
+    assert measure(path.out_of_work().program(DISC), one_tool()).reachable_left_mm2 == 0

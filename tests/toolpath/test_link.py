@@ -17,7 +17,7 @@ from app.model.moves import Purpose
 from app.model.operation import Direction
 from app.model.part import Contour
 from app.toolpath.build import Stroke, started_at
-from app.toolpath.link import link
+from app.toolpath.link import Manner, link
 from app.toolpath.pocket import pocket_distances, without_empty
 from tests import plain_distance
 from tests.part_shapes import circle, fig2, random_part, square
@@ -29,7 +29,7 @@ def pocket(contours: list[Contour], outermost: float, step: float, direction: Di
     field = DistanceField.of(primitives.rows)
     distances = pocket_distances(outermost, step, field)
     levels = without_empty(offset_levels(primitives, distances))
-    return levels, link(levels, field, direction)
+    return levels, link(levels, field, Manner(direction))
 
 
 def areas_of_tool_centre(levels: tuple[Level, ...]) -> int:

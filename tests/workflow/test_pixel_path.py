@@ -20,6 +20,7 @@ from app.model.moves import Moves, Purpose
 from app.model.operation import ContourOperation, Cut, Direction, Order, PocketOperation
 from app.model.part import Contour, Part
 from app.toolpath.coverage import coverage_findings, measure
+from app.toolpath.flat import move_rows
 from app.workflow.bitmap_job import drawn_job
 from app.workflow.bitmap_options import BitmapSize
 from app.workflow.make import finish
@@ -27,7 +28,7 @@ from app.workflow.pixel_path import TOLERANCE_PX, Keep, chain_points, clearance,
 from tests.bitmap.shapes import KINDS
 from tests.part_shapes import circle, fig2, square
 from tests.plain_distance import distance
-from tests.workflow.test_bitmap_way import along, job_of, made
+from tests.workflow.test_bitmap_way import job_of, made
 
 FRAME = Frame(200, 200, 0.5)
 
@@ -98,7 +99,8 @@ def test_what_is_given_up_is_measured_from_the_drawing() -> None:
     result = made(job_of(fig2(), 3.0, 6.0))
     walls = [contour for region in result.program.regions for contour in region.contours]
     chosen = result.program.moves.purpose == Purpose.CONTOUR
-    points = along(result, 2, 0.02)
+    rows = move_rows(result.program.moves)[chosen]
+    points = np.concatenate([points_at(rows, np.full(len(rows), part)) for part in np.linspace(0, 1, 400)])
     over = distance(points, walls) - 1.5
     assert chosen.any()
     assert over.max() <= result.given_up.most_mm + 0.1

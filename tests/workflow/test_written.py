@@ -56,7 +56,7 @@ def test_files_of_one_tool_each_hold_every_move_once(made: Made) -> None:
     lines = np.concatenate([file.nc.lines for file in this.files])
     assert this.program.moves.line.tolist() == lines.tolist()
     one = finish(made.program, made.job).report.data
-    for key in ("cut", "plunge", "link"):
+    for key in ("cut", "entry", "air", "link", "lead"):
         assert this.report.data["length_mm"][key] == pytest.approx(one["length_mm"][key], abs=0.01)
     assert this.report.data["time_s"] == pytest.approx(one["time_s"], abs=3)
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from app.nc.read.program import EventKind, NcProgram
 from app.nc.read.text import Text
 
-_CONTOURS, _OTHERS = (b"Contour T", b"CONTOUR T"), (b"Pocket T", b"POCKET T")
+_CONTOURS = (b"Contour T", b"CONTOUR T")
+_OTHERS = (b"Pocket T", b"POCKET T", b"Rest T", b"REST T", b"Drill T", b"DRILL T")
 _NUMBER = re.compile(rb"\d{1,9}:")
 _OPENS = (b"(", b";")
 _BEFORE = 8

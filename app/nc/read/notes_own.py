@@ -1,12 +1,17 @@
-"""What the header of our own programs tells (`app.nc.header`): a key and its values in each comment."""
+"""What the header of our own programs tells (`app.nc.header_notes`): a key and its values in each comment."""
 
 from __future__ import annotations
 
 import math
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import NamedTuple
 
+from app.errors import ParameterError
+from app.model.job import Copies
+from app.model.moves import DogBone, Tab
+from app.model.operation import OPERATION_KINDS, Side
 from app.model.part import Units
 from app.nc.read.notes_stock import Box
 from app.nc.read.notes_words import Comments
@@ -16,7 +21,8 @@ MARK, MARK_ON = b"hitofude:", b"hitofude+"
 """What the comments of the header begin with, and those that go on with the one before."""
 
 _SPELLED = re.compile(r"\+([0-9A-F]{1,6})\+", re.IGNORECASE)
-_KINDS = ("pocket", "contour")
+_MOST = 20_000
+"""Comments of a header that are looked at: each tab and each dog-bone has one."""
 
 Values = tuple[int, list[str]]
 """1-based line of a comment, and its values."""
@@ -37,10 +43,13 @@ def own_notes(comments: Comments) -> Notes:
         told.setdefault(key, []).append(values)
     origin = next((triple for _, values in told.get("origin_mm", []) if (triple := _triple(values)) is not None), None)
     header = HeaderNote(
-        origin, tuple(_operations(told.get("operation", []))), _units(told.get("drawing_units", [])),
+        origin, tuple(_operations(told)), _units(told.get("drawing_units", [])),
         tuple(_name(values) for _, values in told.get("layer", [])),
         _first(told.get("join_tolerance_mm", [])), _first(told.get("path_tolerance_mm", [])),
-        _first(told.get("allowance_mm", [])),
+        _first(told.get("allowance_mm", [])), _copies(told.get("copies", [])),
+        (tuple(_name(values) for _, values in told.get("keep_out", [])), _first(told.get("keep_out_height_mm", [])) or 0.0),
+        tuple(Tab(*numbers) for numbers in _fives(told.get("tab", []))),
+        tuple(DogBone(*numbers) for numbers in _fives(told.get("dog_bone", []))),
     )  # fmt: skip
     return Notes(tuple(_tools(told.get("tool", []))), _stock(told.get("stock_mm", []), origin or (0.0, 0.0, 0.0)), header)
 
@@ -48,12 +57,14 @@ def own_notes(comments: Comments) -> Notes:
 def _told(comments: Comments) -> Iterator[tuple[str, Values]]:
     """Yield every key in lower case, with its line and its values, comments that go on with another put behind it."""
     whole: list[tuple[int, str]] = []
-    for at, comment in sorted(comments.texts((MARK, MARK_ON))):
+    line, last = 1, 0
+    for at, comment in sorted(comments.texts((MARK, MARK_ON), _MOST)):
         mark, text = comment.strip()[: len(MARK)].lower().encode("ascii", "replace"), comment.strip()[len(MARK) :]
         if mark == MARK_ON and whole:
             whole[-1] = (whole[-1][0], whole[-1][1] + text)
         elif mark == MARK:
-            whole.append((comments.line(at), text))
+            line, last = line + comments.data.count(b"\n", last, at), at
+            whole.append((line, text))
     for line, text in whole:
         name, _, values = text.partition("=")
         yield name.strip().lower(), (line, values.split(","))
@@ -78,11 +89,40 @@ def _stock(told: list[Values], origin: tuple[float, float, float]) -> StockNote 
     return None
 
 
-def _operations(told: list[Values]) -> Iterator[OperationNote]:
+def _operations(told: dict[str, list[Values]]) -> Iterator[OperationNote]:
+    """Yield operations: kind, tool, depth, stock to leave, and the side of contours; with what other comments say of the N-th."""
+    layers = [(int(values[0]), _name(values[1:])) for _, values in told.get("operation_layer", []) if values[0].strip().isdecimal()]
+    left = {int(numbers[0]): numbers[1] for _, values in told.get("floor_to_leave_mm", []) if len(numbers := _floats(values)) == 2}
+    holes = {int(numbers[0]): (numbers[1], numbers[2], numbers[3])
+             for _, values in told.get("holes_mm", []) if len(numbers := _floats(values)) == 4}  # fmt: skip
+    for number, (_, values) in enumerate(told.get("operation", []), 1):
+        kind, numbers, side = values[0].strip().lower(), _floats(values[1:4]), _side(values[4:])
+        if kind in OPERATION_KINDS and len(numbers) == 3 and side is not None:
+            names = tuple(name for of, name in layers if of == number)
+            yield OperationNote(kind, int(numbers[0]), numbers[1], numbers[2], side, names, left.get(number, 0.0),
+                                holes.get(number, (0.0, 0.0, 0.0)))
+
+
+def _side(values: list[str]) -> Side | None:
+    """Return the side that a contour is told to run on, inside where nothing is said; None for anything else."""
+    if not values:
+        return Side.INSIDE
+    return next((side for side in Side if [value.strip().lower() for value in values] == [side.value]), None)
+
+
+def _copies(told: list[Values]) -> Copies | None:
+    """Return the copies of the part; None where nothing is told that can be."""
     for _, values in told:
-        kind, numbers = values[0].strip().lower(), _floats(values[1:])
-        if kind in _KINDS and len(numbers) == 3:
-            yield OperationNote(kind, int(numbers[0]), numbers[1], numbers[2])
+        numbers = _floats(values)
+        if len(numbers) == 4:
+            with suppress(ParameterError):
+                return Copies(int(numbers[0]), int(numbers[1]), numbers[2], numbers[3])
+    return None
+
+
+def _fives(told: list[Values]) -> Iterator[list[float]]:
+    """Yield values that are five numbers."""
+    return (numbers for _, values in told if len(numbers := _floats(values)) == 5)
 
 
 def _units(told: list[Values]) -> Units | None:

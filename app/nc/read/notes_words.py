@@ -55,11 +55,11 @@ class Comments:
     lower: bytes
     encoding: str
 
-    def places(self, words: tuple[bytes, ...]) -> Iterator[int]:
-        """Yield where words stand, lower case; not more than `MOST_HITS` of each."""
+    def places(self, words: tuple[bytes, ...], most: int = MOST_HITS) -> Iterator[int]:
+        """Yield where words stand, lower case; not more than `most` of each."""
         for word in words:
             at = self.lower.find(word)
-            for _ in range(MOST_HITS):
+            for _ in range(most):
                 if at < 0:
                     break
                 yield at
@@ -77,10 +77,10 @@ class Comments:
         close = self.data.find(b")", at, self.line_end(at))
         return begin + bracket + 1, close if close >= 0 else self.line_end(at)
 
-    def texts(self, words: tuple[bytes, ...]) -> Iterator[tuple[int, str]]:
-        """Yield each comment that has one of the words, once: where it begins, and its text."""
+    def texts(self, words: tuple[bytes, ...], most: int = MOST_HITS) -> Iterator[tuple[int, str]]:
+        """Yield each comment that has one of the words, once: where it begins, and its text; looks at `most` places of each."""
         seen = set()
-        for at in self.places(words):
+        for at in self.places(words, most):
             place = self.around(at)
             if place is not None and place[0] not in seen:
                 seen.add(place[0])

@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
+from app.model.job import Copies
 from app.model.motion import Motions, Plane
+from app.model.moves import DogBone, Tab
+from app.model.operation import Side
 from app.model.part import Units
 
 
@@ -158,20 +161,28 @@ class OperationNote:
     """An operation as the header of our own tells of it.
 
     Attributes:
-        kind: "pocket" or "contour".
+        kind: "pocket", "rest", "contour" or "drill".
         tool: T number.
         depth, leave: from the stock's top down to the floor, and what is left on walls, mm.
+        side: where a contour runs.
+        layers: that it alone machines; empty = all. Controls that write capitals alone write these so too.
+        floor_to_leave: mm.
+        holes: of a drill operation: least and most diameter of its circles, 0 = the drill's own, and how far it goes below the depth, mm.
     """
 
     kind: str
     tool: int
     depth: float
     leave: float
+    side: Side = Side.INSIDE
+    layers: tuple[str, ...] = ()
+    floor_to_leave: float = 0.0
+    holes: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
 class HeaderNote:
-    """What the header of our own tells beside tools and stock (`app.nc.header`); None or nothing where it does not.
+    """What the header of our own tells beside tools and stock (`app.nc.header_notes`); None or nothing where it does not.
 
     Attributes:
         origin: the program's zero in the coordinates of the drawing, mm.
@@ -181,6 +192,9 @@ class HeaderNote:
         join_tolerance: within which loose ends were joined, mm.
         path_tolerance: by how much the written path may be too near to the walls, mm.
         allowance: so thick a skin may paths made from pixels leave along the walls, mm.
+        copies: of the part.
+        keep_out: layers of clamps, and how high these are, mm.
+        tabs, dog_bones: where metal was left standing, and where walls were cut into, part coordinates.
     """
 
     origin: tuple[float, float, float] | None = None
@@ -190,6 +204,10 @@ class HeaderNote:
     join_tolerance: float | None = None
     path_tolerance: float | None = None
     allowance: float | None = None
+    copies: Copies | None = None
+    keep_out: tuple[tuple[str, ...], float] = ((), 0.0)
+    tabs: tuple[Tab, ...] = ()
+    dog_bones: tuple[DogBone, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,6 +16,7 @@ from app.model.finding import Finding
 from app.model.moves import Program
 from app.model.part import Entity
 from app.ui.canvas import overlay
+from app.ui.canvas.around_picture import AroundPicture
 from app.ui.canvas.curve_path import curve_path
 from app.ui.canvas.describe import describe_entity
 from app.ui.canvas.grid import cells_shown, paint_origin, paint_paper, paint_ruler_marks, paint_rulers
@@ -51,6 +52,7 @@ class Canvas(Hands):
         self.frame = Frame()
         self._look, self._mode = PathLook(theme), CanvasMode.DRAW
         self._program: ProgramPicture | None = None
+        self.around = AroundPicture()
         self._findings: tuple[Finding, ...] = ()
         self._lit: int | Entity | None = None
         self._lit_path = QPainterPath()
@@ -138,7 +140,10 @@ class Canvas(Hands):
             painter.setOpacity(_STALE_OPACITY if self._look.stale else 1.0)
             program.paint(painter, self.view, box, self._look)
             painter.setOpacity(1.0)
+        if program is None or PathLayers.CLAMP in self._look.layers:
+            self.around.paint_clamps(painter, self.view, box, theme)
         if program is None or PathLayers.PART in self._look.layers:
+            self.around.paint_copies(painter, self.view, self.picture, (box, theme))
             self.picture.paint(painter, self.view, box, theme)
         paint_origin(painter, self.view, theme)
 
@@ -155,7 +160,8 @@ class Canvas(Hands):
         overlay.paint_findings(painter, self.view, self._findings, theme)
         if self.runner.tool is not None:
             self._paint_tool(painter)
-        elif self.banding and self.band_from is not None and self.mouse is not None:
+        self._paint_marks(painter)
+        if self.runner.tool is None and self.banding and self.band_from is not None and self.mouse is not None:
             overlay.paint_band(painter, self.band_from, self.mouse, theme)
         painter.setClipping(False)
         if self.mouse is not None and self.area.contains(self.mouse):
@@ -195,6 +201,11 @@ class Canvas(Hands):
             return describe_entity(lit)
         return describe(self._program.shapes, lit, self.document.job) if lit is not None and self._program is not None else ""
 
+    def _paint_marks(self, painter: QPainter) -> None:
+        """Paint the places that are being marked by hand."""
+        if self.marking is not None:
+            overlay.paint_points(painter, self.view, list(self.marking.places()), self._look.theme)
+
     def _paint_tool(self, painter: QPainter) -> None:
         tool, theme = self.runner.tool, self._look.theme
         if tool is None or self.aim is None or self.mouse is None:
@@ -213,6 +224,8 @@ class Canvas(Hands):
             self.picture.update(self.document.part)
             self.look_at(None)
             self.runner.after_undo()
+        if change & (Change.PART | Change.JOB) and self.around.update(self.document.job):
+            self.repaint_scene()
         if change & (Change.PART | Change.SELECTION):
             self.picture.select(self.document.selection)
             self.repaint_scene()

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QPointF, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent
@@ -22,6 +23,21 @@ from app.ui.canvas.viewport import Viewport
 PICK_PX = 6.0
 _DRAG_PX = 4.0
 _ADDING = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
+
+
+@dataclass(frozen=True)
+class Marking:
+    """Places that are put by clicks, one each; a click on one takes it away.
+
+    Attributes:
+        prompt: what is expected.
+        places: those that are there, mm.
+        click: takes a place, mm, and how near counts as on it, mm.
+    """
+
+    prompt: str
+    places: Callable[[], Sequence[Point]]
+    click: Callable[[Point, float], None]
 
 
 class Hands(Viewport):
@@ -48,6 +64,7 @@ class Hands(Viewport):
         self.mouse: QPointF | None = None
         self.aim: Aim | None = None
         self.band_from: QPointF | None = None
+        self.marking: Marking | None = None
         self._snap, self._grid_snap, self._ortho = True, False, False
         self._space = self._shift = False
         self._told = (self.runner.prompt, CanvasTool.SELECT)
@@ -70,7 +87,7 @@ class Hands(Viewport):
     @property
     def prompt(self) -> str:
         """What is expected next."""
-        return self.runner.prompt
+        return self.marking.prompt if self.marking is not None else self.runner.prompt
 
     @property
     def snap(self) -> bool:
@@ -99,8 +116,16 @@ class Hands(Viewport):
             return False
         return (self.mouse - self.band_from).manhattanLength() > _DRAG_PX
 
+    def mark(self, marking: Marking | None) -> None:
+        """Let clicks mark places, until Esc or another tool; None ends that."""
+        if marking is not None:
+            self.runner.start(CanvasTool.SELECT)
+        self.marking = marking
+        self._tell()
+
     def set_tool(self, tool: CanvasTool) -> None:
         """Begin a tool."""
+        self.marking = None
         self.runner.start(tool)
         self.look_at(None)
         self._tell()
@@ -122,7 +147,9 @@ class Hands(Viewport):
 
     def cancel(self) -> None:
         """Give up what is going on: the selection window, the shape, the tool, the selection."""
-        if self.band_from is not None:
+        if self.marking is not None:
+            self.mark(None)
+        elif self.band_from is not None:
             self.band_from = None
         elif not self.runner.cancel() and self.document.selection:
             self._run("select none")
@@ -130,6 +157,9 @@ class Hands(Viewport):
 
     def accept(self) -> None:
         """End the shape; without one end the tool; without a tool begin the last one again."""
+        if self.marking is not None:
+            self.mark(None)
+            return
         self.runner.accept()
         self._tell()
 
@@ -154,11 +184,14 @@ class Hands(Viewport):
         button = event.button()
         if button is Qt.MouseButton.MiddleButton or (button is Qt.MouseButton.LeftButton and self._space):
             self.begin_pan(event.position())
-        elif button is Qt.MouseButton.RightButton and self.runner.tool is not None:
+        elif button is Qt.MouseButton.RightButton and (self.runner.tool is not None or self.marking is not None):
             self.accept()
         elif button is Qt.MouseButton.LeftButton and self.area.contains(event.position()):
             self._move_to(event)
-            if self.aim is None:
+            if self.marking is not None:
+                self.marking.click(self.view.to_world(event.position()), PICK_PX / self.view.scale)
+                self.update()
+            elif self.aim is None:
                 self.band_from = event.position()
             else:
                 self.runner.click(self.aim.point)
@@ -233,7 +266,7 @@ class Hands(Viewport):
         self._aim_again()
 
     def _show_cursor(self) -> None:
-        drawing = Qt.CursorShape.CrossCursor if self.runner.tool else Qt.CursorShape.ArrowCursor
+        drawing = Qt.CursorShape.CrossCursor if self.runner.tool or self.marking else Qt.CursorShape.ArrowCursor
         self.setCursor(Qt.CursorShape.OpenHandCursor if self._space else drawing)
 
     def _move_to(self, event: QMouseEvent) -> None:
@@ -279,10 +312,10 @@ class Hands(Viewport):
 
     def _tell(self) -> None:
         """Say what has changed of tool and prompt."""
-        before, self._told = self._told, (self.runner.prompt, self.runner.kind)
+        before, self._told = self._told, (self.prompt, self.runner.kind)
         if before[1] is not self.runner.kind:
             self.tool_changed.emit(self.runner.kind)
-        if before[0] != self.runner.prompt:
-            self.prompt_changed.emit(self.runner.prompt)
+        if before[0] != self.prompt:
+            self.prompt_changed.emit(self.prompt)
         self._show_cursor()
         self._aim_again()

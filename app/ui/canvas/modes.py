@@ -29,6 +29,7 @@ class ColourBy(Enum):
 
     TOOL = "tool"
     REGION = "region"
+    ENGAGEMENT = "engagement"
 
 
 class PathLayers(Flag):
@@ -37,6 +38,7 @@ class PathLayers(Flag):
     PART = auto()
     REGION = auto()
     POCKET = auto()
+    REST = auto()
     CONTOUR = auto()
     LINK = auto()
     LEAD = auto()
@@ -44,4 +46,5 @@ class PathLayers(Flag):
     PLUNGE = auto()
     LEFT = auto()
     UNREACHABLE = auto()
-    ALL = PART | REGION | POCKET | CONTOUR | LINK | LEAD | RAPID | PLUNGE | LEFT | UNREACHABLE
+    CLAMP = auto()
+    ALL = PART | REGION | POCKET | REST | CONTOUR | LINK | LEAD | RAPID | PLUNGE | LEFT | UNREACHABLE | CLAMP

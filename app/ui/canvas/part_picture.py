@@ -45,7 +45,19 @@ class PartPicture:
         self._selected = [curve_path(*(e.curve for e in chosen[at:at + _BATCH])) for at in range(0, len(chosen), _BATCH)]
 
     def paint(self, painter: QPainter, view: View, box: Box, theme: Theme) -> None:
-        """Paint what lies in a box in mm; the painter works in screen px."""
+        """Paint what lies in a box in mm, and what is selected; the painter works in screen px."""
+        self.paint_curves(painter, view, box, theme)
+        painter.save()
+        painter.setTransform(view.transform(), True)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        fine = sum(path.elementCount() for path in self._selected) > MANY
+        painter.setPen(_round_pen(painter, theme.selection, FINE if fine else SELECTED_WIDTH))
+        for path in self._selected:
+            painter.drawPath(path)
+        painter.restore()
+
+    def paint_curves(self, painter: QPainter, view: View, box: Box, theme: Theme, *, without: tuple[str, ...] = ()) -> None:
+        """Paint what lies in a box in mm, but for some layers; the painter works in screen px."""
         painter.save()
         painter.setTransform(view.transform(), True)
         painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -53,13 +65,9 @@ class PartPicture:
                 if c.box[0] <= box[2] and c.box[2] >= box[0] and c.box[1] <= box[3] and c.box[3] >= box[1]]
         fine = sum(path.elementCount() for c in seen for path in c.paths.values()) > MANY
         for chunk in seen:
-            for layer, path in chunk.paths.items():
+            for layer, path in ((name, path) for name, path in chunk.paths.items() if name not in without):
                 painter.setPen(_round_pen(painter, QColor(self._colours.get(layer) or theme.ink), FINE if fine else PART_WIDTH))
                 painter.drawPath(path)
-        fine = sum(path.elementCount() for path in self._selected) > MANY
-        painter.setPen(_round_pen(painter, theme.selection, FINE if fine else SELECTED_WIDTH))
-        for path in self._selected:
-            painter.drawPath(path)
         painter.restore()
 
     def nearest(self, at: Point, reach: float) -> Entity | None:

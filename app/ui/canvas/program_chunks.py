@@ -25,6 +25,7 @@ class PathStyle:
     operation: int
     tool: int
     region: int
+    step: int = 0
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ def chunks(shapes: MoveShapes) -> list[PathChunk]:
     seen: set[tuple[int, bytes]] = set()
     for run, number in enumerate(runs.style):
         mark = (number, runs.data[run])
-        if runs.styles[number].purpose in (Purpose.PLUNGE, Purpose.DRILL, Purpose.RAPID) or mark in seen:
+        if runs.styles[number].purpose in (Purpose.DRILL, Purpose.RAPID) or mark in seen:
             continue
         seen.add(mark)
         if runs.begins_at[run] > 0:
@@ -94,13 +95,15 @@ def rapids_path(lines: Floats, box: Box) -> QPainterPath:
 
 
 def plunges(shapes: MoveShapes) -> Floats:
-    """Return (n, 2) places where a tool plunges, mm, each once."""
-    return np.unique(shapes.moves.end[np.isin(shapes.moves.purpose, (Purpose.PLUNGE, Purpose.DRILL)), :2], axis=0)
+    """Return (n, 2) places where a tool begins to go down, mm, each once: of a ramp or a helix its beginning."""
+    down = np.isin(shapes.moves.purpose, (Purpose.PLUNGE, Purpose.DRILL))
+    begins = down & ~np.concatenate([[False], down[:-1]]) if len(down) else down
+    return np.unique(shapes.start[begins, :2], axis=0)
 
 
 def _runs(shapes: MoveShapes) -> _Runs:
     m, first = shapes.moves, shapes.run[:-1]
-    keys = np.stack([m.purpose[first], m.operation[first], m.tool[first], m.region[first]], axis=1).astype(np.int64)
+    keys = np.stack([m.purpose[first], m.operation[first], m.tool[first], m.region[first], shapes.step[first]], axis=1).astype(np.int64)
     unique, style = np.unique(keys, axis=0, return_inverse=True)
     styles = [PathStyle(Purpose(purpose), *rest) for purpose, *rest in unique.tolist()]
     whole, at = shapes.elements.tobytes(), (shapes.offset[shapes.run] * ELEMENT.itemsize).tolist()

@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 from app.model.curves import Point
 from app.model.job import Job
 from app.model.moves import MoveKind, Purpose
-from app.model.operation import ContourOperation, PocketOperation
+from app.model.operation import kind_word
 from app.ui.canvas.program_geometry import MoveShapes
 
 _NAMES = {Purpose.RAPID: "Rapid", Purpose.PLUNGE: "Plunge", Purpose.CONTOUR: "Contour", Purpose.POCKET: "Pocket",
-          Purpose.LINK: "Link", Purpose.LEAD: "Lead", Purpose.DRILL: "Drill"}
+          Purpose.LINK: "Link", Purpose.LEAD: "Lead", Purpose.DRILL: "Drill", Purpose.TAB: "Tab",
+          Purpose.DOG_BONE: "Dog-bone"}
 
 
 def nearest_move(shapes: MoveShapes, at: Point, reach: float, purposes: frozenset[Purpose]) -> int | None:
@@ -60,8 +61,7 @@ def _name(operation: int, purpose: Purpose, job: Job) -> str:
     name = _NAMES[purpose]
     if purpose in (Purpose.CONTOUR, Purpose.POCKET) or not 0 <= operation < len(job.operations):
         return name
-    kinds = {PocketOperation: "pocket", ContourOperation: "contour"}
-    return f"{name} of {kinds[type(job.operations[operation])]}"
+    return f"{name} of {kind_word(job.operations[operation])}"
 
 
 def _distances(shapes: MoveShapes, rows: NDArray[np.int64], at: Point) -> NDArray[np.float64]:

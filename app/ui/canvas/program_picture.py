@@ -13,6 +13,7 @@ from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 from app.edit.sample import Box
 from app.model.moves import Program, Purpose
 from app.ui.canvas.curve_path import MANY, chain_path
+from app.ui.canvas.engaged import colours, step_of
 from app.ui.canvas.left_picture import LeftPicture
 from app.ui.canvas.modes import ColourBy, PathLayers
 from app.ui.canvas.pens import FINE, screen_pen
@@ -24,15 +25,16 @@ from app.ui.theme import Theme
 if TYPE_CHECKING:
     from app.toolpath.coverage import Place
 
-CUT_WIDTH, LINK_WIDTH, RAPID_WIDTH = 1.6, 1.0, 1.0
+CUT_WIDTH, LINK_WIDTH, RAPID_WIDTH, TAB_WIDTH = 1.6, 1.0, 1.0, 5.0
 CONTOUR_DASHES, RAPID_DOTS = (6.0, 3.6), (1.2, 2.6)
 _LAYER_OF = {
     Purpose.RAPID: PathLayers.RAPID, Purpose.PLUNGE: PathLayers.PLUNGE, Purpose.CONTOUR: PathLayers.CONTOUR,
     Purpose.POCKET: PathLayers.POCKET, Purpose.LINK: PathLayers.LINK, Purpose.LEAD: PathLayers.LEAD,
-    Purpose.DRILL: PathLayers.PLUNGE,
+    Purpose.DRILL: PathLayers.PLUNGE, Purpose.TAB: PathLayers.CONTOUR, Purpose.DOG_BONE: PathLayers.CONTOUR,
 }
+_THIN = (Purpose.LINK, Purpose.LEAD, Purpose.PLUNGE)
 _MANY_PLUNGES, _RING_PX = 300, 10.0
-_ORDER = (Purpose.LINK, Purpose.POCKET, Purpose.LEAD, Purpose.CONTOUR)
+_ORDER = (Purpose.LINK, Purpose.PLUNGE, Purpose.POCKET, Purpose.LEAD, Purpose.CONTOUR, Purpose.DOG_BONE, Purpose.TAB)
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,17 +60,18 @@ class ProgramPicture:
         left, unreachable: what a tool could have cut and did not; what no tool reaches.
     """
 
-    def __init__(self, program: Program, places: tuple[Place, ...] = ()) -> None:
-        """Build every path once, in mm."""
+    def __init__(self, program: Program, places: tuple[Place, ...] = (), shares: NDArray[np.float64] | None = None) -> None:
+        """Build every path once, in mm; `shares` (n,) of the diameter are engaged along the moves, where that was measured."""
+        self.measured = shares is not None
         self.left = LeftPicture([place for place in places if place.reachable])
         self.unreachable = LeftPicture([place for place in places if not place.reachable])
-        self.shapes = shape_moves(program.moves)
+        self.shapes = shape_moves(program.moves, None if shares is None else step_of(shares))
         self._chunks = sorted(chunks(self.shapes), key=lambda c: _ORDER.index(c.style.purpose))
         self._boxes = np.array([c.box for c in self._chunks]).reshape(-1, 4)
-        self._layers = np.array([_LAYER_OF[c.style.purpose].value for c in self._chunks], dtype=np.int64)
         self._sizes = np.array([c.path.elementCount() for c in self._chunks], dtype=np.int64)
         self._rapids, self._plunges = rapids(self.shapes), plunges(self.shapes)
         self._roles = _roles([c.style for c in self._chunks])
+        self._layers = np.array([self._layer(c.style).value for c in self._chunks], dtype=np.int64)
         self._regions: dict[int, QPainterPath] = {}
         for region in program.regions:
             path = QPainterPath()
@@ -105,17 +108,29 @@ class ProgramPicture:
         if PathLayers.PLUNGE in look.layers:
             paint_plunges(painter, view, self._plunges, box, (look.theme.plunge, look.theme.canvas))
 
+    def _layer(self, style: PathStyle) -> PathLayers:
+        """Return the layer that a path is shown on; a second pocket tool's is that of rest machining."""
+        rest = style.purpose is Purpose.POCKET and self._role(style) == "rest"
+        return PathLayers.REST if rest else _LAYER_OF[style.purpose]
+
+    def _role(self, style: PathStyle) -> str:
+        return self._roles.get((style.operation, style.tool), "rest")
+
     def _pen(self, painter: QPainter, style: PathStyle, look: PathLook, fine: bool) -> QPen:
-        width = LINK_WIDTH if style.purpose in (Purpose.LINK, Purpose.LEAD) else CUT_WIDTH
+        width = LINK_WIDTH if style.purpose in _THIN else TAB_WIDTH if style.purpose is Purpose.TAB else CUT_WIDTH
         dashes = CONTOUR_DASHES if style.purpose is Purpose.CONTOUR else ()
         return screen_pen(painter, self._colour(style, look), FINE if fine else width, dashes)
 
     def _colour(self, style: PathStyle, look: PathLook) -> QColor:
         theme = look.theme
+        if style.purpose is Purpose.PLUNGE:
+            return theme.plunge
+        if look.colour_by is ColourBy.ENGAGEMENT and self.measured:
+            return colours(theme)[style.step]
         if look.colour_by is ColourBy.REGION and style.region > 0:
             colour = QColor(theme.regions[(style.region - 1) % len(theme.regions)])
         else:
-            colour = QColor(getattr(theme, self._roles.get((style.operation, style.tool), "rest")))
+            colour = QColor(getattr(theme, self._role(style)))
         if style.purpose is Purpose.LINK:
             colour.setAlphaF(0.75)
         return colour

@@ -194,5 +194,5 @@ class SetupForm(QWidget):
         self.accepted.emit(Given({number: fields.tool for number, fields in self.tools.items()}, box, self.compare.isChecked()))
 
     def _box(self) -> Box:
-        x0, y0, z0, x1, y1, z1 = (field.value for field in self.stock)
+        x0, y0, z0, x1, y1, z1 = (field.number for field in self.stock)
         return x0, y0, z0, x1, y1, z1

@@ -7,7 +7,7 @@ from enum import Enum
 
 from app.errors import ParameterError
 from app.model.job import Job
-from app.model.operation import ContourOperation, Cut, Operation, Order, PocketOperation
+from app.model.operation import ContourOperation, Cut, Operation, Order, PocketOperation, RestOperation, Side, kind_word
 from app.model.tool import FeedRow, Tool
 
 
@@ -36,13 +36,11 @@ class Subject:
 
 
 def operation_name(operation: Operation) -> str:
-    """Return the trade's name of an operation."""
-    return "Pocket" if isinstance(operation, PocketOperation) else "Contour"
-
-
-def stepover_of(operation: PocketOperation, tool: Tool) -> float:
-    """Return the distance between rings, mm: the operation's own, or half the diameter."""
-    return operation.stepover if operation.stepover is not None else tool.diameter / 2
+    """Return the trade's name of an operation, with the side of a contour that does not go inside."""
+    name = kind_word(operation).capitalize()
+    if isinstance(operation, ContourOperation) and operation.side is not Side.INSIDE:
+        return f"{name} {operation.side.value}" if operation.side is Side.OUTSIDE else f"{name} on line"
+    return name
 
 
 def row_for(tool: Tool, material: str) -> FeedRow | None:
@@ -117,43 +115,46 @@ def with_cut(job: Job, index: int, cut: Cut) -> Job:
     return with_operation(job, index, replace(job.operations[index], cut=cut))
 
 
-def in_cutting_order(job: Job) -> Job:
-    """Return the job with its operations listed as they are cut: all pockets before all contours, or after them."""
-    last = PocketOperation if job.order is Order.PATENT_1986 else ContourOperation
-    return replace(job, operations=tuple(sorted(job.operations, key=lambda op: isinstance(op, last))))
+def with_order(job: Job, order: Order) -> Job:
+    """Return the job with an order, and its operations listed as they are cut."""
+    first = ContourOperation if order is Order.PATENT_1986 else object
+    return replace(job, order=order, operations=tuple(sorted(job.operations, key=lambda each: not isinstance(each, first))))
 
 
-def with_moved_operation(job: Job, index: int, way: int) -> tuple[Job, int]:
-    """Return the job with one operation cut earlier (way -1) or later (1), and its new index.
-
-    Past an operation of the other kind it takes all of its own kind along: pockets and contours are not mixed.
-    """
-    other = index + way
-    if not 0 <= other < len(job.operations):
-        return job, index
-    moved, passed = job.operations[index], job.operations[other]
+def with_moved_operation(job: Job, index: int, place: int) -> tuple[Job, int]:
+    """Return the job with one operation at another place in the list, and its new index; from then on it is cut as listed."""
+    place = min(max(place, 0), len(job.operations) - 1)
     operations = list(job.operations)
-    operations[index], operations[other] = passed, moved
-    if isinstance(moved, PocketOperation) == isinstance(passed, PocketOperation):
-        return replace(job, operations=tuple(operations)), other
-    first = moved if way < 0 else passed
-    order = Order.POCKET_FIRST if isinstance(first, PocketOperation) else Order.PATENT_1986
-    made = in_cutting_order(replace(job, operations=tuple(operations), order=order))
-    return made, next(k for k, operation in enumerate(made.operations) if operation is moved)
+    operations.insert(place, operations.pop(index))
+    return replace(job, operations=tuple(operations), order=Order.POCKET_FIRST), place
 
 
-def with_new_operation(job: Job, kind: type[PocketOperation] | type[ContourOperation]) -> tuple[Job, int]:
-    """Return the job with one more operation, cut as deep as the last one, and its index.
+def with_new_operation(job: Job, kind: type[Operation]) -> tuple[Job, int]:
+    """Return the job with one more operation, as deep as the last one of its kind or the last of all, and its index.
+
+    Pockets and rest machining go before the contours, so that a small cutter follows walls where a large one has been.
 
     Raises:
         ParameterError: the job has no tool.
     """
     if not job.tools:
         raise ParameterError("The job has no tool yet; add one first.")
-    like = job.operations[-1].cut if job.operations else Cut(tool=job.tools[0].number)
-    new = kind(replace(like, enabled=True))
-    made = in_cutting_order(replace(job, operations=(*job.operations, new)))
-    return made, next(k for k, operation in enumerate(made.operations) if operation is new)
+    alike = [operation for operation in job.operations if isinstance(operation, kind)] or list(job.operations)
+    like = alike[-1].cut if alike else Cut(tool=job.tools[0].number)
+    contours = [k for k, operation in enumerate(job.operations) if isinstance(operation, ContourOperation)]
+    early = kind in (PocketOperation, RestOperation) and contours and job.order is Order.POCKET_FIRST
+    late = len(contours) if kind is ContourOperation and job.order is Order.PATENT_1986 else len(job.operations)
+    place = contours[0] if early else late
+    operations = list(job.operations)
+    operations.insert(place, kind(replace(like, enabled=True, layers=())))
+    return replace(job, operations=tuple(operations)), place
+
+
+def with_copied_operation(job: Job, index: int) -> tuple[Job, int]:
+    """Return the job with an operation twice, one after the other, and the index of the second."""
+    operations = list(job.operations)
+    operations.insert(index + 1, operations[index])
+    return replace(job, operations=tuple(operations)), index + 1
 
 
 def without_operation(job: Job, index: int) -> Job:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
-from enum import Enum
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QKeySequence
@@ -30,6 +29,7 @@ class Spec:
         decimals: shown when the field is not being typed in.
         is_length: units such as 1in can be typed; else plain numbers only.
         tip: what it means, one sentence.
+        auto: what an empty field stands for, such as "auto"; "" = it must hold a number.
     """
 
     name: str
@@ -39,6 +39,7 @@ class Spec:
     decimals: int = 3
     is_length: bool = True
     tip: str = ""
+    auto: str = ""
 
     def read(self, text: str) -> float:
         """Return the value of a typed text.
@@ -61,15 +62,19 @@ def restyle(widget: QWidget) -> None:
 
 
 class NumberField(QWidget):
-    """One number: arithmetic and units are accepted (`1in + 8mm`)."""
+    """One number: arithmetic and units are accepted (`1in + 8mm`).
 
-    committed = Signal(float)
+    Signals:
+        committed(value): a float, or None where the field was emptied and may be.
+    """
+
+    committed = Signal(object)
 
     def __init__(self, spec: Spec, read: Callable[[str], float] | None = None) -> None:
         super().__init__()
         self.spec = spec
         self._read = read or spec.read
-        self._value = 0.0
+        self._value: float | None = 0.0
         self.edit, self.note, self.reason = QLineEdit(), muted(), QLabel()
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.edit.setFixedSize(VALUE_WIDTH, ROW_HEIGHT)
@@ -99,19 +104,27 @@ class NumberField(QWidget):
         grid.setColumnStretch(3, 1)
 
     @property
-    def value(self) -> float:
-        """The value that was last accepted, in the field's unit."""
+    def value(self) -> float | None:
+        """The value that was last accepted, in the field's unit; None = automatic."""
         return self._value
 
-    def show_value(self, value: float, note: str = "") -> None:
-        """Show a value of the job, unless the user is in the middle of typing another one."""
+    @property
+    def number(self) -> float:
+        """The value of a field that always holds one."""
+        return self._value or 0.0
+
+    def show_value(self, value: float | None, note: str = "") -> None:
+        """Show a value of the job, unless the user is in the middle of typing another one; None = automatic."""
         self.note.setText(note)
         if self.edit.isModified() and self.edit.hasFocus():
             return
-        self._value = value
-        self.edit.setText(f"{value:.{self.spec.decimals}f}")
-        self.edit.setModified(False)
+        self._take(value)
         self._mark("")
+
+    def _take(self, value: float | None) -> None:
+        self._value = value
+        self.edit.setText(self.spec.auto if value is None else f"{value:.{self.spec.decimals}f}")
+        self.edit.setModified(False)
 
     def refuse(self, reason: str) -> None:
         """Mark what was typed as wrong, for a reason that only the job knows."""
@@ -135,9 +148,13 @@ class NumberField(QWidget):
             return True
         return super().eventFilter(watched, event)
 
+    def _is_auto(self, text: str) -> bool:
+        return bool(self.spec.auto) and text.strip().lower() in ("", self.spec.auto)
+
     def _check(self, text: str) -> float | None:
+        """Return the value of a text; None where it is wrong, or stands for the automatic one."""
         try:
-            value = self._read(text)
+            value = None if self._is_auto(text) else self._read(text)
         except CommandError as wrong:
             self._mark(wrong.reason)
         except HitofudeError as wrong:
@@ -150,11 +167,10 @@ class NumberField(QWidget):
     def _commit(self) -> None:
         if not self.edit.isModified():
             return
-        value = self._check(self.edit.text())
-        if value is not None:
-            self.edit.setModified(False)
-            self._value = value
-            self.edit.setText(f"{value:.{self.spec.decimals}f}")
+        text = self.edit.text()
+        value = self._check(text)
+        if value is not None or self._is_auto(text):
+            self._take(value)
             self.committed.emit(value)
 
     def _mark(self, reason: str) -> None:
@@ -170,7 +186,7 @@ class ChoiceField(QWidget):
 
     chosen = Signal(object)
 
-    def __init__(self, name: str, choices: Sequence[tuple[Enum, str]], label_width: int = LABEL_WIDTH) -> None:
+    def __init__(self, name: str, choices: Sequence[tuple[Hashable, str]], label_width: int = LABEL_WIDTH) -> None:
         super().__init__()
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 1, 0, 1)
@@ -180,7 +196,7 @@ class ChoiceField(QWidget):
             label.setFixedWidth(label_width - 4)
             row.addWidget(label)
         self._group = QButtonGroup(self)
-        self.buttons: dict[Enum, QToolButton] = {}
+        self.buttons: dict[Hashable, QToolButton] = {}
         for value, text in choices:
             button = QToolButton()
             button.setText(text)
@@ -193,7 +209,7 @@ class ChoiceField(QWidget):
             row.addWidget(button)
         row.addStretch(1)
 
-    def show_value(self, value: Enum) -> None:
+    def show_value(self, value: Hashable) -> None:
         """Underline the job's value."""
         self.buttons[value].setChecked(True)
 

@@ -21,7 +21,7 @@ from app.ui.theme import Theme
 LEAST_ROWS, MOST_ROWS = 4, 14
 ROW_PX = 28
 CAN_BE_USED = (ToolKind.FLAT,)
-"""Kinds that pocket and contour cut with."""
+"""Kinds that pocket, rest and contour cut with; a drill is made in the tool's form."""
 
 
 def matches(tool: Tool, text: str) -> bool:
@@ -92,12 +92,12 @@ class LibrarySection(Section):
         self.rows.addSpacing(4)
         self.add_indented(self.details)
         self.rows.addSpacing(4)
-        self.add_indented(_side_by_side(self.add_button, self.put_button))
+        self.add_indented(side_by_side(self.add_button, self.put_button))
         self.rows.addSpacing(8)
         self.add_indented(self.others)
         self.rows.addSpacing(4)
         self.import_button, self.export_button = _link("Import tools…"), _link("Export job tools…")
-        self.add_indented(_side_by_side(self.import_button, self.export_button))
+        self.add_indented(side_by_side(self.import_button, self.export_button))
 
     def _connect(self) -> None:
         self.search.textEdited.connect(lambda _: self._fill())
@@ -243,7 +243,8 @@ def _link(text: str) -> QPushButton:
     return made
 
 
-def _side_by_side(*widgets: QWidget) -> QWidget:
+def side_by_side(*widgets: QWidget) -> QWidget:
+    """Return widgets in a row, from the left."""
     made = QWidget()
     row = QHBoxLayout(made)
     row.setContentsMargins(0, 0, 0, 0)

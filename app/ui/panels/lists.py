@@ -7,7 +7,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QLabel, QMenu
 
 from app.model.job import Job
-from app.model.operation import ContourOperation, Operation, PocketOperation
+from app.model.operation import OPERATION_KINDS, ContourOperation, DrillOperation, Operation, RestOperation
 from app.model.tool import Tool
 from app.ui.figures import TIMES, clock, grouped
 from app.ui.icons import IconButton, IconLabel
@@ -16,6 +16,15 @@ from app.ui.panels.changes import Subject, SubjectKind, operation_name
 from app.ui.panels.section import Row, Section, theme_children
 from app.ui.samples import LineSample, Sample, Switch
 from app.ui.theme import Theme
+
+
+def sample_of(operation: Operation) -> Sample:
+    """Return the line that an operation's paths are drawn with."""
+    if isinstance(operation, DrillOperation):
+        return Sample.PLUNGE
+    if isinstance(operation, RestOperation):
+        return Sample.REST
+    return Sample.CONTOUR if isinstance(operation, ContourOperation) else Sample.POCKET
 
 
 def _bold(text: str) -> QLabel:
@@ -123,17 +132,23 @@ class ToolSection(ListSection):
     """Every tool of the job.
 
     Signals:
-        added(): the user wants another one. library(): wants the tool library shown, or hidden again.
+        added(): the user wants another one. library(), advice(): wants the tool library, or the advice, shown, or
+            hidden again.
     """
 
     added = Signal()
     library = Signal()
+    advice = Signal()
 
     def __init__(self) -> None:
         super().__init__("Tools")
         self.library_button = IconButton("library", "Tool library (F6)")
         self.library_button.setCheckable(True)
         self.library_button.clicked.connect(self.library)
+        self.advice_button = IconButton("advice", "Which tool? Passages, corners, and what each tool reaches (Shift+F6)")
+        self.advice_button.setCheckable(True)
+        self.advice_button.clicked.connect(self.advice)
+        self.head.addWidget(self.advice_button)
         self.head.addWidget(self.library_button)
         self.add_button = IconButton("add", "Add a tool")
         self.add_button.clicked.connect(self.added)
@@ -154,18 +169,24 @@ class ToolSection(ListSection):
 
 
 class OperationSection(ListSection):
-    """Every operation: switch, line sample, name, tool, time."""
+    """Every operation in the order of cutting: switch, line sample, name, tool, time.
+
+    Signals:
+        added(kind): the user wants another one. switched(index, on). moved(index, way): earlier (-1) or later (1).
+        copied(index): wanted twice.
+    """
 
     added = Signal(type)
     switched = Signal(int, bool)
     moved = Signal(int, int)
+    copied = Signal(int)
 
     def __init__(self) -> None:
         super().__init__("Operations")
         self.add_button = IconButton("add", "Add an operation")
         menu = QMenu(self.add_button)
-        for kind, text in ((PocketOperation, "Pocket"), (ContourOperation, "Contour")):
-            action = QAction(text, menu)
+        for word, kind in OPERATION_KINDS.items():
+            action = QAction(word.capitalize(), menu)
             action.triggered.connect(lambda _=False, k=kind: self.added.emit(k))
             menu.addAction(action)
         self.add_button.clicked.connect(lambda: menu.popup(self.add_button.mapToGlobal(self.add_button.rect().bottomLeft())))
@@ -185,7 +206,8 @@ class OperationSection(ListSection):
             time = QLabel(clock(times[index])) if index in times and operation.cut.enabled else muted("-")
             row = self._operation_row(index, operation, job, time)
             row.moved.connect(lambda way, i=index: self.moved.emit(i, way))
-            row.setToolTip("Alt+Up, Alt+Down: cut earlier or later")
+            row.copied.connect(lambda i=index: self.copied.emit(i))
+            row.setToolTip("Drag, or Alt+Up and Alt+Down: cut earlier or later; Ctrl+D: duplicate; Del: remove")
             self.add_row(Subject(SubjectKind.OPERATION, index), row)
 
     def _operation_row(self, index: int, operation: Operation, job: Job, time: QLabel) -> Row:
@@ -195,7 +217,7 @@ class OperationSection(ListSection):
         switch.setChecked(cut.enabled)
         switch.toggled.connect(lambda on: self.switched.emit(index, on))
         self.switches.append(switch)
-        sample = LineSample(Sample.POCKET if isinstance(operation, PocketOperation) else Sample.CONTOUR)
+        sample = LineSample(sample_of(operation))
         sample.setEnabled(cut.enabled)
         tool = next((t for t in job.tools if t.number == cut.tool), None)
         text = f"T{cut.tool} {tool.label}" if tool is not None else f"T{cut.tool} is missing"

@@ -67,6 +67,7 @@ class Row(QWidget):
     removed = Signal()
     stepped = Signal(int)
     moved = Signal(int)
+    copied = Signal()
 
     def __init__(self, *widgets: QWidget, stretch_after: int = 0, wide: int = -1) -> None:
         """Make a row.
@@ -77,6 +78,7 @@ class Row(QWidget):
             wide: index of the one that takes all the room there is; -1 = none.
         """
         super().__init__()
+        self._pressed_at = 0.0
         self.setProperty("row", "true")
         self.setProperty("chosen", "false")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
@@ -101,9 +103,18 @@ class Row(QWidget):
         if event.button() == Qt.MouseButton.LeftButton:
             self.clicked.emit()
             self.setFocus(Qt.FocusReason.MouseFocusReason)
+            self._pressed_at = event.position().y()
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Dragged by more than a row's height, move by one."""
+        if event.buttons() & Qt.MouseButton.LeftButton:
+            way = event.position().y() - self._pressed_at
+            if abs(way) > self.height():
+                self._pressed_at = event.position().y()
+                self.moved.emit(1 if way > 0 else -1)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """Space and Enter choose, Up and Down choose the neighbour, with Alt they move the row, Delete removes."""
+        """Space and Enter choose, Up and Down choose the neighbour, with Alt they move the row, Ctrl+D copies it, Delete removes."""
         steps = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1}
         if event.key() in steps and event.modifiers() & Qt.KeyboardModifier.AltModifier:
             self.moved.emit(steps[Qt.Key(event.key())])
@@ -113,5 +124,7 @@ class Row(QWidget):
             self.clicked.emit()
         elif event.key() == Qt.Key.Key_Delete:
             self.removed.emit()
+        elif event.key() == Qt.Key.Key_D and event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+            self.copied.emit()
         else:
             super().keyPressEvent(event)

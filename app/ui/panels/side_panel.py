@@ -16,12 +16,15 @@ from app.model.job import Job
 from app.model.operation import PocketOperation
 from app.model.tool import Tool
 from app.ui.panels import changes
+from app.ui.panels.advice import AdviceSection
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.fields import NumberField
-from app.ui.panels.forms import JobForm, OperationForm, ToolForm
+from app.ui.panels.job_form import JobForm
 from app.ui.panels.library import LibrarySection
 from app.ui.panels.lists import JobSection, OperationSection, ToolSection
+from app.ui.panels.operation_form import OperationForm
 from app.ui.panels.section import hairline
+from app.ui.panels.tool_form import ToolForm
 
 WIDTH = 328
 
@@ -30,10 +33,11 @@ class SidePanel(QScrollArea):
     """Shows the document's job and turns what the user does into undoable changes of it.
 
     Signals:
-        refused(sentence): a change that the job does not allow.
+        refused(sentence): a change that the job does not allow. advice_shown(): the sheet "Which tool?" has been opened.
     """
 
     refused = Signal(str)
+    advice_shown = Signal()
 
     def __init__(self, document: Document) -> None:
         super().__init__()
@@ -44,7 +48,7 @@ class SidePanel(QScrollArea):
         self.subject = Subject(SubjectKind.OPERATION, 0)
         self.job, self.tools, self.operations = JobSection(), ToolSection(), OperationSection()
         self.job_form, self.tool_form, self.operation_form = JobForm(), ToolForm(), OperationForm()
-        self.library = LibrarySection()
+        self.library, self.advice = LibrarySection(), AdviceSection()
         self._lay_out()
         self._connect()
         self.refresh()
@@ -60,8 +64,9 @@ class SidePanel(QScrollArea):
             column.addWidget(hairline())
         for form in (self.job_form, self.tool_form, self.operation_form):
             column.addWidget(form)
-        column.addWidget(self.library)
-        self.library.hide()
+        for sheet in (self.library, self.advice):
+            column.addWidget(sheet)
+            sheet.hide()
         column.addStretch(1)
         self.setWidget(inner)
         self.setWidgetResizable(True)
@@ -80,11 +85,15 @@ class SidePanel(QScrollArea):
         self.operations.removed.connect(self._remove)
         self.operations.switched.connect(self._switch)
         self.operations.moved.connect(self._move)
+        self.operations.copied.connect(self._copy)
+        self.operation_form.copied.connect(lambda: self._copy(self.subject.key))
         self.operation_form.moved.connect(lambda way: self._move(self.subject.key, way))
         for form in (self.job_form, self.tool_form, self.operation_form):
             form.edited.connect(self._on_edited)
         self.tools.library.connect(self.switch_library)
         self.library.closed.connect(self.switch_library)
+        self.tools.advice.connect(self.switch_advice)
+        self.advice.closed.connect(self.switch_advice)
         self.library.added.connect(self._add_from_library)
         self.library.put.connect(self._put_from_library)
         self._unsubscribe = self._document.subscribe(self._on_change)
@@ -92,6 +101,7 @@ class SidePanel(QScrollArea):
     def choose(self, subject: Subject) -> None:
         """Show the properties of a subject; the library stays open beside tools alone."""
         self.subject = subject
+        self.advice.hide()
         if subject.kind is not SubjectKind.TOOL:
             self.library.hide()
         self.refresh()
@@ -100,12 +110,22 @@ class SidePanel(QScrollArea):
         """Show the tool library in the place of the properties, or these again."""
         opened = self.library.isHidden()
         if opened:
+            self.advice.hide()
             self.read_libraries()
         self.library.setVisible(opened)
         self.refresh()
         if opened:
             self.library.search.setFocus(Qt.FocusReason.OtherFocusReason)
             QTimer.singleShot(0, self._fit_library)
+
+    def switch_advice(self) -> None:
+        """Show "Which tool?" in the place of the properties, or these again."""
+        opened = self.advice.isHidden()
+        self.library.hide()
+        self.advice.setVisible(opened)
+        self.refresh()
+        if opened:
+            self.advice_shown.emit()
 
     def _fit_library(self) -> None:
         """Give the library's list the room that is left, and bring it into sight."""
@@ -135,10 +155,18 @@ class SidePanel(QScrollArea):
         self._times, self._strokes = times, strokes
         self.refresh()
 
-    def show_size(self, size: tuple[float, float] | None) -> None:
-        """Show the stock's size in the plane, mm."""
-        self._size = size
-        self.job.show_job(self._document.job, size)
+    def show_size(self, size: tuple[float, float] | None, job: Job) -> None:
+        """Show the stock's size in the plane.
+
+        Args:
+            size: of one part, mm; None while nothing is drawn.
+            job: its copies and the margin round them.
+        """
+        copies, margin = job.copies, 2 * job.stock.margin
+        self.job_form.show_size(size)
+        self._size = None if size is None else (size[0] + (copies.columns - 1) * abs(copies.dx) + margin,
+                                                size[1] + (copies.rows - 1) * abs(copies.dy) + margin)  # fmt: skip
+        self.job.show_job(job, self._size)
 
     def change(self, name: str, make: Callable[[Job], Job], field: NumberField | None = None) -> None:
         """Change the job, undoably; what it does not allow is said at the field, or by `refused`."""
@@ -169,8 +197,9 @@ class SidePanel(QScrollArea):
         else:
             pocket = isinstance(job.operations[self.subject.key], PocketOperation)
             self.operation_form.show_operation(job, self.subject.key, self._strokes if pocket else None)
-        opened = not self.library.isHidden()
-        self.tools.library_button.setChecked(opened)
+        self.tools.library_button.setChecked(not self.library.isHidden())
+        self.tools.advice_button.setChecked(not self.advice.isHidden())
+        opened = not (self.library.isHidden() and self.advice.isHidden())
         self.library.show_place(self.subject.key if kind is SubjectKind.TOOL else 0)
         self.job_form.setVisible(kind is SubjectKind.JOB and not opened)
         self.tool_form.setVisible(kind is SubjectKind.TOOL and not opened)
@@ -184,7 +213,7 @@ class SidePanel(QScrollArea):
         field, make = edit
         before = self.subject
         if field is self.tool_form.number:
-            self.subject = Subject(SubjectKind.TOOL, int(field.value))
+            self.subject = Subject(SubjectKind.TOOL, int(field.value or 0))
         revision = self._document.revision
         self.change(name, make, field)
         if self._document.revision == revision:
@@ -224,12 +253,20 @@ class SidePanel(QScrollArea):
 
     def _move(self, index: int, way: int) -> None:
         def make(job: Job) -> Job:
-            new, place = changes.with_moved_operation(job, index, way)
+            new, place = changes.with_moved_operation(job, index, index + way)
             self.subject = Subject(SubjectKind.OPERATION, place)
             return new
 
         self.change("Move operation", make)
         self.operations.focus(self.subject)
+
+    def _copy(self, index: int) -> None:
+        def make(job: Job) -> Job:
+            new, place = changes.with_copied_operation(job, index)
+            self.subject = Subject(SubjectKind.OPERATION, place)
+            return new
+
+        self.change("Duplicate operation", make)
 
     def _switch(self, index: int, on: bool) -> None:
         name = "Switch operation on" if on else "Switch operation off"

@@ -7,7 +7,7 @@
 (It is at X -2 mm, Y -2 mm, Z 0 mm of the drawing, whose Z 0 is the)
 (top of stock)
 (T1 flat 6 mm, 12000 rpm)
-(Pocket T1: depth 2 mm, stepdown 2 mm, stepover 3 mm, stock to)
+(Pocket T1: depth 2 mm, stepdown 2 mm, stepover automatic, stock to)
 (leave 0 mm, climb)
 (Path within 0.0012 mm of the exact offset of the drawing)
 (Exact path: the control does not blend)
@@ -29,7 +29,7 @@ G61
 (T1 flat 6 mm)
 S12000 M3
 G4 P2
-(Pocket T1: depth 2 mm, stepdown 2 mm, stepover 3 mm, stock to)
+(Pocket T1: depth 2 mm, stepdown 2 mm, stepover automatic, stock to)
 (leave 0 mm, climb)
 G0 Z5.0000
 X12.0000 Y12.0000

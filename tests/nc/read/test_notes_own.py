@@ -3,9 +3,12 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from app.model.job import Job, OriginXY, OriginZ
+from app.model.job import Copies, Job, OriginXY, OriginZ
+from app.model.moves import DogBone, Tab
+from app.model.operation import ContourOperation, Cut, DrillOperation, PocketOperation, RestOperation, Side
 from app.model.part import Units
 from app.model.tool import Tool, ToolKind
 from app.nc.posts import load_post, post_names
@@ -45,6 +48,49 @@ def test_what_every_post_writes_is_read_again(name: str) -> None:
         assert 0.001 <= (program.header.path_tolerance or 0.0) < 0.01
 
 
+@pytest.mark.parametrize("name", post_names())
+def test_what_a_part_depends_on_is_read_again(name: str) -> None:
+    """Sides, layers, holes, copies, clamps, tabs and dog-bones go through the comments of every control."""
+    operations = (
+        PocketOperation(Cut(1, 4.0, floor_to_leave=0.25, layers=LAYERS)), RestOperation(Cut(1, 4.0)),
+        ContourOperation(Cut(2, 4.0, stock_to_leave=0.1), Side.OUTSIDE), ContourOperation(Cut(2, layers=("x",)), Side.ON),
+        DrillOperation(Cut(2, 5.0), least=2.5, most=3.0, through=0.5), DrillOperation(Cut(2, 6.0)),
+    )  # fmt: skip
+    tabs = tuple(Tab(10.5 * k, -0.125, 5.0, -1.5, 3.0) for k in range(3))
+    bones = (DogBone(1.0, 2.0, 1.25, 2.25, 3.0),)
+    copies = Copies(7, 3, 40.1 / 3, -25.4)
+    path = two_tools()
+    made = job(tools=(BULL, TAPER), operations=operations, copies=copies, keep_out_layers=("clämps", "b"), keep_out_height=3.5)
+    program = replace(path.program(), tabs=tabs, dog_bones=bones)
+    program = replace(program, moves=replace(program.moves, operation=np.where(program.moves.tool == 1, np.arange(len(program.moves)) % 2,
+                                                                               2 + np.arange(len(program.moves)) % 4).astype(np.int16)))
+    post = load_post(name)
+    headers = [read_program(file.nc.text.encode(), ReadOptions(post.dialect)).header for file in write_files(program, made, post)]
+    told = [note for header in headers if header is not None for note in header.operations]
+    assert [(note.kind, note.side, note.floor_to_leave, note.holes) for note in told] == [
+        ("pocket", Side.INSIDE, 0.25, NO_HOLES), ("rest", Side.INSIDE, 0.0, NO_HOLES), ("contour", Side.OUTSIDE, 0.0, NO_HOLES),
+        ("contour", Side.ON, 0.0, NO_HOLES), ("drill", Side.INSIDE, 0.0, (2.5, 3.0, 0.5)), ("drill", Side.INSIDE, 0.0, NO_HOLES),
+    ]  # fmt: skip
+    assert [[layer.casefold() for layer in note.layers] for note in told] == [[each.casefold() for each in LAYERS], [], [], ["x"], [], []]
+    for header in headers:
+        assert header is not None
+        assert (header.tabs, header.dog_bones) == (tabs, bones)
+        assert header.copies is not None
+        assert (header.copies.columns, header.copies.rows) == (7, 3)
+        assert header.copies.shifts[-1] == pytest.approx(copies.shifts[-1], abs=1e-8)
+        assert ([layer.casefold() for layer in header.keep_out[0]], header.keep_out[1]) == (["clämps", "b"], 3.5)
+
+
+NO_HOLES = (0.0, 0.0, 0.0)
+
+
+def test_a_header_with_thousands_of_tabs_is_read_whole() -> None:
+    text = "".join(f"(hitofude: tab={k},0,5,-1,3)\n" for k in range(5000))
+    header = notes(text.encode()).header
+    assert header is not None
+    assert [tab.x for tab in header.tabs] == list(range(5000))
+
+
 @pytest.mark.parametrize("text", [
     "(hitofude: tool=4,bull,8,1.5,0,0)", "( Hitofude: tool = 4, bull, 8, 1.5, 0, 0 )", "; HITOFUDE: TOOL=4,BULL,8,1.5,0,0",
     "(hitofude: tool=4,bu)\n(hitofude+ll,8,1.5,0,0)", "(hitofude: tool=4,bull,8,1.5,0)\n(hitofude: tool=4,bull,8,1.5,0,0)",
@@ -55,7 +101,9 @@ def test_a_tool_with_its_shape(text: str) -> None:
 
 
 @pytest.mark.parametrize("text", [
-    "operation=drill,1,2,0", "operation=pocket,1,2", "operation=pocket", "origin_mm=1,2", "origin_mm=1,2,x", "drawing_units=yards",
+    "operation=saw,1,2,0", "operation=contour,1,2,0,beside", "operation=contour,1,2,0,on,on", "operation=pocket,1,2", "operation_layer=1,a",
+    "operation_layer=x,a", "floor_to_leave_mm=1,2", "holes_mm=1,2", "copies=2,2,0,0",
+    "copies=2", "tab=1,2,3", "dog_bone=1,2,3,4,x", "operation=pocket", "origin_mm=1,2", "origin_mm=1,2,x", "drawing_units=yards",
     "join_tolerance_mm=", "path_tolerance_mm=1,2", "nonsense=1", "",
 ])  # fmt: skip
 def test_what_is_not_as_it_is_written_is_passed_over(text: str) -> None:

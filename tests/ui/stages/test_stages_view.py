@@ -302,11 +302,11 @@ def test_more_than_30_stages_are_shown_in_a_second(qtbot, staged):
 def test_what_gets_no_path_is_said(qtbot, staged):
     panel = staged.window_.stages_panel
     assert not panel.finding.isVisible()
-    for index in (0, 1):
+    for index in (0, 2):
         before = staged.staging.reel
         staged.window_.panel.operations.switched.emit(index, False)
         qtbot.waitUntil(lambda reel=before: staged.staging.reel is not reel, timeout=WAIT_MS)
     assert staged.window_.views.stages.rail.numbers == (110,) and "No operation" in panel.finding.text() and panel.finding.isVisible()
-    staged.window_.panel.operations.switched.emit(1, True)
+    staged.window_.panel.operations.switched.emit(2, True)
     staged.run("circle 60,5 1")
     qtbot.waitUntil(lambda: "too small for T2" in panel.finding.text(), timeout=WAIT_MS)

@@ -1,0 +1,158 @@
+"""Which circles of a drawing a drill operation drills, and which it leaves out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+
+import shapely
+
+from app.model.curves import Arc, Circle, Point
+from app.model.finding import Finding, FindingKind
+from app.model.job import Job
+from app.model.operation import DrillOperation
+from app.model.part import Contour, Region
+from app.model.tool import Tool, ToolKind
+from app.tolerances import CURVE
+from app.toolpath.drawn import Drawn
+from app.toolpath.flat import region_shapes
+
+ALIKE = 0.1
+"""mm; circles whose diameter is this near to a drill's are its own."""
+
+_CHORD = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class Hole:
+    """A circle of the drawing.
+
+    Attributes:
+        x, y: its centre, mm.
+        diameter: mm.
+    """
+
+    x: float
+    y: float
+    diameter: float
+
+
+@dataclass(frozen=True)
+class Holes:
+    """The circles of a drill operation.
+
+    Attributes:
+        drilled: one a place.
+        narrow: circles that were asked for and are narrower than the drill.
+        held: circles over which clamps lie, or so near to one that drill or holder would touch it.
+        others: circles of other diameters.
+    """
+
+    drilled: tuple[Hole, ...] = ()
+    narrow: tuple[Hole, ...] = ()
+    held: tuple[Hole, ...] = ()
+    others: tuple[Hole, ...] = ()
+
+
+def circle_of(contour: Contour) -> Hole | None:
+    """Return the circle that a closed contour is: one circle, or arcs round one centre; None where it is none.
+
+    Centres and radii of arcs may differ by as much as curves may when they become arcs.
+    """
+    arcs = contour.primitives
+    if not contour.closed or not all(isinstance(each, (Arc, Circle)) for each in arcs):
+        return None
+    round_ = [each for each in arcs if isinstance(each, (Arc, Circle))]
+    (x, y), radius = _mean([each.centre for each in round_]), sum(each.radius for each in round_) / len(round_)
+    far = max(max(math.dist(each.centre, (x, y)), abs(each.radius - radius)) for each in round_)
+    turn = sum(math.tau if isinstance(each, Circle) else abs(each.sweep) for each in round_)
+    return Hole(x, y, 2 * radius) if far <= CURVE and abs(turn - math.tau) < 1e-3 else None
+
+
+def _mean(points: Sequence[Point]) -> Point:
+    return sum(x for x, _ in points) / len(points), sum(y for _, y in points) / len(points)
+
+
+def holes_of(job: Job, drawn: Drawn, operation: DrillOperation) -> Holes:
+    """Return the circles of a drill operation, in the order of the drawing."""
+    tool, layers = job.tool(operation.cut.tool), frozenset(operation.cut.layers)
+    circles = [hole for contour in drawn.closed if not layers or contour.layer in layers if (hole := circle_of(contour)) is not None]
+    least, most = _asked(operation, tool)
+    asked = [hole for hole in circles if least - 1e-6 <= hole.diameter <= most + 1e-6]
+    others = tuple(hole for hole in circles if not least - 1e-6 <= hole.diameter <= most + 1e-6)
+    fit = [hole for hole in asked if tool.diameter <= hole.diameter + ALIKE + 1e-6]
+    narrow = tuple(hole for hole in asked if tool.diameter > hole.diameter + ALIKE + 1e-6)
+    free, held = _free(_once_a_place(fit), job, drawn, operation)
+    return Holes(tuple(free), narrow, tuple(held), others)
+
+
+def _asked(operation: DrillOperation, tool: Tool) -> tuple[float, float]:
+    """Return the least and the largest diameter of an operation's circles, mm."""
+    if operation.least is None and operation.most is None:
+        return tool.diameter - ALIKE, tool.diameter + ALIKE
+    return operation.least or 0.0, math.inf if operation.most is None else operation.most
+
+
+def _once_a_place(holes: Iterable[Hole]) -> list[Hole]:
+    """Return of holes round one centre the widest."""
+    widest: dict[tuple[int, int], Hole] = {}
+    for hole in holes:
+        place = round(hole.x / CURVE), round(hole.y / CURVE)
+        key = next((key for dx in (-1, 0, 1) for dy in (-1, 0, 1) if (key := (place[0] + dx, place[1] + dy)) in widest), place)
+        if key not in widest or hole.diameter > widest[key].diameter:
+            widest[key] = hole
+    return list(widest.values())
+
+
+def _free(holes: list[Hole], job: Job, drawn: Drawn, operation: DrillOperation) -> tuple[list[Hole], list[Hole]]:
+    """Return the holes that no clamp is in the way of, and the others."""
+    if not drawn.clamps or not holes:
+        return holes, []
+    clamps = shapely.union_all(region_shapes(drawn.clamps, _CHORD))
+    far = shapely.distance(shapely.points([(hole.x, hole.y) for hole in holes]), clamps)
+    reach = _reach(job.tool(operation.cut.tool), tip_depth(job, operation), job.keep_out_height) + _CHORD
+    return ([hole for hole, room in zip(holes, far.tolist(), strict=True) if room >= reach],
+            [hole for hole, room in zip(holes, far.tolist(), strict=True) if room < reach])
+
+
+def _reach(tool: Tool, depth: float, height: float) -> float:
+    """Return how far from the hole's centre there must be no clamp, mm: for the drill, and for a holder that comes as low as clamps."""
+    low = tool.holder and tool.stick_out and tool.stick_out - depth < height
+    return max([tool.radius, *(radius for _, radius in tool.holder)]) if low else tool.radius
+
+
+def tip_depth(job: Job, operation: DrillOperation) -> float:
+    """Return how deep the drill's tip goes, mm: its full width goes to the depth where its angle is known, else the tip does."""
+    return operation.cut.floor + operation.through + tip_length(job.tool(operation.cut.tool))
+
+
+def tip_length(tool: Tool) -> float:
+    """Return the length of a drill's point, mm; 0 of other tools, and where its angle is not known."""
+    return tool.radius / math.tan(tool.tip_angle / 2) if tool.kind is ToolKind.DRILL and tool.tip_angle else 0.0
+
+
+def hole_regions(job: Job, drawn: Drawn, operation: DrillOperation) -> tuple[Region, ...]:
+    """Return the discs that a drill operation's cutter stays in: its circles, or its own width where it is wider by up to `ALIKE`."""
+    radius = job.tool(operation.cut.tool).radius
+    return tuple(Region(number, Contour((Circle((hole.x, hole.y), max(hole.diameter / 2, radius)),)))
+                 for number, hole in enumerate(holes_of(job, drawn, operation).drilled, 1))
+
+
+def without_drilled(findings: Iterable[Finding], job: Job, drawn: Drawn) -> list[Finding]:
+    """Return findings, of which those no longer count that tell of a region too small for a mill that is a circle which is drilled."""
+    drills = [each for each in job.operations if isinstance(each, DrillOperation) and each.cut.enabled]
+    findings = list(findings)
+    small = [finding for finding in findings if finding.kind is FindingKind.REGION_TOO_SMALL and finding.counts]
+    if not drills or not small:
+        return findings
+    tree = [hole for operation in drills for hole in holes_of(job, drawn, operation).drilled]
+    if not tree:
+        return findings
+    discs = shapely.STRtree(shapely.points([(hole.x, hole.y) for hole in tree]))
+    places = shapely.points([(finding.x or 0.0, finding.y or 0.0) for finding in small])
+    nearest = discs.nearest(places)
+    drilled = {finding for finding, place, k in zip(small, places, nearest.tolist(), strict=True)
+               if math.dist((place.x, place.y), (tree[k].x, tree[k].y)) < tree[k].diameter / 4
+               and (finding.amount or 0.0) <= 1.1 * tree[k].diameter}  # fmt: skip
+    return [replace(each, counts=False, text=f"{each.text} It is drilled.") if each in drilled else each for each in findings]

@@ -1,0 +1,244 @@
+"""Compiled inner loops of rest machining: what paths have left, which pieces of rings cut it, and which of these are enough.
+
+Paths are rows, and a tree of boxes (`app.geometry.kernels`) over those of each cutter. The depth of a point in
+the metal that paths have left is its distance from them less the radius: it changes by no more than the way gone.
+"""
+
+from __future__ import annotations
+
+import heapq
+import math
+
+import numpy as np
+
+from app.geometry.kernels import LEAF, box_distance, nearest, point_distance
+from app.jit import kernel
+
+
+@kernel("float64(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64, float64)")
+def depth_left(rows, order, nodes, cutters, x, y, limit):
+    """Return how deep a point lies in what paths have left, mm: the least (distance - radius) of all rows, at most `limit`.
+
+    Args:
+        order, nodes: the trees of all cutters, one behind the other.
+        cutters: (n, 3) radius, mm, and where the order and the nodes of the next one begin.
+    """
+    best, o, n = limit, 0, 0
+    for k in range(len(cutters)):
+        radius, o1, n1 = cutters[k, 0], int(cutters[k, 1]), int(cutters[k, 2])
+        best = nearest(rows, order[o:o1], nodes[n:n1], x, y, best + radius)[0] - radius
+        o, n = o1, n1
+    return best
+
+
+@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1], float64, float64[::1])")
+def depths_left(rows, order, nodes, cutters, points, limit, out):
+    """Write `depth_left` of each point (m, 2)."""
+    for k in range(len(points)):
+        out[k] = depth_left(rows, order, nodes, cutters, points[k, 0], points[k, 1], limit)
+
+
+@kernel("boolean(float64[:, ::1], int64[::1], float64[:, ::1], float64[::1], float64)")
+def _within_one(rows, order, nodes, chunk, limit):
+    """Return whether a short row, given by start, middle and end, stays within `limit` of some one row."""
+    leaves = (len(nodes) + 1) // 2
+    ax, ay, mx, my, bx, by = chunk[0], chunk[1], chunk[2], chunk[3], chunk[4], chunk[5]
+    half = max(math.hypot(ax - mx, ay - my), math.hypot(bx - mx, by - my))
+    stack = np.empty(64, np.int64)
+    stack[0], top = 0, 1
+    while top > 0:
+        top -= 1
+        k = stack[top]
+        if box_distance(nodes, k, mx, my) > limit:
+            continue
+        if k < leaves - 1:
+            stack[top], stack[top + 1] = 2 * k + 2, 2 * k + 1
+            top += 2
+            continue
+        first = (k - leaves + 1) * LEAF
+        for place in range(first, min(first + LEAF, len(order))):
+            j = order[place]
+            middle = point_distance(rows, j, mx, my)
+            if middle > limit:
+                continue
+            if middle + half <= limit or (point_distance(rows, j, ax, ay) <= limit and point_distance(rows, j, bx, by) <= limit):
+                return True
+    return False
+
+
+@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1], float64[::1], boolean[::1])")
+def in_air(rows, order, nodes, cutters, chunks, cutter, out):
+    """Write for each short row, given by its start, middle and end (m, 6), whether a cutter stays within what some one row has cut.
+
+    Args:
+        cutter: its radius, and by how much its rim may go beyond what is cut, mm.
+    """
+    for i in range(len(chunks)):
+        out[i] = False
+        o, n = 0, 0
+        for k in range(len(cutters)):
+            limit, o1, n1 = cutters[k, 0] - cutter[0] + cutter[1], int(cutters[k, 1]), int(cutters[k, 2])
+            if limit >= 0.0 and _within_one(rows, order[o:o1], nodes[n:n1], chunks[i], limit):
+                out[i] = True
+                break
+            o, n = o1, n1
+
+
+@kernel("int64(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1], int64[::1], float64[:, ::1], float64[::1],"
+        " float64[:, ::1], float64[::1], float64[:, ::1])")
+def left_cells(rows, order, nodes, cutters, bound, bound_order, bound_nodes, rule, squares, sizes, out):
+    """Write the centres of the cells in which metal is left; return how many.
+
+    A cell is looked into by halves until a point is found that is left by `least` all round, or none can be.
+
+    Args:
+        bound, bound_order, bound_nodes, rule: rows and (base, sign): only points with base + sign * distance from them > 0 count.
+        squares: centres (n, 2) of the squares that are looked through.
+        sizes: half sides of squares and of cells, mm, and `least`, mm.
+        out: room for all cells of all squares.
+    """
+    half0, cell, least = sizes[0], sizes[1], sizes[2]
+    stack = np.empty((256, 3))
+    count = 0
+    for s in range(len(squares)):
+        stack[0, 0], stack[0, 1], stack[0, 2] = squares[s, 0], squares[s, 1], half0
+        top = 1
+        cell_x, cell_y, found = math.inf, math.inf, True
+        while top > 0:
+            top -= 1
+            x, y, half = stack[top, 0], stack[top, 1], stack[top, 2]
+            if half <= cell * 1.001:
+                if half >= cell * 0.999:
+                    cell_x, cell_y, found = x, y, False
+                elif found:
+                    continue
+            q = half * math.sqrt(2.0)
+            depth = depth_left(rows, order, nodes, cutters, x, y, 2 * half0 + least)
+            if depth + q < least:
+                continue
+            near = nearest(bound, bound_order, bound_nodes, x, y, math.inf)[0]
+            depth = min(depth, rule[0] + rule[1] * near)
+            if depth + q < least:
+                continue
+            if half <= cell * 1.001 and (depth >= least or q < least / 4):
+                out[count, 0], out[count, 1] = cell_x, cell_y
+                count += 1
+                found = True
+                continue
+            half /= 2
+            for k in range(4):
+                stack[top, 0] = x + (half if k % 2 else -half)
+                stack[top, 1] = y + (half if k // 2 else -half)
+                stack[top, 2] = half
+                top += 1
+    return count
+
+
+@kernel("int64(float64[:, ::1], int64, float64[:, ::1], float64[::1], int64[:, ::1], float64[::1], int64[::1])")
+def _seen(chunks, i, cells, need, starts, grid, found):
+    """Write the cells that a cutter along row i clears; return how many.
+
+    Args:
+        need: how near the row must come to each cell, mm.
+        starts, grid: cells are sorted by buckets: first of each bucket (rows, columns + 1), and (x0, y0, bucket's side, largest need).
+    """
+    most, side = grid[3], grid[2]
+    low_x = min(chunks[i, 0], chunks[i, 2])
+    pad = most + math.hypot(chunks[i, 2] - chunks[i, 0], chunks[i, 3] - chunks[i, 1])  # an arc below a half turn stays within this
+    low_y, high_x, high_y = min(chunks[i, 1], chunks[i, 3]), max(chunks[i, 0], chunks[i, 2]), max(chunks[i, 1], chunks[i, 3])
+    j0, j1 = max(0, math.floor((low_x - pad - grid[0]) / side)), min(starts.shape[1] - 2, math.floor((high_x + pad - grid[0]) / side))
+    i0, i1 = max(0, math.floor((low_y - pad - grid[1]) / side)), min(starts.shape[0] - 1, math.floor((high_y + pad - grid[1]) / side))
+    count = 0
+    if j1 < j0:
+        return 0
+    for row in range(i0, i1 + 1):
+        for c in range(starts[row, j0], starts[row, j1 + 1]):
+            if point_distance(chunks, i, cells[c, 0], cells[c, 1]) <= need[c]:
+                found[count] = c
+                count += 1
+    return count
+
+
+@kernel("void(float64[:, ::1], float64[:, ::1], float64[::1], int64[:, ::1], float64[::1], boolean[::1])")
+def sees_any(chunks, cells, need, starts, grid, out):
+    """Write for each row (n, 8) whether it clears any cell."""
+    found = np.empty(len(cells), np.int64)
+    for i in range(len(chunks)):
+        out[i] = _seen(chunks, i, cells, need, starts, grid, found) > 0
+
+
+@kernel("Tuple((float64, int64, int64))(float64[:, ::1], float64[::1], int64[::1], float64[:, ::1], float64[::1], int64[:, ::1],"
+        " float64[::1], boolean[::1], int64[::1], int64[::1])")
+def _worth(chunks, size, span, cells, need, starts, grid, cleared, seen_by, found):
+    """Return (cells that a span clears anew per mm, first, stop), without the ends that clear nothing by themselves.
+
+    Args:
+        span: first and last row + 1.
+        seen_by: zero for each cell, and is so afterwards.
+    """
+    first, stop = span[0], span[1]
+    gain = 0
+    for i in range(first, stop):
+        for k in range(_seen(chunks, i, cells, need, starts, grid, found)):
+            c = found[k]
+            if not cleared[c]:
+                gain += seen_by[c] == 0
+                seen_by[c] += 1
+    for side in range(2):
+        while stop - first > 1:
+            i = first if side == 0 else stop - 1
+            count, needed = _seen(chunks, i, cells, need, starts, grid, found), False
+            for k in range(count):
+                if not cleared[found[k]] and seen_by[found[k]] == 1:
+                    needed = True
+                    break
+            if needed:
+                break
+            for k in range(count):
+                if not cleared[found[k]]:
+                    seen_by[found[k]] -= 1
+            if side == 0:
+                first += 1
+            else:
+                stop -= 1
+    length = 0.0
+    for i in range(first, stop):
+        length += size[i]
+        for k in range(_seen(chunks, i, cells, need, starts, grid, found)):
+            seen_by[found[k]] = 0
+    return gain / (length + grid[4]), first, stop
+
+
+@kernel("int64(float64[:, ::1], float64[::1], int64[:, ::1], float64[:, ::1], float64[::1], int64[:, ::1], float64[::1], int64[:, ::1])")
+def choose(chunks, size, spans, cells, need, starts, grid, out):
+    """Write (first row, last + 1) of spans that together clear all cells, those first that clear most per mm; return how many.
+
+    Args:
+        chunks, size: short rows and their lengths, mm.
+        spans: (n, 2) first and last + 1 row of each.
+        grid: as `_seen`, and the length that a span costs besides its own, mm.
+        out: (n, 2).
+    """
+    cleared, seen_by = np.zeros(len(cells), np.bool_), np.zeros(len(cells), np.int64)
+    found = np.empty(len(cells), np.int64)
+    heap = [(-1.0, 0)]
+    heap.pop()
+    for s in range(len(spans)):
+        worth = _worth(chunks, size, spans[s], cells, need, starts, grid, cleared, seen_by, found)[0]
+        if worth > 0.0:
+            heapq.heappush(heap, (-worth, s))
+    count = 0
+    while len(heap) > 0:
+        best = heapq.heappop(heap)[1]
+        worth, first, stop = _worth(chunks, size, spans[best], cells, need, starts, grid, cleared, seen_by, found)
+        if worth <= 0.0:
+            continue
+        if len(heap) > 0 and worth < -heap[0][0] * 0.999:
+            heapq.heappush(heap, (-worth, best))
+            continue
+        out[count, 0], out[count, 1] = first, stop
+        count += 1
+        for i in range(first, stop):
+            for k in range(_seen(chunks, i, cells, need, starts, grid, found)):
+                cleared[found[k]] = True
+    return count

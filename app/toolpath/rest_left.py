@@ -1,0 +1,194 @@
+"""What paths have left of an area within reach of a cutter: cells of a grid that together hold all of it.
+
+Two places are told apart. Where the cutter's centre may be, all metal is within reach, and its depth in what the paths have
+left decides. Nearer to the walls only what lies beside a ring that still cuts something can be left: the straight walls that
+a larger tool has followed are clean, and are not looked at again.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from app.geometry.distance import DistanceField
+from app.geometry.primitives import Indices, Rows, points_at, within_half_turn
+from app.progress import Progress
+from app.toolpath import rest_kernels
+from app.toolpath.flat import region_shapes
+from app.toolpath.sheets import Sheet
+
+LEAST = 4e-3
+"""mm; metal in which no disc of this radius fits is none: it is thinner than what the measure of coverage counts."""
+
+_SAME = 5e-4
+"""mm by which a cutter's rim may go beyond what a path has cut and still cut nothing."""
+
+_CHORD = 1e-3
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Ground:
+    """What paths have cut.
+
+    Attributes:
+        tree: rows (n, 8), orders and nodes of one tree a cutter, and (k, 3) the radius of each, mm, with where the next one's begin.
+    """
+
+    tree: tuple[Rows, Indices, Rows, Floats]
+
+    @staticmethod
+    def of(paths: Sequence[tuple[Rows, float]]) -> Ground:
+        """Return the ground that paths (rows (n, 8), radius of the cutter, mm) have cut."""
+        rows, order, nodes = [np.zeros((0, 8))], [np.zeros(0, np.int64)], [np.zeros((0, 4))]
+        cutters: list[tuple[float, int, int]] = []
+        for radius in sorted({radius for _, radius in paths}, reverse=True):
+            parts = [within_half_turn(path) for path, wide in paths if wide == radius and len(path)]
+            if not parts:
+                continue
+            field = DistanceField.of(np.concatenate(parts))
+            order.append(field.order + sum(map(len, rows)))
+            rows.append(field.rows)
+            nodes.append(field.nodes)
+            cutters.append((radius, sum(map(len, order)), sum(map(len, nodes))))
+        return Ground((np.concatenate(rows), np.concatenate(order), np.concatenate(nodes), np.array(cutters).reshape(-1, 3)))
+
+    def depth(self, points: Floats, limit: float) -> Floats:
+        """Return how deep points (m, 2) lie in what is left, mm, at most `limit`; not above 0 where it is cut."""
+        out = np.empty(len(points))
+        rest_kernels.depths_left(*self.tree, np.ascontiguousarray(points), limit, out)
+        return out
+
+    def in_air(self, rows: Rows, radius: float, tolerance: float = _SAME) -> NDArray[np.bool_]:
+        """Return for short rows (n, 8) whether a cutter of this radius, mm, cuts nothing along them."""
+        places = np.hstack([rows[:, :2], points_at(rows, np.full(len(rows), 0.5)), rows[:, 2:4]])
+        out = np.empty(len(rows), np.bool_)
+        rest_kernels.in_air(*self.tree, np.ascontiguousarray(places), np.array([radius, tolerance]), out)
+        return out
+
+
+@dataclass(frozen=True, eq=False)
+class Reach:
+    """Where a cutter's centre may be, and the grid in which metal is looked for.
+
+    Attributes:
+        sheet: the area and its walls.
+        radius: of the cutter, mm.
+        closest: its centre keeps so far off the walls, mm.
+        cell: half side of the cells, mm.
+    """
+
+    sheet: Sheet
+    radius: float
+    closest: float
+    cell: float
+
+    @property
+    def corner(self) -> float:
+        """From a cell's centre to its corners, mm."""
+        return self.cell * math.sqrt(2)
+
+
+@dataclass(frozen=True, eq=False)
+class Suspects:
+    """Squares that may hold metal that is left; everything else is proven cut, or out of reach.
+
+    Attributes:
+        core: centres (n, 2) of those where the cutter's centre may be. rim: of those nearer to the walls.
+        half: half their side, mm.
+        farthest: distance from the walls beyond which no metal of the core is left, mm.
+    """
+
+    core: Floats
+    rim: Floats
+    half: float
+    farthest: float
+
+
+def suspects(ground: Ground, reach: Reach, progress: Progress) -> Suspects:
+    """Return the squares of a grid that may hold metal that is left, by ever finer squares."""
+    shapes = region_shapes(reach.sheet.regions, _CHORD)
+    whole = shapely.multipolygons(shapes)
+    shapely.prepare(whole)
+    last = 2 * reach.cell
+    centres, half = _grid(whole.bounds, last)
+    while True:
+        progress.step(0.0, "Looking for what is left")
+        q = half * math.sqrt(2)
+        centres = centres[ground.depth(centres, 4 * q) > -q]
+        walls = reach.sheet.distances.nearest(centres)[0]
+        alone = walls > q  # all of such a square lies on one side of the walls
+        keep = ~alone
+        keep[alone] = shapely.contains_xy(whole, centres[alone])
+        centres, walls = centres[keep], walls[keep]
+        if half <= last:
+            break
+        half /= 2
+        centres = (centres[:, None] + np.array([[-half, -half], [half, -half], [-half, half], [half, half]])).reshape(-1, 2)
+    core = walls + q >= reach.closest
+    return Suspects(centres[core], centres[walls - q < reach.closest], half, float(walls.max(initial=0.0)) + q)
+
+
+def _grid(bounds: tuple[float, float, float, float], last: float) -> tuple[Floats, float]:
+    """Return (centres (n, 2), half side) of the first squares, a power of two times the last ones' size."""
+    x0, y0, x1, y1 = bounds
+    half = last * 2.0 ** max(0, math.ceil(math.log2(max(x1 - x0, y1 - y0) / 32 / (2 * last))))
+    x, y = (np.arange(math.floor(low / half / 2), math.ceil(high / half / 2)) * 2 * half + half for low, high in ((x0, x1), (y0, y1)))
+    return np.stack(np.meshgrid(x, y), -1).reshape(-1, 2), half
+
+
+def core_cells(ground: Ground, reach: Reach, found: Suspects) -> Floats:
+    """Return the centres (n, 2) of the cells that hold all metal left where the cutter's centre may be."""
+    return _cells(ground, reach, (found.core, found.half), _core(reach))
+
+
+def rim_cells(ground: Ground, reach: Reach, found: Suspects, cutting: Rows) -> Floats:
+    """Return the centres (n, 2) of the cells that hold all metal left nearer to the walls.
+
+    Args:
+        cutting: pieces (n, 8) of the ring nearest to the walls along which the cutter still cuts.
+    """
+    if not len(cutting) or not len(found.rim):
+        return np.zeros((0, 2))
+    rule = _rim(reach, cutting)
+    near = rule.bound.nearest(found.rim, reach.radius + found.half * math.sqrt(2))[1] >= 0
+    return _cells(ground, reach, (found.rim[near], found.half), rule)
+
+
+def left_of(ground: Ground, reach: Reach, cells: tuple[Floats, Floats], cutting: Rows) -> tuple[Floats, Floats]:
+    """Return which cells of the core and of the rim still hold metal when more is cut; args as `rim_cells`."""
+    core, rim = cells
+    left = _cells(ground, reach, (core, reach.cell), _core(reach))
+    return left, _cells(ground, reach, (rim, reach.cell), _rim(reach, cutting)) if len(rim) else rim
+
+
+@dataclass(frozen=True, eq=False)
+class _Rule:
+    """Only points at which base + sign * distance from some rows is more than 0 count."""
+
+    bound: DistanceField
+    base: float
+    sign: float
+
+
+def _core(reach: Reach) -> _Rule:
+    return _Rule(reach.sheet.distances, LEAST - reach.closest, 1.0)
+
+
+def _rim(reach: Reach, cutting: Rows) -> _Rule:
+    return _Rule(DistanceField.of(cutting), reach.radius, -1.0)
+
+
+def _cells(ground: Ground, reach: Reach, squares: tuple[Floats, float], rule: _Rule) -> Floats:
+    """Return the cells of squares (centres (n, 2), half side) in which metal is left."""
+    centres, half = squares
+    out = np.empty((len(centres) * round(half / reach.cell) ** 2, 2))
+    count = rest_kernels.left_cells(*ground.tree, rule.bound.rows, rule.bound.order, rule.bound.nodes, np.array([rule.base, rule.sign]),
+                                    np.ascontiguousarray(centres), np.array([half, reach.cell, LEAST]), out)
+    return out[:count]

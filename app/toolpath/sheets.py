@@ -1,0 +1,138 @@
+"""The areas that each operation's cutter may be in, with their walls: of its layers, on its side of the lines, without the clamps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.geometry.distance import DistanceField
+from app.geometry.overlay import without_crossings, without_outlines
+from app.geometry.primitives import Primitives, contour_rows, pack, points_at
+from app.geometry.region import nest, polygon_contour
+from app.model.job import Job
+from app.model.moves import Area
+from app.model.operation import ContourOperation, DrillOperation, Operation, PocketOperation, RestOperation, Side
+from app.model.part import Contour, Region
+from app.model.stock_box import extent
+from app.toolpath.drawn import Drawn
+from app.toolpath.drill_holes import circle_of, hole_regions, holes_of
+
+_ON_CLAMP = 2e-5
+"""mm; a wall all of which is this near to a clamp's outline is the clamp's: ends that meet are put together by as much."""
+
+ROOM = 4.0
+"""Tool diameters round the drawing in which the paths outside of it lie; beyond them is nothing that concerns them."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    """An area and its walls.
+
+    Attributes:
+        regions: where the cutter may be, with all of its width.
+        primitives, distances: all that bounds them, as rows, and distances from it.
+        bare: (n,) True where a row bounds a clamp, or is the frame round the area outside: it is kept off, not followed.
+        lines: contours that a path on the line follows, open and closed.
+        outlines: of clamps and frame.
+    """
+
+    regions: tuple[Region, ...]
+    primitives: Primitives
+    distances: DistanceField
+    bare: NDArray[np.bool_]
+    lines: tuple[Contour, ...] = ()
+    outlines: tuple[Contour, ...] = ()
+
+    def follows_bare(self, rows: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Return for each row (n, 8) of a ring whether what it follows at its middle is bare."""
+        if not self.bare.any():
+            return np.zeros(len(rows), np.bool_)
+        nearest: NDArray[np.bool_] = self.bare[self.distances.nearest(points_at(rows, np.full(len(rows), 0.5)))[1]]
+        return nearest
+
+
+@dataclass
+class Sheets:
+    """The sheets of a job's operations; operations alike share one."""
+
+    job: Job
+    drawn: Drawn
+    _made: dict[tuple[frozenset[str], Side], Sheet | None] = field(default_factory=dict)
+
+    def of(self, operation: Operation) -> Sheet | None:
+        """Return the sheet of an operation; None where it has nothing to machine."""
+        side = operation.side if isinstance(operation, ContourOperation) else Side.INSIDE
+        key = frozenset(operation.cut.layers), side
+        if key not in self._made:
+            self._made[key] = self._sheet(*key)
+        return self._made[key]
+
+    def areas(self) -> tuple[Area, ...]:
+        """Return the area of each operation of the job, by its index."""
+        return tuple(self._area(operation) for operation in self.job.operations)
+
+    def _area(self, operation: Operation) -> Area:
+        if isinstance(operation, DrillOperation):
+            return Area(hole_regions(self.job, self.drawn, operation)) if operation.cut.enabled else Area()
+        sheet = self.of(operation) if operation.cut.enabled else None
+        if sheet is None:
+            return Area()
+        return Area(sheet.regions, sheet.lines, isinstance(operation, (PocketOperation, RestOperation)), sheet.outlines)
+
+    def _sheet(self, layers: frozenset[str], side: Side) -> Sheet | None:
+        closed, lines = ([c for c in contours if not layers or c.layer in layers] for contours in (self.drawn.closed, self.drawn.open))
+        if side is Side.ON:
+            closed = [contour for contour in closed if not self._is_drilled(contour)]
+        elif self.drawn.crossing:
+            closed = list(without_crossings(closed))
+        frame = self._frame((*closed, *lines, *(c for region in self.drawn.clamps for c in region.contours)))
+        if frame is None or (side is not Side.ON and not closed):
+            return None
+        contours = {Side.INSIDE: closed, Side.OUTSIDE: [frame, *closed], Side.ON: [frame]}[side]
+        regions = without_clamps(contours, self.drawn.clamps)
+        if not regions:
+            return None
+        primitives = pack(regions)
+        outlines = tuple(c for region in self.drawn.clamps for c in region.contours) + (() if side is Side.INSIDE else (frame,))
+        bare = _lies_on(primitives, outlines)
+        return Sheet(regions, primitives, DistanceField.of(primitives.rows), bare, (*closed, *lines) if side is Side.ON else (), outlines)
+
+    def _is_drilled(self, contour: Contour) -> bool:
+        """Tell whether a drill operation of the job makes a contour: then no other tool follows it."""
+        hole = circle_of(contour)
+        drills = [each for each in self.job.operations if isinstance(each, DrillOperation) and each.cut.enabled]
+        return hole is not None and any(hole in holes_of(self.job, self.drawn, each).drilled for each in drills)
+
+    def _frame(self, contours: Sequence[Contour]) -> Contour | None:
+        """Return a box with room for every tool round all contours, counter-clockwise; None where there is no contour."""
+        box = extent(contours)
+        if box is None:
+            return None
+        cuts = [operation.cut for operation in self.job.operations if operation.cut.enabled]
+        widest = max((self.job.tool(cut.tool).diameter for cut in cuts), default=1.0)
+        wide = ROOM * widest + max((cut.stock_to_leave for cut in cuts), default=0.0)
+        x0, y0, x1, y1 = box[0] - wide, box[1] - wide, box[2] + wide, box[3] + wide
+        return polygon_contour([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
+
+
+def without_clamps(contours: Sequence[Contour], clamps: Sequence[Region]) -> tuple[Region, ...]:
+    """Return the regions that contours bound, without what clamps hold.
+
+    Args:
+        contours: none crosses itself or another.
+        clamps: without islands; they may overlap one another.
+    """
+    return nest(without_outlines(contours, [clamp.boundary for clamp in clamps]))
+
+
+def _lies_on(primitives: Primitives, contours: Sequence[Contour]) -> NDArray[np.bool_]:
+    """Return (n,) which rows lie on some contours, by their ends and middles."""
+    if not contours:
+        return np.zeros(len(primitives.rows), np.bool_)
+    rows, outlines = primitives.rows, DistanceField.of(np.concatenate([contour_rows(contour) for contour in contours]))
+    near = [outlines.nearest(points_at(rows, np.full(len(rows), part)), 1.0)[0] < _ON_CLAMP for part in (0.0, 0.5, 1.0)]
+    lying: NDArray[np.bool_] = near[0] & near[1] & near[2]
+    return lying

@@ -1,0 +1,60 @@
+"""Which way along the walls a cutter goes: rings, cut open where they run beside clamps, in the order that frees parts last."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+
+from app.geometry.offset import Level, Ring
+from app.geometry.primitives import reversed_rows, sample
+from app.model.operation import Direction
+from app.toolpath.contour_path import Path
+from app.toolpath.sheets import Sheet
+
+_CHORD = 0.01
+"""mm; only which ring lies in which depends on it."""
+
+
+def wall_paths(level: Level, sheet: Sheet, direction: Direction) -> tuple[Path, ...]:
+    """Return the paths along all walls that a level's rings follow, but not along clamps or the frame.
+
+    A ring has the area to machine on its left, inside and outside alike, and so the metal that stays on its right: its own
+    direction is climb milling.
+
+    Args:
+        level: rings at tool radius + stock to leave.
+    """
+    paths: list[Path] = []
+    for ring, rank in zip(level.rings, ranks([ring.rows for ring in level.rings]), strict=True):
+        paths.extend(_along_walls(ring, sheet, rank))
+    if direction is Direction.CLIMB:
+        return tuple(paths)
+    return tuple(Path(reversed_rows(path.rows), path.closed, path.region, path.rank, path.area) for path in paths)
+
+
+def _along_walls(ring: Ring, sheet: Sheet, rank: int) -> list[Path]:
+    bare = sheet.follows_bare(ring.rows)
+    if not bare.any():
+        return [Path(ring.rows, True, ring.region, rank, ring.area)]
+    if bare.all():
+        return []
+    first = int(np.argmax(bare))  # begin beside something bare, so that no run is cut in two by the ring's own beginning
+    rows, bare = np.roll(ring.rows, -first, axis=0), np.roll(bare, -first)
+    edges = np.flatnonzero(np.diff(np.concatenate([[True], bare, [True]]).astype(np.int8)))
+    return [Path(rows[a:b], False, ring.region, rank, ring.area) for a, b in edges.reshape(-1, 2).tolist()]
+
+
+def ranks(loops: Sequence[np.ndarray]) -> list[int]:
+    """Return how many of some closed loops of rows lie round each of them."""
+    if len(loops) < 2:
+        return [0] * len(loops)
+    outlines = [sample(rows, _CHORD) for rows in loops]
+    shapes = np.array([shapely.make_valid(shapely.Polygon(points)) if len(points) > 2 else shapely.Point(points[0])
+                       for points in outlines], dtype=object)  # fmt: skip
+    places = shapely.points([points[0] for points in outlines])
+    held = shapely.STRtree(shapes).query(places, predicate="within")
+    size = shapely.area(shapes)
+    inside = held[:, (held[0] != held[1]) & (size[held[0]] < size[held[1]])]
+    return [int(count) for count in np.bincount(inside[0], minlength=len(loops))]

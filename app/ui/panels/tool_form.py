@@ -1,0 +1,76 @@
+"""The form of a tool: number, kind, diameter, speed and feeds, and the chip load that they make."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+from PySide6.QtWidgets import QLabel
+
+from app.model.job import Job
+from app.model.tool import LEAST_RATE, Tool, ToolKind
+from app.ui.panels.changes import for_material, material_of, with_tool
+from app.ui.panels.fields import ListField, NumberField, Spec
+from app.ui.panels.form import Form
+
+KINDS: dict[ToolKind, str] = {ToolKind.FLAT: "Flat end mill", ToolKind.DRILL: "Drill"}
+"""That operations cut with."""
+
+
+class ToolForm(Form):
+    """Number, kind, diameter, speed and feeds of one tool."""
+
+    def __init__(self) -> None:
+        super().__init__("Tool", removable="tool")
+        self._number = 0
+        self.number = self._add(Spec("T number", "", 1, 9999, 0, False), lambda tool, v: replace(tool, number=int(v)))
+        self.kind = ListField("Kind", list(KINDS.items()))
+        self.add_choice("Kind", self.kind, lambda job, v: self._edit(job, lambda tool: tool.as_kind(ToolKind(v))))
+        self.diameter = self._add(Spec("Diameter", low=0.001, high=1000), lambda tool, v: replace(tool, diameter=v))
+        self.flutes = self._add(Spec("Flutes", "", 1, 100, 0, False), lambda tool, v: replace(tool, flutes=int(v)))
+        self.material = ListField("Feeds for", [])
+        self.add_choice("Feeds", self.material, lambda job, v: self._edit(job, lambda tool: for_material(tool, str(v))))
+        self.speed = self._add(Spec("Speed", "rpm", 1, 200_000, 0, False), lambda tool, v: replace(tool, spindle_speed=v))
+        self.feed = self._add(Spec("Feed", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, feed_rate=v))
+        self.plunge = self._add(Spec("Plunge", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, plunge_rate=v))
+        self.chip = QLabel()
+        self.chip.setWordWrap(True)
+        self.chip.setProperty("role", "muted")
+        self.add(self.chip)
+
+    def _add(self, spec: Spec, edit: Callable[[Tool, float], Tool]) -> NumberField:
+        return self.add_number(spec, lambda job, v: self._edit(job, lambda tool: edit(tool, v)))
+
+    def _edit(self, job: Job, edit: Callable[[Tool], Tool]) -> Job:
+        return with_tool(job, self._number, edit(job.tool(self._number)))
+
+    def show_tool(self, job: Job, number: int) -> None:
+        """Show one tool of the job."""
+        self._number, tool = number, job.tool(number)
+        self.title.setText(f"T{number}")
+        self.remark.setText(tool.label)
+        self.kind.set_choices(list((KINDS | ({} if tool.kind in KINDS else {tool.kind: tool.kind.value.capitalize()})).items()))
+        self.kind.show_value(tool.kind)
+        self.number.show_value(tool.number)
+        self.diameter.show_value(tool.diameter)
+        self.flutes.show_value(tool.flutes)
+        self.material.set_choices([(row.material, row.material.capitalize()) for row in tool.feeds])
+        self.material.show_value(material_of(tool))
+        self.material.setVisible(bool(tool.feeds))
+        self.speed.show_value(tool.spindle_speed)
+        self.feed.show_value(tool.feed_rate)
+        self.plunge.show_value(tool.plunge_rate)
+        self.chip.setText(chip_load_words(tool))
+
+
+def chip_load_words(tool: Tool) -> str:
+    """Return the chip load and the surface speed of a tool, and how the load compares with its rows of feeds."""
+    load = tool.feed_rate / (tool.spindle_speed * tool.flutes)
+    speed = math.pi * tool.diameter * tool.spindle_speed / 1000
+    said = f"Chip load {load:.4f} mm a tooth, surface speed {speed:.0f} m/min."
+    loads = [row.feed_per_tooth for row in tool.feeds]
+    if loads and not min(loads) / 1.5 <= load <= max(loads) * 1.5:
+        side = "less" if load < min(loads) else "more"
+        said += f" That is {side} than any material of this tool asks for ({min(loads):g} to {max(loads):g} mm)."
+    return said

@@ -1,0 +1,47 @@
+"""What polygons take to be within reach, asked once more by exact distances: passages a few micrometres too narrow."""
+
+import numpy as np
+import pytest
+
+from app.geometry.region import polygon_contour
+from app.model.curves import Point
+from app.model.job import Job
+from app.model.operation import Cut, PocketOperation
+from app.model.part import Entity, Part, Region
+from app.model.tool import Tool
+from app.toolpath.compute import compute
+from app.toolpath.coverage import measure
+from app.toolpath.reachable import Cutter, Fields, reached
+
+
+def slot(width: float) -> tuple[Region, ...]:
+    return (Region(1, polygon_contour([(0, 0), (30, 0), (30, width), (0, width)])),)
+
+
+@pytest.mark.parametrize(("width", "fits"), [(6.0, True), (5.9999995, True), (5.99998, False), (5.997, False), (5.5, False), (6.01, True)])
+def test_a_slot_is_reached_only_where_the_cutter_fits(width: float, fits: bool) -> None:
+    cutter = Cutter(slot(width), 3.0, 3.0)
+    assert reached(np.array([[15.0, width / 2]]), [cutter], Fields()) is fits
+
+
+def test_a_corner_is_out_of_reach_and_what_lies_beside_it_is_not() -> None:
+    cutter, fields = Cutter(slot(20.0), 3.0, 3.0), Fields()
+    assert not reached(np.array([[0.5, 0.5]]), [cutter], fields)
+    assert reached(np.array([[0.5, 0.5], [1.0, 1.0]]), [cutter], fields)
+    assert not reached(np.array([[-1.0, 10.0]]), [cutter], fields)
+
+
+def two_rooms(width: float) -> list[Point]:
+    """Two rooms with a passage between them."""
+    low, high = 10 - width / 2, 10 + width / 2
+    return [(0, 0), (20, 0), (20, low), (40, low), (40, 0), (60, 0), (60, 20), (40, 20), (40, high), (20, high), (20, 20), (0, 20)]
+
+
+@pytest.mark.parametrize("width", [5.9999, 5.997, 5.992])
+def test_a_passage_too_narrow_by_micrometres_is_not_said_to_be_left_within_reach(width: float) -> None:
+    lines = polygon_contour(two_rooms(width)).primitives
+    part = Part().with_entities(tuple(Entity(k, line) for k, line in enumerate(lines, 1)))
+    job = Job(part, (Tool(1, 6.0),), (PocketOperation(Cut(1)),))
+    found = measure(compute(job), job)
+    assert found.reachable_left_mm2 == 0
+    assert found.unreachable_mm2 > 100  # the passage

@@ -1,0 +1,148 @@
+"""Tabs: how many, where, how wide and how high; by hand on every copy; none in the way of leads or round corners."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from app.geometry.primitives import lengths
+from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
+from app.model.job import Copies, Job
+from app.model.moves import Program, Purpose
+from app.model.operation import Cut
+from app.model.part import Contour
+from app.toolpath.compute import compute
+from tests import plain_distance
+from tests.part_shapes import circle, fig2, square
+from tests.toolpath.contour_jobs import about, contour_job, outside, rows_of
+
+PLUNGE = Entry(EntryKind.PLUNGE)
+
+
+def job_with(tabs: Tabs, contours: list[Contour] | None = None, depth: float = 4.0, **changes: object) -> Job:
+    operation = replace(outside(tabs=tabs), cut=Cut(2, depth=depth, stepdown=depth, entry=PLUNGE))
+    return contour_job([square(40)] if contours is None else contours, operation, **changes)  # type: ignore[arg-type]
+
+
+def top_moves(program: Program) -> np.ndarray:
+    moves = program.moves
+    return (moves.purpose == Purpose.TAB) & (np.hypot(*(moves.end - moves.start)[:, :2].T) > 0)
+
+
+def test_four_tabs_are_spread_over_the_sides_of_a_square() -> None:
+    program = compute(job_with(Tabs(4, width=5.0, height=1.5)))
+    assert len(program.tabs) == 4 and not about(program, "tabs")
+    assert {(tab.width, tab.top, tab.diameter) for tab in program.tabs} == {(5.0, -2.5, 3.0)}
+    over = top_moves(program)
+    assert set(program.moves.end[over, 2]) == {-2.5}
+    assert lengths(rows_of(program.moves, Purpose.TAB)[over[program.moves.purpose == Purpose.TAB]]).sum() == pytest.approx(4 * (5 + 3))
+    middles = np.array([(tab.x, tab.y) for tab in program.tabs])
+    assert plain_distance.distance(middles, [square(40)]) == pytest.approx(np.full(4, 1.5))
+    inside = (np.abs(middles - 20) < 20 - 4 + 1e-9).any(axis=1)
+    assert inside.all()  # a tab's 8 mm lie beside one straight side, off the corners
+
+
+def test_metal_stands_exactly_as_wide_as_asked() -> None:
+    program = compute(job_with(Tabs(1, width=5.0, height=1.5)))
+    (tab,) = program.tabs
+    moves = program.moves
+    low = (moves.kind != 0) & (moves.end[:, 2] < -3.9) & (moves.start[:, 2] < -3.9)
+    points = moves.end[low, :2]
+    assert np.hypot(*(points - (tab.x, tab.y)).T).min() == pytest.approx(4.0)  # half the metal and the cutter's radius
+
+
+def test_by_hand_the_nearest_contour_gets_it_on_every_copy() -> None:
+    places = ((20.0, -3.0), (20.0, 26.0))
+    job = job_with(Tabs(places=places), [square(40), circle(8, 20, 20)], copies=Copies(2, 2, 60.0, 60.0))
+    tabs = sorted((round(tab.x, 6), round(tab.y, 6)) for tab in compute(job).tabs)
+    assert tabs == sorted((20.0 + dx, y + dy) for dx in (0, 60) for dy in (0, 60) for y in (-1.5, 26.5))
+
+
+def test_by_hand_and_automatic_ones_keep_apart() -> None:
+    program = compute(job_with(Tabs(3, places=((0.0, 20.0),))))
+    middles = np.array([(tab.x, tab.y) for tab in program.tabs])
+    assert len(middles) == 4
+    apart = np.hypot(*(middles[:, None] - middles[None]).transpose(2, 0, 1))
+    assert apart[np.triu_indices(4, 1)].min() >= 8
+
+
+def test_no_tab_is_higher_than_the_stock() -> None:
+    program = compute(job_with(Tabs(2, height=50.0)))
+    assert {tab.top for tab in program.tabs} == {-0.001} and about(program, "as high as the cut is deep")
+    assert program.moves.end[top_moves(program), 2].max() < 0
+
+
+def test_short_paths_have_fewer_and_that_is_told() -> None:
+    program = compute(job_with(Tabs(8, width=5.0), [circle(6)]))
+    assert 0 < len(program.tabs) < 8 and about(program, "fewer than 8 tabs")
+    none = compute(job_with(Tabs(2, width=60.0), [square(10)]))
+    assert not none.tabs and any(finding.counts for finding in none.findings if "no tab" in finding.text)
+
+
+@pytest.mark.parametrize("lead", [Lead(), Lead(LeadKind.NONE)])
+def test_paths_that_clamps_cut_open_are_held_too(lead: Lead) -> None:
+    clamps = [square(10, 15, -5)]
+    operation = replace(outside(tabs=Tabs(4), lead=lead), cut=Cut(2, depth=4.0, stepdown=2.0, entry=PLUNGE))
+    program = compute(contour_job([square(40)], operation, clamps=clamps))
+    assert len(program.tabs) == 4 and not about(program, "tabs") and not about(program, "no tab")
+    middles = np.array([(tab.x, tab.y) for tab in program.tabs])
+    assert plain_distance.distance(middles, [square(40)]) == pytest.approx(np.full(4, 1.5))
+    apart = np.hypot(*(middles[:, None] - middles[None]).transpose(2, 0, 1))
+    assert apart[np.triu_indices(4, 1)].min() >= 20  # spread along all of it
+    assert plain_distance.distance(middles, clamps).min() > 4
+    over = top_moves(program)
+    assert lengths(rows_of(program.moves, Purpose.TAB)[over[program.moves.purpose == Purpose.TAB]]).sum() >= 4 * 8 - 1e-6
+
+
+def test_a_part_that_no_piece_of_its_path_holds_is_told() -> None:
+    clamps = [square(10, 15, -5)]
+    operation = outside(tabs=Tabs(4, width=200.0))
+    program = compute(contour_job([square(40)], operation, clamps=clamps))
+    (told,) = [each for each in program.findings if "no tab" in each.text]
+    assert not program.tabs and told.counts and told.text.startswith("1 path of") and "has no tab" in told.text
+    pieces = [square(6, 10, -4), square(6, 20, -4)]  # a short piece between two clamps, and a long one
+    program = compute(contour_job([square(40)], outside(tabs=Tabs(4)), clamps=pieces))
+    assert program.tabs and not about(program, "no tab")
+
+
+def test_a_place_far_from_every_contour_is_told() -> None:
+    program = compute(job_with(Tabs(places=((20.0, -16.4), (20.0, 120.0)))))
+    (told,) = [each for each in program.findings if "by hand" in each.text]
+    assert told.counts and (told.x, told.y) == (20.0, 120.0) and told.amount == pytest.approx(78.5) and len(program.tabs) == 2
+    program = compute(job_with(Tabs(places=((20.0, -3.0),)), copies=Copies(2, 1, 60.0)))
+    assert not about(program, "by hand")
+
+
+def test_leads_and_overlap_keep_off_tabs() -> None:
+    program = compute(job_with(Tabs(12), [circle(40)]))
+    leads = rows_of(program.moves, Purpose.LEAD)
+    middles = np.array([(tab.x, tab.y) for tab in program.tabs])
+    assert len(middles) == 12 and len(leads) == 2
+    for row in leads:
+        for point in (row[:2], row[2:4]):
+            assert np.hypot(*(middles - point).T).min() >= 4 + 1.5 - 0.1
+
+
+def test_each_depth_pass_goes_over_the_tabs() -> None:
+    operation = replace(outside(tabs=Tabs(4, height=1.0)), cut=Cut(2, depth=6.0, stepdown=2.0, entry=PLUNGE))
+    moves = compute(contour_job([square(40)], operation)).moves
+    over = (moves.purpose == Purpose.TAB) & (np.hypot(*(moves.end - moves.start)[:, :2].T) > 0)
+    assert sorted(set(moves.end[over, 2].round(6))) == [-5, -4, -2]
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.integers(1, 12), st.floats(0.5, 12), st.floats(0.5, 8), st.sampled_from([LeadKind.ARC, LeadKind.NONE]))
+def test_no_cut_at_the_floor_comes_into_a_tab(count: int, width: float, diameter: float, kind: LeadKind) -> None:
+    operation = replace(outside(tabs=Tabs(count, width=width), lead=Lead(kind)), cut=Cut(2, 4.0, 4.0, entry=PLUNGE))
+    program = compute(contour_job(fig2(), operation, diameter))
+    moves = program.moves
+    deep = (moves.end[:, 2] < -3.9) & (moves.start[:, 2] < -3.9) & (moves.purpose == Purpose.CONTOUR)
+    ends = np.concatenate([moves.start[deep, :2], moves.end[deep, :2]])
+    for tab in program.tabs:
+        chord = np.hypot(*(ends - (tab.x, tab.y)).T).min()
+        assert chord > 0.6 * (width + diameter) / 2 or width + diameter > 15  # round corners bring the path's ends nearer than along it
+    assert len(program.tabs) <= 3 * count
