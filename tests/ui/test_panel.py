@@ -1,5 +1,6 @@
 """The side panel: fields that accept arithmetic and units, mark what is wrong at once, and change the job undoably."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
@@ -14,8 +15,10 @@ from app.model.operation import OPERATION_KINDS, ContourOperation, Cut, DrillOpe
 from app.model.part import Part
 from app.model.tool import Tool
 from app.nc.posts import post_titles
+from app.ui import style
 from app.ui.panels.changes import Subject, SubjectKind, with_tool
 from app.ui.panels.side_panel import WIDTH, SidePanel
+from app.ui.theme import LIGHT, TEXT_PX, text_font
 
 SCROLL_BAR_PX = 8
 
@@ -242,7 +245,19 @@ def test_values_that_do_not_fit_one_another_are_marked(qtbot, document, panel):
     assert not form.stepover.reason.isVisible()
 
 
-def test_nothing_is_wider_than_the_panel_when_all_is_set_and_unfolded(qtbot, document, panel):
+@pytest.fixture(params=[TEXT_PX, TEXT_PX + 1])
+def styled(qapp, request) -> Iterator[None]:
+    """The program's own style; and once more with letters a pixel larger, for other machines have other fonts."""
+    font, colours, sheet = qapp.font(), qapp.palette(), qapp.styleSheet()
+    style.apply(qapp, LIGHT)
+    qapp.setFont(text_font(request.param))
+    yield
+    qapp.setStyleSheet(sheet)
+    qapp.setPalette(colours)
+    qapp.setFont(font)
+
+
+def test_nothing_is_wider_than_the_panel_when_all_is_set_and_unfolded(qtbot, styled, document, panel):
     lead, tabs = Lead(LeadKind.ARC, 2.0), Tabs(3)
     contour = ContourOperation(Cut(2, finish_depth=0.2, floor_to_leave=0.1), Side.OUTSIDE, lead, tabs, 2, True, 0.2)
     document.change_job("All", replace(document.job, operations=(contour, DrillOperation(Cut(1), 1.0, 2.0, 3.0, 1.0))))

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QButtonGroup, QComboBox, QGridLayout, QHBoxLayout,
 from app.edit.errors import CommandError
 from app.edit.numbers import length
 from app.errors import HitofudeError
-from app.ui.labels import muted
+from app.ui.labels import Elided, muted
 
 LABEL_WIDTH = 92
 VALUE_WIDTH = 84
@@ -61,6 +61,10 @@ def restyle(widget: QWidget) -> None:
     widget.style().polish(widget)
 
 
+_FIRST = 1000  # stretch of a name that takes its full width before anything else grows, and gives way where letters are wide
+_LEAST_LETTERS = 8  # of a drop-down list's text, where room is short
+
+
 class NumberField(QWidget):
     """One number: arithmetic and units are accepted (`1in + 8mm`).
 
@@ -75,7 +79,7 @@ class NumberField(QWidget):
         self.spec = spec
         self._read = read or spec.read
         self._value: float | None = 0.0
-        self.edit, self.note, self.reason = QLineEdit(), muted(), QLabel()
+        self.edit, self.note, self.reason = QLineEdit(), Elided(role="muted"), QLabel()
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.edit.setFixedSize(VALUE_WIDTH, ROW_HEIGHT)
         self.edit.setAccessibleName(spec.name)
@@ -99,7 +103,8 @@ class NumberField(QWidget):
         grid.addWidget(name, 0, 0)
         grid.addWidget(self.edit, 0, 1)
         grid.addWidget(muted(self.spec.unit), 0, 2)
-        grid.addWidget(self.note, 0, 3, Qt.AlignmentFlag.AlignRight)
+        self.note.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        grid.addWidget(self.note, 0, 3)
         grid.addWidget(self.reason, 1, 0, 1, 4)
         grid.setColumnStretch(3, 1)
 
@@ -190,11 +195,11 @@ class ChoiceField(QWidget):
         super().__init__()
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 1, 0, 1)
-        row.setSpacing(12)
+        row.setSpacing(8)
         if name:
             label = muted(name)
-            label.setFixedWidth(label_width - 4)
-            row.addWidget(label)
+            label.setMaximumWidth(label_width - 4)
+            row.addWidget(label, _FIRST)
         self._group = QButtonGroup(self)
         self.buttons: dict[Hashable, QToolButton] = {}
         for value, text in choices:
@@ -228,6 +233,8 @@ class ListField(QWidget):
         label.setFixedWidth(LABEL_WIDTH)
         self.box = QComboBox()
         self.box.setFixedHeight(ROW_HEIGHT)
+        self.box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.box.setMinimumContentsLength(_LEAST_LETTERS)
         self.box.setAccessibleName(name)
         label.setBuddy(self.box)
         self._values: list[object] = []

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVB
 
 from app.model.job import Job
 from app.ui.icons import IconButton, icon
-from app.ui.labels import muted
+from app.ui.labels import Elided, muted
 from app.ui.panels.fields import LABEL_WIDTH, ChoiceField, ListField, NumberField, Spec
 from app.ui.panels.section import EDGE, Section
 from app.ui.samples import Switch
@@ -46,13 +46,12 @@ class Group(QWidget):
 
     def __init__(self, title: str) -> None:
         super().__init__()
-        self.fold, self.summary, self.body = Fold(title), muted(), QWidget()
+        self.fold, self.summary, self.body = Fold(title), Elided(role="muted"), QWidget()
         self.summary.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         head = QHBoxLayout()
         head.setContentsMargins(EDGE - 6, 4, EDGE, 0)
-        head.addWidget(self.fold)
-        head.addStretch(1)
-        head.addWidget(self.summary)
+        head.addWidget(self.fold, 0, Qt.AlignmentFlag.AlignLeft)
+        head.addWidget(self.summary, 1)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
