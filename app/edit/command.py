@@ -2,27 +2,44 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 from app.edit.move import moved_curve
+from app.edit.syntax import Define
+from app.edit.values import Scope, Value
 from app.errors import InputError
 from app.model.curves import Curve, Point
-from app.model.part import Entity, Layer, Part
+from app.model.part import Layer, Part
 
 
 @dataclass(frozen=True, slots=True)
-class Context:
-    """What a line may refer to without saying it.
+class Session:
+    """What a line of the language may refer to without saying it, and what it leaves for the next one.
 
     Attributes:
-        last: the point given last; a line that begins with `@` starts from it, mm.
+        last: the point given last; coordinates that begin with `@` start from it, mm.
         layer: where new curves go.
         selection: ids that `delete` and `move` mean when none are written.
+        names: what `let` and `as` have named. commands: what `define` has made.
     """
 
+    part: Part = field(default_factory=Part)
     last: Point = (0.0, 0.0)
     layer: str = "0"
     selection: frozenset[int] = frozenset()
+    names: Mapping[str, Value] = field(default_factory=dict)
+    commands: Mapping[str, Define] = field(default_factory=dict)
+
+    @property
+    def scope(self) -> Scope:
+        """What its expressions may refer to."""
+        return Scope(self.names, self.last, self.part)
+
+    def with_part(self, part: Part) -> Session:
+        """Return the session with another drawing; what has gone is no longer selected."""
+        kept = self.selection & {e.id for e in part.entities} if self.selection else self.selection
+        return replace(self, part=part, selection=kept)
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +54,6 @@ class Draw:
 
     name: str
     curves: tuple[Curve, ...]
-    layer: str
     figures: str
     last: Point
 
@@ -46,11 +62,9 @@ class Draw:
         """A short sentence for the log."""
         return f"{self.name}, {self.figures}."
 
-    def apply(self, part: Part) -> Part:
-        """Return the part with the curves added, on fresh ids."""
-        first = part.next_id()
-        new = tuple(Entity(first + n, curve, self.layer) for n, curve in enumerate(self.curves))
-        return part.with_entities(part.entities + new)
+    def carried_out(self, session: Session) -> Session:
+        """Return the session with the curves added, on fresh ids."""
+        return replace(session, part=session.part.with_curves(self.curves, session.layer), last=self.last)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,14 +79,16 @@ class Delete:
         """A short sentence for the log."""
         return f"{len(self.ids)} deleted."
 
-    def apply(self, part: Part) -> Part:
-        """Return the part without these entities.
+    def carried_out(self, session: Session) -> Session:
+        """Return the session without these entities.
 
         Raises:
             InputError: an id that the part does not have.
         """
+        part = session.part
         check_ids(part, self.ids)
-        return replace(part, entities=tuple(e for e in part.entities if e.id not in self.ids))
+        kept = tuple(e for e in part.entities if e.id not in self.ids)
+        return session.with_part(replace(part, entities=kept, used_id=part.next_id() - 1))
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,15 +104,15 @@ class Move:
         """A short sentence for the log."""
         return f"{len(self.ids)} moved by {self.by[0]:.3f}, {self.by[1]:.3f}."
 
-    def apply(self, part: Part) -> Part:
-        """Return the part with these entities shifted.
+    def carried_out(self, session: Session) -> Session:
+        """Return the session with these entities shifted.
 
         Raises:
             InputError: an id that the part does not have.
         """
-        check_ids(part, self.ids)
-        return replace(part, entities=tuple(
-            replace(e, curve=moved_curve(e.curve, self.by)) if e.id in self.ids else e for e in part.entities))
+        check_ids(session.part, self.ids)
+        return replace(session, part=replace(session.part, entities=tuple(
+            replace(e, curve=moved_curve(e.curve, self.by)) if e.id in self.ids else e for e in session.part.entities)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,18 +128,20 @@ class SetLayer:
         """A short sentence for the log."""
         return f"{len(self.ids)} put on layer {self.layer}." if self.ids else f"Layer {self.layer} is current."
 
-    def apply(self, part: Part) -> Part:
-        """Return the part that has the layer.
+    def carried_out(self, session: Session) -> Session:
+        """Return the session that has the layer.
 
         Raises:
             InputError: an id that the part does not have.
         """
+        part = session.part
         check_ids(part, self.ids)
         if all(layer.name != self.layer for layer in part.layers):
             part = replace(part, layers=(*part.layers, Layer(self.layer)))
         if not self.ids:
-            return part
-        return replace(part, entities=tuple(replace(e, layer=self.layer) if e.id in self.ids else e for e in part.entities))
+            return replace(session, part=part, layer=self.layer)
+        return replace(session, part=replace(part, entities=tuple(
+            replace(e, layer=self.layer) if e.id in self.ids else e for e in part.entities)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,7 +155,7 @@ class Redo:
 
 
 Edit = Draw | Delete | Move | SetLayer
-"""Commands that make a new part; each has a name, a reply and `apply(part) -> part`."""
+"""Commands that change the drawing; each has a name, a reply and `carried_out(session) -> session`."""
 
 
 def check_ids(part: Part, ids: frozenset[int]) -> None:

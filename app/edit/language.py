@@ -1,15 +1,19 @@
-"""The drawing language: one line, one action.
+"""The shape language: a drawing in words, a command a line.
 
-    line x,y x,y [x,y …] [close]              li
-    polyline x,y x,y [arc via end] … [close]  pl    lines, and arcs by way of a point
-    arc x,y x,y centre x,y [cw]               ar    start, end, centre
-    arc x,y x,y x,y                                 start, by way of, end
-    circle x,y r                              ci
-    rect x,y x,y                              re
-    select all | none | ID … | window x,y x,y | crossing x,y x,y | layer NAME     (before it: add, remove)
-    delete [ID …]   move @dx,dy [ID …]   layer NAME [ID …]   undo   redo
+    line P P [P …] [close]                li
+    polyline P P [arc via end] … [close]  pl    lines, and arcs by way of a point
+    arc P P centre P [cw]                 ar    start, end, centre
+    arc P P P                                   start, by way of, end
+    circle P r                            ci
+    rect P P                              re
+    select all | none | CURVES | window P P | crossing P P | layer NAME     (before it: add, remove)
+    delete [CURVES]   move @dx,dy [CURVES]   layer NAME [CURVES]   undo   redo
 
-A point is `x,y`, `@dx,dy` or `@r<angle`; numbers take units and arithmetic (`1in+8mm`) and are mm without a unit.
+    let w = 60 + 2     let p = mid(a, b)     circle p w/4 as hole
+    repeat 6 as i … end     if w > 50 … else … end     define bolt(c, r) … end
+
+P is `x,y`, `r<angle`, `@dx,dy`, `@r<angle`, or anything that is a point. CURVES are numbers such as 4 7-9 and names given by
+`as`. Numbers take units and arithmetic (`1in+8mm`) and are mm and degrees without a unit; functions are those of `functions`.
 """
 
 from __future__ import annotations
@@ -17,11 +21,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from app.edit.command import Context, Delete, Draw, Edit, Move, Redo, SetLayer, Undo
-from app.edit.errors import CommandError
+from app.edit import syntax
+from app.edit.arguments import Arguments
+from app.edit.command import Delete, Draw, Edit, Move, Redo, Session, SetLayer, Undo
 from app.edit.select import By, How, Select
 from app.edit.shapes import arc_about, arc_through, circle, curve_length, lines_through, rectangle
-from app.edit.words import Words, read_point
+from app.edit.values import wrong
 from app.errors import InputError
 from app.model.curves import Arc, Line, Point
 
@@ -41,38 +46,32 @@ def command_word(text: str) -> str | None:
     return word if word in _READERS else None
 
 
-def parse(line: str, context: Context | None = None) -> Command:
-    """Return the command that a line of the drawing language asks for.
-
-    Args:
-        line: one line, without a comment.
-        context: what the line may refer to; by default an empty drawing.
+def read(written: syntax.Command, session: Session) -> Command:
+    """Return what a command asks for.
 
     Raises:
-        InputError: the line cannot be read or asks for a shape that is none; a CommandError tells the column.
+        InputError: it cannot be read or asks for a shape that is none; a CommandError tells the place.
     """
-    context = context or Context()
-    words = Words(line, context.last)
-    column = words.column
-    word = words.take("a command such as line, arc, circle or rect").text.lower()
-    read = _READERS.get(ALIASES.get(word, word))
-    if read is None:
-        raise CommandError(f"'{word}' is no command; use {', '.join(_READERS)}.", column)
-    command = read(words, context)
+    word = written.word.text.lower()
+    reader = _READERS.get(ALIASES.get(word, word))
+    if reader is None:
+        raise wrong(f"'{word}' is no command; use {', '.join(_READERS)}.", written.place)
+    words = Arguments(written, session.scope)
+    command = reader(words, session)
     words.end()
     return command
 
 
-def _line(words: Words, context: Context) -> Draw:
+def _line(words: Arguments, session: Session) -> Draw:
     points = [words.point(), words.point(), *words.points()]
     close = bool(words.accept("close"))
     curves = lines_through(points, close)
     total = sum(map(curve_length, curves))
     figures = f"{total:.3f} mm" if len(curves) == 1 else f"{len(curves)} sides, {total:.3f} mm"
-    return Draw("Line", curves, context.layer, figures, curves[-1].end)
+    return Draw("Line", curves, figures, curves[-1].end)
 
 
-def _polyline(words: Words, context: Context) -> Draw:
+def _polyline(words: Arguments, session: Session) -> Draw:
     first = at = words.point()
     curves: list[Line | Arc] = []
     while words.more:
@@ -85,12 +84,12 @@ def _polyline(words: Words, context: Context) -> Draw:
             curves += lines_through([at, words.point()])
         at = curves[-1].end
     if not curves:
-        raise CommandError("A polyline needs two points or more; write polyline x,y x,y.", words.column)
+        raise words.wrong("A polyline needs two points or more; write polyline x,y x,y.")
     total = sum(map(curve_length, curves))
-    return Draw("Polyline", tuple(curves), context.layer, f"{len(curves)} segments, {total:.3f} mm", curves[-1].end)
+    return Draw("Polyline", tuple(curves), f"{len(curves)} segments, {total:.3f} mm", curves[-1].end)
 
 
-def _arc(words: Words, context: Context) -> Draw:
+def _arc(words: Arguments, session: Session) -> Draw:
     start, second = words.point(), words.point()
     if words.accept("centre", "center"):
         words.last = start
@@ -100,47 +99,44 @@ def _arc(words: Words, context: Context) -> Draw:
     else:
         curve = arc_through(start, second, words.point("the end of the arc, or centre x,y,"))
     figures = f"radius {curve.radius:.3f} mm, {abs(math.degrees(curve.sweep)):.2f}°"
-    return Draw("Arc", (curve,), context.layer, figures, curve.end)
+    return Draw("Arc", (curve,), figures, curve.end)
 
 
-def _circle(words: Words, context: Context) -> Draw:
+def _circle(words: Arguments, session: Session) -> Draw:
     centre = words.point("the centre x,y")
     curve = circle(centre, words.length("the radius"))
-    return Draw("Circle", (curve,), context.layer, f"radius {curve.radius:.3f} mm", centre)
+    return Draw("Circle", (curve,), f"radius {curve.radius:.3f} mm", centre)
 
 
-def _rect(words: Words, context: Context) -> Draw:
+def _rect(words: Arguments, session: Session) -> Draw:
     a, b = words.point("a corner x,y"), words.point("the opposite corner x,y")
-    return Draw("Rectangle", rectangle(a, b), context.layer, f"{abs(b[0] - a[0]):.3f} by {abs(b[1] - a[1]):.3f} mm", b)
+    return Draw("Rectangle", rectangle(a, b), f"{abs(b[0] - a[0]):.3f} by {abs(b[1] - a[1]):.3f} mm", b)
 
 
-def _chosen(words: Words, context: Context, verb: str) -> frozenset[int]:
-    ids = frozenset(words.ids()) or context.selection
+def _chosen(words: Arguments, session: Session, verb: str) -> frozenset[int]:
+    ids = frozenset(words.ids()) or session.selection
     if not ids:
         raise InputError(f"Nothing is selected; select what to {verb}, or write its numbers after the command.")
     return ids
 
 
-def _delete(words: Words, context: Context) -> Delete:
-    return Delete(_chosen(words, context, "delete"))
+def _delete(words: Arguments, session: Session) -> Delete:
+    return Delete(_chosen(words, session, "delete"))
 
 
-def _move(words: Words, context: Context) -> Move:
-    word = words.take("the shift @dx,dy")
-    if not word.text.startswith("@"):
-        raise CommandError(f"'{word.text}' is no shift; write @dx,dy or @r<angle.", word.column)
-    by = read_point(word.text, (0.0, 0.0), word.column)
-    return Move(_chosen(words, context, "move"), by)
+def _move(words: Arguments, session: Session) -> Move:
+    by = words.shift("the shift @dx,dy")
+    return Move(_chosen(words, session, "move"), by)
 
 
-def _layer(words: Words, context: Context) -> SetLayer:
+def _layer(words: Arguments, session: Session) -> SetLayer:
     name = words.name("the name of a layer").strip()
     if not name:
-        raise CommandError("The name of the layer is empty; write a name.", words.column)
+        raise words.wrong("The name of the layer is empty; write a name.")
     return SetLayer(name, frozenset(words.ids()))
 
 
-def _select(words: Words, context: Context) -> Select:
+def _select(words: Arguments, session: Session) -> Select:
     how = How(words.accept("add", "remove"))
     kind = words.accept("all", "none", "window", "crossing", "layer")
     if kind in ("window", "crossing"):
@@ -150,7 +146,7 @@ def _select(words: Words, context: Context) -> Select:
     if kind:
         return Select(By(kind), how)
     if not words.more:
-        raise CommandError("Write what to select: all, none, window, crossing, layer, or entity numbers.", words.column)
+        raise words.wrong("Write what to select: all, none, window, crossing, layer, or entity numbers.")
     return Select(By.IDS, how, frozenset(words.ids()))
 
 
@@ -158,7 +154,10 @@ def _box(a: Point, b: Point) -> tuple[float, float, float, float]:
     return (min(a[0], b[0]), min(a[1], b[1]), max(a[0], b[0]), max(a[1], b[1]))
 
 
-_READERS: dict[str, Callable[[Words, Context], Command]] = {
+_READERS: dict[str, Callable[[Arguments, Session], Command]] = {
     "line": _line, "polyline": _polyline, "arc": _arc, "circle": _circle, "rect": _rect, "select": _select, "delete": _delete,
-    "move": _move, "layer": _layer, "undo": lambda words, context: Undo(), "redo": lambda words, context: Redo(),
+    "move": _move, "layer": _layer, "undo": lambda words, session: Undo(), "redo": lambda words, session: Redo(),
 }
+
+COMMANDS = tuple(_READERS)
+"""Every command by its full word."""

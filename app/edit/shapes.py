@@ -5,8 +5,11 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
+import numpy as np
+
+from app.edit.sample import sample, spline_points
 from app.errors import InputError
-from app.model.curves import Arc, Circle, Line, Point, Primitive
+from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point
 from app.tolerances import WELD
 
 _FIT = 1e-3
@@ -102,10 +105,49 @@ def arc_through(start: Point, via: Point, end: Point) -> Arc:
     return Arc(start, end, centre, ccw=cross > 0)
 
 
-def curve_length(curve: Primitive) -> float:
-    """Return the length of a line, arc or circle, mm."""
+def curve_length(curve: Curve) -> float:
+    """Return the length of a curve, mm: exact for lines, arcs and circles, that of the samples for others."""
     if isinstance(curve, Line):
         return math.dist(curve.start, curve.end)
     if isinstance(curve, Arc):
         return curve.radius * abs(curve.sweep)
-    return math.tau * curve.radius
+    if isinstance(curve, Circle):
+        return math.tau * curve.radius
+    return float(np.hypot(*np.diff(sample(curve), axis=0).T).sum())
+
+
+def middle_of(curve: Curve) -> Point:
+    """Return the point half way along a line or arc, or between the ends of an ellipse's or spline's parameters, mm."""
+    if isinstance(curve, Line):
+        return ((curve.start[0] + curve.end[0]) / 2, (curve.start[1] + curve.end[1]) / 2)
+    if isinstance(curve, Arc):
+        turn = curve.start_angle + curve.sweep / 2
+        return (curve.centre[0] + curve.radius * math.cos(turn), curve.centre[1] + curve.radius * math.sin(turn))
+    if isinstance(curve, Circle):
+        return (curve.centre[0] - curve.radius, curve.centre[1])
+    if isinstance(curve, Ellipse):
+        return curve.at((curve.start_parameter + curve.end_parameter) / 2)
+    x, y = spline_points(curve, np.array([(curve.knots[0] + curve.knots[-1]) / 2]))[0]
+    return (float(x), float(y))
+
+
+def centre_of(curve: Curve) -> Point:
+    """Return the centre of an arc, circle or ellipse, mm.
+
+    Raises:
+        InputError: the curve has none.
+    """
+    if isinstance(curve, Arc | Circle | Ellipse):
+        return curve.centre
+    raise InputError("A line or spline has no centre; name an arc, a circle or an ellipse.")
+
+
+def radius_of(curve: Curve) -> float:
+    """Return the radius of an arc or circle, mm.
+
+    Raises:
+        InputError: the curve has none.
+    """
+    if isinstance(curve, Arc | Circle):
+        return curve.radius
+    raise InputError("Only arcs and circles have a radius; name one of these.")
