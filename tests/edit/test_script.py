@@ -84,7 +84,8 @@ def test_if_chooses() -> None:
 
 def test_a_command_of_ones_own_has_its_own_names() -> None:
     document = Document()
-    document.run_script("let r = 9\ndefine bolt(c, r)\n  let inner = r/2\n  circle c r\n  circle c inner\nend\nbolt 5,5 4 as head\nmove @1,0 head")
+    document.run_script("let r = 9\ndefine bolt(c, r)\n  let inner = r/2\n  circle c r\n  circle c inner\nend\n"
+                        "bolt 5,5 4 as head\nmove @1,0 head")
     assert tuple(e.curve for e in document.part.entities) == (Circle((6, 5), 4), Circle((6, 5), 2))
     assert document.session.names["r"] == 9
     assert "inner" not in document.session.names
@@ -105,15 +106,30 @@ def test_what_a_block_draws_is_undone_together_with_its_names() -> None:
 
 
 @pytest.mark.parametrize(("text", "line", "column", "says"), [
-    ("line 0,0 1,1\ncircle 0,0", 2, 11, "radius is expected"), ("let close = 3", 1, 5, "word of the language"), ("let a", 1, 6, "'='"),
-    ("repeat 2\ncircle 0,0 1", 2, 13, "add end"), ("circle 0,0 nought(3)", 1, 12, "no function"), ("circle 0,0 sqrt(-1)", 1, 12, "no value"),
-    ("circle 0,0 (1,2)", 1, 12, "a point; a number"), ("line 0,0 5", 1, 10, "a number; a point"), ("define a(x)\n b x\nend\na 1 2", 4, 1, "takes 1 values"),
-    ("define a(x)\n a x\nend\na 1", 2, 2, "without end"), ("repeat 2.5; circle 0,0 1; end", 1, 8, "whole number"),
-    ("repeat 200000 as i\nrepeat 200000\nlet b = i\nend\nend", 3, 1, "200000 statements"), ("repeat 2; undo; end", 1, 11, "lines of their own"),
-    ("circle 0,0 5°", 1, 12, "does not fit"), ("let a = (0,0) + 3", 1, 17, "between a point and a number"), ("let a = 0^-1", 1, 11, "no value"),
-    ('circle 0,0 "5"', 1, 12, "is a text"), ("line 0,0 1,1 as", 1, 16, "a name"), ("circle mid(1,2) 3", 1, 8, "Write mid(a, b)"),
-    ("end", 1, 1, "no command"), ("circle 0,0 5\n  lime 0,0", 2, 3, "'lime' is no command"),
-    ("let r = start(3)", 1, 15, "this is a number"), ("line 0,0 1e9,0", 1, 10, "too large"), ("let a = meet(1,2)", 1, 14, "a number"),
+    ("line 0,0 1,1\ncircle 0,0", 2, 11, "radius is expected"),
+    ("let close = 3", 1, 5, "word of the language"),
+    ("let a", 1, 6, "'='"),
+    ("repeat 2\ncircle 0,0 1", 2, 13, "add end"),
+    ("circle 0,0 nought(3)", 1, 12, "no function"),
+    ("circle 0,0 sqrt(-1)", 1, 12, "no value"),
+    ("circle 0,0 (1,2)", 1, 12, "a point; a number"),
+    ("line 0,0 5", 1, 10, "a number; a point"),
+    ("define a(x)\n b x\nend\na 1 2", 4, 1, "takes 1 values"),
+    ("define a(x)\n a x\nend\na 1", 2, 2, "without end"),
+    ("repeat 2.5; circle 0,0 1; end", 1, 8, "whole number"),
+    ("repeat 200000 as i\nrepeat 200000\nlet b = i\nend\nend", 3, 1, "200000 statements"),
+    ("repeat 2; undo; end", 1, 11, "lines of their own"),
+    ("circle 0,0 5°", 1, 12, "does not fit"),
+    ("let a = (0,0) + 3", 1, 17, "between a point and a number"),
+    ("let a = 0^-1", 1, 11, "no value"),
+    ('circle 0,0 "5"', 1, 12, "is a text"),
+    ("line 0,0 1,1 as", 1, 16, "a name"),
+    ("circle mid(1,2) 3", 1, 8, "Write mid(a, b)"),
+    ("end", 1, 1, "no command"),
+    ("circle 0,0 5\n  lime 0,0", 2, 3, "'lime' is no command"),
+    ("let r = start(3)", 1, 15, "this is a number"),
+    ("line 0,0 1e9,0", 1, 10, "too large"),
+    ("let a = meet(1,2)", 1, 14, "a number"),
 ])
 def test_what_is_wrong_is_told_with_line_and_column(text: str, line: int, column: int, says: str) -> None:
     document = Document()
