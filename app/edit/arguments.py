@@ -92,6 +92,17 @@ class Arguments:
         """Read one angle, degrees."""
         return number_of(self._next(expected), replace(self._scope, units=ANGLE_UNITS))
 
+    def number(self, expected: str) -> float:
+        """Read a plain number."""
+        return number_of(self._next(expected), replace(self._scope, units={}))
+
+    def numbers(self) -> list[float]:
+        """Read plain numbers for as long as the next argument is no word of the command."""
+        found = []
+        while self.more and not self._is_word():
+            found.append(self.number("a number"))
+        return found
+
     def count(self, expected: str, low: int, high: int) -> int:
         """Read a whole number in a range, ends included."""
         place = self.place

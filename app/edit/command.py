@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from app.edit.move import moved_curve
 from app.edit.syntax import Define
+from app.edit.transform import Similarity, transformed
 from app.edit.values import Scope, Value
 from app.errors import InputError
-from app.model.curves import Curve, Point
+from app.model.curves import Curve, Point, reversed_curve
 from app.model.part import Layer, Part
 
 
@@ -92,27 +92,64 @@ class Delete:
 
 
 @dataclass(frozen=True, slots=True)
-class Move:
-    """Shift curves by a vector, mm."""
+class Transform:
+    """Map curves by similarities of the plane: onto one place, or onto several as copies.
+
+    Attributes:
+        maps: one for each place; where `keep` is False there is one, and the curves themselves go there.
+        keep: the curves stay and copies go to the places.
+    """
 
     ids: frozenset[int]
-    by: Point
-    name: str = "Move"
+    maps: tuple[Similarity, ...]
+    name: str
+    keep: bool = False
 
     @property
     def reply(self) -> str:
         """A short sentence for the log."""
-        return f"{len(self.ids)} moved by {self.by[0]:.3f}, {self.by[1]:.3f}."
+        return f"{len(self.ids)} curves, {len(self.maps)} copies." if self.keep else f"{len(self.ids)} curves."
 
     def carried_out(self, session: Session) -> Session:
-        """Return the session with these entities shifted.
+        """Return the session with the curves at their places.
+
+        Raises:
+            InputError: an id that the part does not have.
+        """
+        part = session.part
+        check_ids(part, self.ids)
+        if not self.keep:
+            return replace(session, part=replace(part, entities=tuple(
+                replace(e, curve=transformed(e.curve, self.maps[0])) if e.id in self.ids else e for e in part.entities)))
+        chosen = [e for e in part.entities if e.id in self.ids]
+        for to in self.maps:
+            first = part.next_id()
+            new = tuple(replace(e, id=first + n, curve=transformed(e.curve, to)) for n, e in enumerate(chosen))
+            part = part.with_entities(part.entities + new)
+        return replace(session, part=part)
+
+
+@dataclass(frozen=True, slots=True)
+class Reverse:
+    """Let curves run the other way."""
+
+    ids: frozenset[int]
+    name: str = "Reverse"
+
+    @property
+    def reply(self) -> str:
+        """A short sentence for the log."""
+        return f"{len(self.ids)} reversed."
+
+    def carried_out(self, session: Session) -> Session:
+        """Return the session with these entities reversed.
 
         Raises:
             InputError: an id that the part does not have.
         """
         check_ids(session.part, self.ids)
         return replace(session, part=replace(session.part, entities=tuple(
-            replace(e, curve=moved_curve(e.curve, self.by)) if e.id in self.ids else e for e in session.part.entities)))
+            replace(e, curve=reversed_curve(e.curve)) if e.id in self.ids else e for e in session.part.entities)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,7 +191,7 @@ class Redo:
     """Do again what was taken back."""
 
 
-Edit = Draw | Delete | Move | SetLayer
+Edit = Draw | Delete | Transform | Reverse | SetLayer
 """Commands that change the drawing; each has a name, a reply and `carried_out(session) -> session`."""
 
 

@@ -6,12 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.edit.command import Delete, Draw, Move, Session
+from app.edit.command import Delete, Draw, Session, Transform
 from app.edit.document import Document
 from app.edit.errors import CommandError
 from app.edit.grammar import read_script
 from app.edit.language import Command, command_word, read
 from app.edit.syntax import Command as Written
+from app.edit.transform import shift
 from app.edit.words import ids_text
 from app.errors import InputError
 from app.model.curves import Arc, Circle, Line
@@ -113,7 +114,7 @@ def test_delete_and_move_mean_the_selection_unless_numbers_follow() -> None:
     session = Session(selection=frozenset({4, 7}))
     assert parse("delete", session) == Delete(frozenset({4, 7}))
     assert parse("delete 1 3-5", session) == Delete(frozenset({1, 3, 4, 5}))
-    assert parse("mo @1in,0", session) == Move(frozenset({4, 7}), (25.4, 0.0))
+    assert parse("mo @1in,0", session) == Transform(frozenset({4, 7}), (shift((25.4, 0.0)),), "Move")
 
 
 @pytest.mark.parametrize("text", ["5-3", "1-999999999", "-1", "99999999999"])
