@@ -182,6 +182,32 @@ class SetLayer:
 
 
 @dataclass(frozen=True, slots=True)
+class SetLook:
+    """Show or hide a layer, lock or unlock it, or give it a colour.
+
+    Attributes:
+        change: the attributes of `Layer` that become other, with their values.
+    """
+
+    layer: str
+    change: Mapping[str, str | bool]
+    reply: str
+    name: str = "Layer"
+
+    def carried_out(self, session: Session) -> Session:
+        """Return the session with the layer changed.
+
+        Raises:
+            InputError: there is no such layer.
+        """
+        layers = session.part.layers
+        if all(layer.name != self.layer for layer in layers):
+            raise InputError(f"There is no layer {self.layer}; the drawing has {', '.join(layer.name for layer in layers)}.")
+        changed = tuple(replace(layer, **self.change) if layer.name == self.layer else layer for layer in layers)  # type: ignore[arg-type]
+        return replace(session, part=replace(session.part, layers=changed))
+
+
+@dataclass(frozen=True, slots=True)
 class Undo:
     """Take the last change back."""
 
@@ -191,7 +217,7 @@ class Redo:
     """Do again what was taken back."""
 
 
-Edit = Draw | Delete | Transform | Reverse | SetLayer
+Edit = Draw | Delete | Transform | Reverse | SetLayer | SetLook
 """Commands that change the drawing; each has a name, a reply and `carried_out(session) -> session`."""
 
 

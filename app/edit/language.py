@@ -16,6 +16,7 @@
 
     select all | none | CURVES | window P P | crossing P P | layer NAME     (before it: add, remove)
     delete [CURVES]     reverse [CURVES]     layer NAME [CURVES]     undo     redo
+    hide NAME     show NAME     lock NAME     unlock NAME     colour NAME "#rrggbb" | none     (of layers)
     move @dx,dy [CURVES]     copy @dx,dy [times n] [CURVES]
     rotate P angle [copy] [CURVES]     scale P factor [copy] [CURVES]     mirror P P [copy] [CURVES]
     array n n @dx,dy [CURVES]     array polar P n [over angle] [CURVES]
@@ -45,7 +46,7 @@ Command = Edit | Select | Undo | Redo
 ALIASES = {
     "li": "line", "l": "line", "pl": "polyline", "ar": "arc", "a": "arc", "ci": "circle", "c": "circle", "re": "rect",
     "rectangle": "rect", "del": "delete", "erase": "delete", "mo": "move", "se": "select", "la": "layer", "u": "undo",
-    "pg": "polygon", "sl": "slot", "el": "ellipse", "sp": "spline", "co": "copy", "ro": "rotate", "mi": "mirror",
+    "pg": "polygon", "sl": "slot", "el": "ellipse", "sp": "spline", "co": "copy", "ro": "rotate", "mi": "mirror", "color": "colour",
 }
 """Short and other words for the commands."""
 
@@ -78,6 +79,7 @@ _READERS: dict[str, Callable[[Arguments, Session], Command]] = {
     "polygon": draw.polygon_of, "slot": draw.slot_of, "ellipse": draw.ellipse_of, "spline": draw.spline_of,
     "select": edit.select, "delete": edit.delete, "move": edit.move, "copy": edit.copy, "rotate": edit.rotate, "scale": edit.scale,
     "mirror": edit.mirror, "array": edit.array, "reverse": edit.reverse, "layer": edit.layer,
+    "hide": edit.hide, "show": edit.show, "lock": edit.lock, "unlock": edit.unlock, "colour": edit.colour,
     "undo": lambda words, session: Undo(), "redo": lambda words, session: Redo(),
 }
 

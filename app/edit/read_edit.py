@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import re
+
 from app.edit.arguments import Arguments
-from app.edit.command import Delete, Reverse, Session, SetLayer, Transform
+from app.edit.command import Delete, Reverse, Session, SetLayer, SetLook, Transform
 from app.edit.read_draw import box
 from app.edit.select import By, How, Select
 from app.edit.transform import Similarity, mirroring, scaling, shift, turn
+from app.edit.values import wrong
 from app.errors import InputError
 
 MOST_COPIES = 10_000
+_COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
 def _chosen(words: Arguments, session: Session, verb: str) -> frozenset[int]:
@@ -90,6 +94,41 @@ def layer(words: Arguments, session: Session) -> SetLayer:
     if not name:
         raise words.wrong("The name of the layer is empty; write a name.")
     return SetLayer(name, frozenset(words.ids()))
+
+
+def hide(words: Arguments, session: Session) -> SetLook:
+    """Hide a layer: its curves are neither seen nor machined."""
+    name = words.name("the name of a layer")
+    return SetLook(name, {"visible": False}, f"Layer {name} is hidden.")
+
+
+def show(words: Arguments, session: Session) -> SetLook:
+    """Show a layer again."""
+    name = words.name("the name of a layer")
+    return SetLook(name, {"visible": True}, f"Layer {name} is shown.")
+
+
+def lock(words: Arguments, session: Session) -> SetLook:
+    """Lock a layer: its curves are not selected."""
+    name = words.name("the name of a layer")
+    return SetLook(name, {"locked": True}, f"Layer {name} is locked.")
+
+
+def unlock(words: Arguments, session: Session) -> SetLook:
+    """Unlock a layer."""
+    name = words.name("the name of a layer")
+    return SetLook(name, {"locked": False}, f"Layer {name} is unlocked.")
+
+
+def colour(words: Arguments, session: Session) -> SetLook:
+    """Give a layer a colour, or the ink's again."""
+    name = words.name("the name of a layer")
+    if words.accept("none"):
+        return SetLook(name, {"colour": ""}, f"Layer {name} has the colour of ink.")
+    place, value = words.place, words.name('a colour such as "#d55e00", or none')
+    if not _COLOUR.fullmatch(value):
+        raise wrong(f'\'{value}\' is no colour; write one such as "#d55e00", or none.', place)
+    return SetLook(name, {"colour": value.lower()}, f"Layer {name} has a colour.")
 
 
 def select(words: Arguments, session: Session) -> Select:

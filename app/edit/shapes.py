@@ -73,6 +73,8 @@ def arc_about(start: Point, end: Point, centre: Point, ccw: bool = True) -> Arc:
     if math.dist(start, end) < WELD:
         raise InputError(f"The arc begins and ends at {shown(start)}; draw a full circle with circle x,y r.")
     a, b = math.dist(start, centre), math.dist(end, centre)
+    if a == b >= WELD:
+        return Arc(start, end, centre, ccw)
     if abs(a - b) > _FIT or min(a, b) < WELD:
         raise InputError(f"The start is {a:.3f} mm from the centre and the end {b:.3f} mm; both must be equally far. "
                          f"Move the end to {shown(on_circle(end, centre, a))}.")
