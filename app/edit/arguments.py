@@ -77,6 +77,12 @@ class Arguments:
             found.append(self.point())
         return found
 
+    def is_point(self) -> bool:
+        """Return whether the next argument is a point."""
+        if not self.more or self._is_word():
+            return False
+        return isinstance(value_of(self._command.arguments[self._at], self._scope), tuple)
+
     def shift(self, expected: str) -> Point:
         """Read a shift @dx,dy or @r<angle, mm."""
         word = self._next(expected)
@@ -121,11 +127,15 @@ class Arguments:
         place, ids = self.place, self._ids(self._next(expected))
         return ids[0], self._scope.curve(Curves(ids), place)
 
+    def some(self, expected: str) -> tuple[int, ...]:
+        """Read one argument that stands for entities: a number, a range or a name."""
+        return self._ids(self._next(expected))
+
     def ids(self) -> tuple[int, ...]:
         """Read entity numbers, ranges such as 4-17, and names of curves to the end or to a word of the command."""
         found: list[int] = []
         while self.more and not self._is_word():
-            found.extend(self._ids(self._next("an entity number")))
+            found.extend(self.some("an entity number"))
         return tuple(dict.fromkeys(found))
 
     def end(self) -> None:

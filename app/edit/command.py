@@ -10,7 +10,7 @@ from app.edit.transform import Similarity, transformed
 from app.edit.values import Scope, Value
 from app.errors import InputError
 from app.model.curves import Curve, Point, reversed_curve
-from app.model.part import Layer, Part
+from app.model.part import Entity, Layer, Part
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,6 +130,32 @@ class Transform:
 
 
 @dataclass(frozen=True, slots=True)
+class Rework:
+    """Put other curves in the place of some.
+
+    Attributes:
+        pieces: by id what each becomes: the first piece keeps the id, the others follow it, none takes it away.
+        added: (id, curve): new curves on the layers of these entities.
+    """
+
+    pieces: Mapping[int, tuple[Curve, ...]]
+    name: str
+    reply: str
+    added: tuple[tuple[int, Curve], ...] = ()
+
+    def carried_out(self, session: Session) -> Session:
+        """Return the session with the pieces, on fresh ids but for the first of each."""
+        part, entities, fresh = session.part, list[Entity](), session.part.next_id()
+        layers = {e.id: e.layer for e in part.entities}
+        for entity in part.entities:
+            for number, curve in enumerate(self.pieces.get(entity.id, (entity.curve,))):
+                entities.append(replace(entity, id=entity.id if number == 0 else fresh, curve=curve))
+                fresh += number > 0
+        entities += [Entity(fresh + number, curve, layers[near]) for number, (near, curve) in enumerate(self.added)]
+        return session.with_part(replace(part.with_entities(tuple(entities)), used_id=fresh + len(self.added) - 1))
+
+
+@dataclass(frozen=True, slots=True)
 class Reverse:
     """Let curves run the other way."""
 
@@ -217,7 +243,7 @@ class Redo:
     """Do again what was taken back."""
 
 
-Edit = Draw | Delete | Transform | Reverse | SetLayer | SetLook
+Edit = Draw | Delete | Transform | Rework | Reverse | SetLayer | SetLook
 """Commands that change the drawing; each has a name, a reply and `carried_out(session) -> session`."""
 
 

@@ -21,6 +21,9 @@
     rotate P angle [copy] [CURVES]     scale P factor [copy] [CURVES]     mirror P P [copy] [CURVES]
     array n n @dx,dy [CURVES]     array polar P n [over angle] [CURVES]
 
+    trim CURVE P [by CURVES]     extend CURVE P [to CURVES]     break CURVE P [P]     offset d P [CURVES]
+    fillet r CURVE [P] CURVE [P]     fillet r CURVES     chamfer d [and d] CURVE [P] CURVE [P]     chamfer d CURVES
+
     let w = 60 + 2     let p = mid(a, b)     circle p w/4 as hole
     repeat 6 as i … end     if w > 50 … else … end     define bolt(c, r) … end
 
@@ -35,6 +38,7 @@ from collections.abc import Callable
 
 from app.edit import read_draw as draw
 from app.edit import read_edit as edit
+from app.edit import read_rework as rework
 from app.edit import syntax
 from app.edit.arguments import Arguments
 from app.edit.command import Edit, Redo, Session, Undo
@@ -46,7 +50,8 @@ Command = Edit | Select | Undo | Redo
 ALIASES = {
     "li": "line", "l": "line", "pl": "polyline", "ar": "arc", "a": "arc", "ci": "circle", "c": "circle", "re": "rect",
     "rectangle": "rect", "del": "delete", "erase": "delete", "mo": "move", "se": "select", "la": "layer", "u": "undo",
-    "pg": "polygon", "sl": "slot", "el": "ellipse", "sp": "spline", "co": "copy", "ro": "rotate", "mi": "mirror", "color": "colour",
+    "pg": "polygon", "sl": "slot", "el": "ellipse", "sp": "spline", "co": "copy", "ro": "rotate", "mi": "mirror", "tr": "trim",
+    "ex": "extend", "br": "break", "fi": "fillet", "cha": "chamfer", "o": "offset", "color": "colour",
 }
 """Short and other words for the commands."""
 
@@ -80,6 +85,8 @@ _READERS: dict[str, Callable[[Arguments, Session], Command]] = {
     "select": edit.select, "delete": edit.delete, "move": edit.move, "copy": edit.copy, "rotate": edit.rotate, "scale": edit.scale,
     "mirror": edit.mirror, "array": edit.array, "reverse": edit.reverse, "layer": edit.layer,
     "hide": edit.hide, "show": edit.show, "lock": edit.lock, "unlock": edit.unlock, "colour": edit.colour,
+    "trim": rework.trim, "extend": rework.extend, "break": rework.break_at, "fillet": rework.fillet_of, "chamfer": rework.chamfer_of,
+    "offset": rework.offset,
     "undo": lambda words, session: Undo(), "redo": lambda words, session: Redo(),
 }
 

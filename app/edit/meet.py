@@ -58,7 +58,8 @@ def foot(curve: Curve, point: Point) -> Point:
         if has(curve, on):
             return on
         return min(curve.start, curve.end, key=lambda p: math.dist(p, point))
-    return _nearest_on(curve, point)
+    at, _ = _parametric(curve)
+    return at(nearest_parameter(curve, point))
 
 
 def tangent_points(curve: Curve, point: Point) -> list[Point]:
@@ -197,7 +198,8 @@ def _newton(a: At, b: At, start: tuple[float, float], range_a: tuple[float, floa
     return pa if math.hypot(fx, fy) <= 1e-9 * (1 + math.hypot(*pa)) else None
 
 
-def _nearest_on(curve: Curve, point: Point) -> Point:
+def nearest_parameter(curve: Curve, point: Point) -> float:
+    """Return the parameter of the point of a curve that is nearest to a point: an angle, a share of a line, a spline's knot value."""
     at, parameters = _parametric(curve)
     points = np.array([at(t) for t in parameters])
     best = int(np.argmin(np.hypot(*(points - point).T)))
@@ -206,7 +208,24 @@ def _nearest_on(curve: Curve, point: Point) -> Point:
     for _ in range(80):
         a, b = high - golden * (high - low), low + golden * (high - low)
         low, high = (low, b) if math.dist(at(a), point) < math.dist(at(b), point) else (a, high)
-    return at((low + high) / 2)
+    return _polished(at, (low + high) / 2, point, (float(parameters[0]), float(parameters[-1])))
+
+
+def _polished(at: At, t: float, point: Point, span: tuple[float, float]) -> float:
+    """Return a parameter at which the way to the point stands square on the curve: distances alone tell it to half the digits."""
+    low, high = min(span), max(span)
+    step = 1e-5 * (high - low)
+
+    def slope(u: float) -> float:
+        before, after, here = at(max(u - step, low)), at(min(u + step, high)), at(u)
+        return (after[0] - before[0]) * (here[0] - point[0]) + (after[1] - before[1]) * (here[1] - point[1])
+
+    for _ in range(4):
+        a, b = slope(max(t - step, low)), slope(min(t + step, high))
+        if a == b:
+            break
+        t = min(max(t - slope(t) * (min(t + step, high) - max(t - step, low)) / (b - a), low), high)
+    return t
 
 
 def _ellipse_tangents(curve: Ellipse, point: Point) -> list[Point]:
