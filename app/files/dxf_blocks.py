@@ -9,12 +9,11 @@ from math import cos, isfinite, radians, sin
 from typing import Any
 
 from app.errors import HitofudeError, InputError
+from app.files.drawing_account import MOST_CURVES
 from app.files.dxf_affine import Affine, transformed
 from app.files.dxf_curves import NoLengthError, curves_of, heights_of, plane_of
 from app.model.curves import Curve, Point
 
-MOST_CURVES = 500_000
-"""A drawing that unfolds to more curves than this is refused before it fills the memory."""
 DEEPEST = 64
 """Blocks nested deeper than this are refused."""
 
