@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from itertools import count
 
 from app.edit.syntax import Define
 from app.edit.transform import Similarity, transformed
@@ -122,11 +123,9 @@ class Transform:
             return replace(session, part=replace(part, entities=tuple(
                 replace(e, curve=transformed(e.curve, self.maps[0])) if e.id in self.ids else e for e in part.entities)))
         chosen = [e for e in part.entities if e.id in self.ids]
-        for to in self.maps:
-            first = part.next_id()
-            new = tuple(replace(e, id=first + n, curve=transformed(e.curve, to)) for n, e in enumerate(chosen))
-            part = part.with_entities(part.entities + new)
-        return replace(session, part=part)
+        ids = count(part.next_id())
+        copies = tuple(replace(e, id=next(ids), curve=transformed(e.curve, to)) for to in self.maps for e in chosen)
+        return replace(session, part=part.with_entities(part.entities + copies))
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,6 +20,9 @@ from app.progress import NO_PROGRESS, Progress
 MOST_STATEMENTS = 200_000
 """A script carries out no more; one that would is a mistake, or a trap."""
 
+MOST_CURVES = 100_000
+"""A script draws no more."""
+
 _DEEPEST_CALL = 40
 _COMPARISONS: Mapping[str, Callable[[float, float], bool]] = {
     "<": operator.lt, ">": operator.gt, "<=": operator.le, ">=": operator.ge, "==": operator.eq, "!=": operator.ne,
@@ -101,6 +104,8 @@ class Interpreter:
         after = command.carried_out(session)
         if isinstance(command, Select):
             return Outcome(after, "Select", f"{len(after.selection)} selected.")
+        if len(after.part.entities) > MOST_CURVES:
+            raise wrong(f"The drawing would have {len(after.part.entities)} curves; a text draws at most {MOST_CURVES}.", written.place)
         return Outcome(_labelled(written, session, after), command.name, command.reply)
 
     def _call(self, own: s.Define, written: s.Command, session: Session) -> Outcome:
