@@ -8,7 +8,7 @@ from dataclasses import replace
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QLabel, QWidget
 
-from app.errors import HitofudeError
+from app.errors import HitofudeError, ParameterError
 from app.model.job import Job
 from app.model.operation import ContourOperation, Direction, DrillOperation, Operation, PocketOperation, RestOperation, Side
 from app.model.tool import Tool
@@ -32,6 +32,15 @@ USUAL_SHARE = 0.85
 
 def _too_wide(stepover: float, diameter: float) -> str:
     return f"Stepover is {stepover:g} mm; use more than 0 and not more than the tool's diameter, {diameter:g} mm."
+
+
+def _refusal(job: Job, operation: Operation) -> str:
+    """Return why an operation's tool cannot do it, or ""."""
+    try:
+        job.cutter(operation)
+    except ParameterError as wrong:
+        return str(wrong)
+    return ""
 
 
 class OperationForm(Form):
@@ -176,7 +185,7 @@ class OperationForm(Form):
     def _show_main(self, job: Job, operation: Operation) -> None:
         cut, thickness = operation.cut, job.stock.thickness
         self.tool.set_choices([(t.number, f"T{t.number}  {t.label}") for t in job.tools])
-        self.tool.show_value(cut.tool)
+        self.tool.show_value(cut.tool, _refusal(job, operation))
         self.cut_depth.show_value(cut.depth, "through" if cut.depth == thickness else "")
         if cut.depth > thickness:
             self.cut_depth.refuse(f"Depth is {cut.depth:g} mm, but the stock is {thickness:g} mm thick; reduce it or take thicker stock.")
