@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import shapely
 
-from app.model.curves import Arc, Circle, Point
+from app.geometry.as_circle import as_circle
+from app.model.curves import Circle
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.operation import DrillOperation
@@ -56,22 +57,9 @@ class Holes:
 
 
 def circle_of(contour: Contour) -> Hole | None:
-    """Return the circle that a closed contour is: one circle, or arcs round one centre; None where it is none.
-
-    Centres and radii of arcs may differ by as much as curves may when they become arcs.
-    """
-    arcs = contour.primitives
-    if not contour.closed or not all(isinstance(each, (Arc, Circle)) for each in arcs):
-        return None
-    round_ = [each for each in arcs if isinstance(each, (Arc, Circle))]
-    (x, y), radius = _mean([each.centre for each in round_]), sum(each.radius for each in round_) / len(round_)
-    far = max(max(math.dist(each.centre, (x, y)), abs(each.radius - radius)) for each in round_)
-    turn = sum(math.tau if isinstance(each, Circle) else abs(each.sweep) for each in round_)
-    return Hole(x, y, 2 * radius) if far <= CURVE and abs(turn - math.tau) < 1e-3 else None
-
-
-def _mean(points: Sequence[Point]) -> Point:
-    return sum(x for x, _ in points) / len(points), sum(y for _, y in points) / len(points)
+    """Return the hole that a closed contour is where it is a circle, by whatever it is drawn; None where it is none."""
+    circle = as_circle(contour)
+    return None if circle is None else Hole(*circle.centre, 2 * circle.radius)
 
 
 def holes_of(job: Job, drawn: Drawn, operation: DrillOperation) -> Holes:

@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from app.errors import ParameterError
+from app.geometry.region import polygon_contour
 from app.model.curves import Arc
 from app.model.finding import Finding, FindingKind
 from app.model.job import Copies, Job, Stock
 from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import ContourOperation, Cut, DrillOperation, PocketOperation
+from app.model.operation import ContourOperation, Cut, DrillOperation, PocketOperation, Side
 from app.model.part import Contour
 from app.model.tool import Tool, ToolKind
 from app.nc.posts import load_post
@@ -99,6 +100,22 @@ def test_diameters(least: float | None, most: float | None, drilled: int) -> Non
     job = job_of(operation)
     assert len(holes_of(job, drawn(job), operation).drilled) == drilled
     assert bool(texts(compute(job))) == (drilled == 0)
+
+
+@pytest.mark.parametrize("chords", [12, 48])
+def test_circles_in_chords_are_drilled_and_nothing_else_follows_them(chords: int) -> None:
+    turns = np.arange(chords) * math.tau / chords
+    rough = polygon_contour([(round(30 + 2.5 * math.cos(a), 3), round(40 + 2.5 * math.sin(a), 3)) for a in turns.tolist()])
+    nut = polygon_contour([(70 + 2.5 * math.cos(a), 40 + 2.5 * math.sin(a)) for a in np.arange(6) * math.tau / 6])
+    on_line = ContourOperation(Cut(2), side=Side.ON)
+    job = Job(layered_part({"a": [*PLATE, rough, nut]}), (DRILL, Tool(2, 2.0)), (DrillOperation(Cut(1, 4.0)), on_line))
+    program = compute(job)
+    assert (30, 40) in {(round(x, 3), round(y, 3)) for x, y in places(program.moves)}
+    assert (70, 40) not in {(round(x, 3), round(y, 3)) for x, y in places(program.moves)}
+    assert "drills 5 circles" in texts(program, counts=False)
+    begins = np.array([line.primitives[0].start for line in program.areas[1].lines])
+    assert np.hypot(*(begins - (70, 40)).T).min() < 2.6
+    assert np.hypot(*(begins - (30, 40)).T).min() > 2.6
 
 
 def test_nothing_to_drill_counts() -> None:
