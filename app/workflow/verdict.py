@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from app.geometry.near import near
 from app.geometry.primitives import TURN, contour_rows
 from app.model.job import Job
-from app.model.moves import Area, MoveKind, Moves, Program
+from app.model.moves import MoveKind, Moves, Program
 from app.model.part import Region
 from app.model.stock_box import StockBox
 from app.tolerances import LEVEL
 from app.toolpath.flat import lines, move_rows, region_shapes
-from app.workflow.bounds import bounds_of, cutting_radius, in_dog_bones, off_lines
+from app.workflow.bounds import Bound, bounds_of, cutting_radius, in_dog_bones, off_lines, out_of_holes
 from app.workflow.clearance import curve_distance
 
 Floats = NDArray[np.float64]
@@ -103,7 +103,7 @@ def gouge_depths(program: Program, job: Job, stock: StockBox | None = None, by_t
         mine = np.flatnonzero(np.isin(moves.tool[chosen], bound.tools) if by_tool else np.isin(moves.operation[chosen], bound.operations))
         if not len(mine):
             continue
-        deep, where = _beyond_walls(rows[mine], radius[mine] + bound.leave, bound.area)
+        deep, where = _beyond(bound, rows[mine], radius[mine] + bound.leave)
         deep[exempt[mine]] = -np.inf
         too_deep = -low[mine] - bound.floor
         deeper = too_deep > np.maximum(deep, _SURFACE)
@@ -113,8 +113,11 @@ def gouge_depths(program: Program, job: Job, stock: StockBox | None = None, by_t
     return Depths(chosen, depth, np.column_stack([places, low]))
 
 
-def _beyond_walls(rows: Floats, need: Floats, area: Area) -> tuple[Floats, Floats]:
+def _beyond(bound: Bound, rows: Floats, need: Floats) -> tuple[Floats, Floats]:
     """Return how far moves leave an area, with all the width that they need (<= 0: they do not), mm, and where, (n, 2)."""
+    area = bound.area
+    if bound.holes:
+        return out_of_holes(rows, need, area.regions)
     walls = np.concatenate([contour_rows(contour) for region in area.regions for contour in region.contours])
     depth, places = _depths(rows, need, walls)
     outside, beyond = _outside(rows, area.regions)

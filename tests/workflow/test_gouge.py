@@ -60,6 +60,11 @@ def test_cutting_outside_of_every_region_is_a_gouge() -> None:
     assert gouge(on_the_island.program(region), job()).max_mm == pytest.approx(15, abs=1e-3)
 
 
+def test_a_plunge_too_near_to_a_wall_is_a_gouge_though_it_goes_nowhere_else() -> None:
+    found = gouge(Path().into_work(2.0, 15, -1.0).out_of_work().program(), job())
+    assert found.max_mm == pytest.approx(1.0, abs=1e-9) and found.count == 2
+
+
 def test_above_the_stock_nothing_gouges() -> None:
     path = Path().rapid(100, 100, 5.0).line(120, 100, 0.0).rapid(100, 100, 5.0)
     assert gouge(path.program(), job()).max_mm == 0
