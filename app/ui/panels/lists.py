@@ -14,6 +14,7 @@ from app.ui.icons import IconButton, IconLabel
 from app.ui.labels import Elided, muted
 from app.ui.panels.changes import Subject, SubjectKind, operation_name
 from app.ui.panels.section import Row, Section, theme_children
+from app.ui.panels.tool_kinds import KINDS, icon_of
 from app.ui.samples import LineSample, Sample, Switch
 from app.ui.theme import Theme
 
@@ -164,7 +165,9 @@ class ToolSection(ListSection):
         for tool in job.tools:
             number = _bold(f"T{tool.number}")
             number.setMinimumWidth(24)
-            row = Row(IconLabel("cutter"), number, Elided(tool.label), muted(f"{grouped(tool.spindle_speed, 0)} rpm"), stretch_after=2)
+            speed = muted(f"{grouped(tool.spindle_speed, 0)} rpm")
+            row = Row(IconLabel(icon_of(tool.kind)), number, Elided(tool.label), speed, stretch_after=2)
+            row.setToolTip(KINDS[tool.kind])
             self.add_row(Subject(SubjectKind.TOOL, tool.number), row)
 
 
