@@ -116,7 +116,7 @@ class Legend(QFrame):
         column.addSpacing(8)
         column.addWidget(muted("Colour by"))
         self.colour = ChoiceField("", [(ColourBy.TOOL, "Tool"), (ColourBy.REGION, "Region"), (ColourBy.ENGAGEMENT, "Load")])
-        self.colour.buttons[ColourBy.ENGAGEMENT].setToolTip("The largest share of the diameter that is engaged along each move")
+        self.colour.buttons[ColourBy.ENGAGEMENT].setToolTip("How much of the diameter is engaged along the path")
         self.colour.show_value(ColourBy.TOOL)
         self.colour.chosen.connect(self._choose_colour)
         column.addWidget(self.colour)

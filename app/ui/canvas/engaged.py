@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
 from PySide6.QtGui import QColor
 
 from app.ui.theme import Theme
 
 STEPS = (0.25, 0.5, 0.75, 0.95)
 """Shares of the diameter between the steps."""
-
-
-def step_of(shares: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Return the step (n,) of each share (n,) of the diameter, 0 … 4."""
-    return np.searchsorted(np.array(STEPS), shares, side="left").astype(np.int64)
 
 
 def colours(theme: Theme) -> tuple[QColor, ...]:
