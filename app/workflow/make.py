@@ -181,7 +181,8 @@ def finish(
     lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
     program = replace(program, moves=replace(program.moves, line=lines))
     progress.step(0.2, "Checking clearance")
-    depths, rapids = gouge_depths(program, job), rapids_in_material(program, job)
+    depths = gouge_depths(program, job, progress=progress.part(0.2, 0.28))
+    rapids = rapids_in_material(program, job, progress.part(0.28, 0.3))
     deepest = deepest_of(depths)
     coverage = measure(program, job, progress.part(0.3, 0.7))
     clamped = deepest_of(clamps_met(program, job, depths))
