@@ -102,6 +102,12 @@ CASES = {
         {"kind": "pocket", "tool": 1, "depth": 4.0, "stock_to_leave": 0.3, "floor_to_leave": 0.2, "layers": ["B"]},
         {"kind": "contour", "tool": 2, "depth": 4.0, "layers": ["B"]},
     ), unreachable=2.092),
+    "a drill that drills nothing": Case(LAYERS, operations=(
+        {"kind": "drill", "tool": 3, "depth": 8.0, "layers": ["H"], "least": 6.0, "most": 9.0},
+        {"kind": "pocket", "tool": 1, "depth": 2.0, "layers": ["B"]},
+    ), status=1, kinds=frozenset({"left_out"})),
+    "a pocket tool without room": Case([box("0", 0, 0, 5, 30)], POCKET, unreachable=3.431),
+    "a pocket tool without room, no tool named": Case([box("0", 0, 0, 5, 30)], (*POCKET, "--post", "grbl"), unreachable=3.431),
     "outlines at two depths": Case(LAYERS, operations=(
         {"kind": "contour", "tool": 1, "side": "outside", "depth": 2.0, "layers": ["B"]},
         {"kind": "contour", "tool": 1, "side": "outside", "depth": 5.0, "layers": ["A"]},
