@@ -24,7 +24,7 @@ from app.toolpath.contour_gaps import Gap, gaps
 from app.toolpath.contour_path import Path
 from app.toolpath.contour_stroke import Extras, stroke_of
 from app.toolpath.dogbone import Bone, about_refused, bones, recorded
-from app.toolpath.lead import Around, Run, about_leads, runs
+from app.toolpath.lead import Around, Run, about_leads, about_overlaps, runs
 from app.toolpath.narrow import finest, too_small
 from app.toolpath.open_line import line_paths
 from app.toolpath.setting import Setting, emit, passes_of
@@ -101,6 +101,7 @@ def contour(setting: Setting, index: int, progress: Progress) -> None:
             ways = _bones(work, gaps(levels[1], sheet), levels[1], progress) if operation.dog_bones else ()
             rough = _rough(work, wall_paths(levels[1], sheet, operation.cut.direction), levels[1].distance, finish, ways)
             setting.findings.extend(_about_thick(work))
+    setting.findings.extend(about_overlaps(finish.runs, work.around(work.wall)))
     progress.step(0.7, "Contours")
     emit(setting, index, sheet, _together(work, finish, rough), progress.part(0.7, 1.0))
 
