@@ -166,9 +166,9 @@ class Job:
             ParameterError: no operation is switched on, or one that is has no tool that can do it.
         """
         if not any(operation.cut.enabled for operation in self.operations):
-            what, advice = ("every operation of the job is switched off", "switch one on (in a job file: enabled = true)") \
-                if self.operations else ("the job has no operation", "add one")
-            raise ParameterError(f"{self.part.name}: {what}, so nothing is cut; {advice}.")
+            what = "every operation of the job is switched off, so nothing is cut; switch one on" if self.operations else \
+                "the job has no operation, so nothing is cut; add one"
+            raise ParameterError(f"{self.part.name}: {what}.")
         for operation in self.operations:
             if operation.cut.enabled:
                 self.cutter(operation)

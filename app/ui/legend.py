@@ -78,7 +78,8 @@ class EngagedScale(QWidget):
             painter.fillRect(QRectF(k * wide, 6, wide, 6), colour)
         painter.setPen(self._theme.muted)
         for k, share in enumerate(STEPS, 1):
-            painter.drawText(QRectF(k * wide - 20, 14, 40, 14), Qt.AlignmentFlag.AlignCenter, f"{100 * share:.0f} %")
+            unit = " %" if k == len(STEPS) else ""
+            painter.drawText(QRectF(k * wide - 20, 14, 40, 14), Qt.AlignmentFlag.AlignCenter, f"{100 * share:.0f}{unit}")
 
 
 class Legend(QFrame):

@@ -11,6 +11,7 @@ from app.model.job import Job
 from app.model.operation import OPERATION_KINDS, Cut, DrillOperation
 from app.model.tool import Tool, ToolKind
 from app.ui.computation import Computation, State
+from app.ui.labels import Elided
 from app.ui.panels.side_panel import SidePanel
 from app.ui.stages.reel import Wish, reel_of
 from app.ui.worker import Worker
@@ -55,6 +56,8 @@ def test_the_panel_marks_the_tool_at_once(qtbot, word, tool):
     panel.show()
     reason = panel.operation_form.tool.reason
     assert (reason.text(), reason.isVisible()) == (refused(word, tool), bool(refused(word, tool)))
+    (in_list,) = [label for label in panel.operations.findChildren(Elided) if label.text() == f"T1 {tool.label}"]
+    assert in_list.property("role") == ("error" if refused(word, tool) else "muted")
 
 
 def test_computing_says_why_not_in_notice_status_and_findings(qtbot, wiring):

@@ -12,4 +12,4 @@ STEPS = (0.25, 0.5, 0.75, 0.95)
 
 def colours(theme: Theme) -> tuple[QColor, ...]:
     """Return a colour a step, cool to hot, safe for colour-blind eyes."""
-    return (QColor("#56B4E9"), theme.pocket, theme.contour, theme.plunge, theme.gouge)
+    return (theme.regions[4], theme.pocket, theme.contour, theme.plunge, theme.gouge)

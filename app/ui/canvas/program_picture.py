@@ -40,7 +40,7 @@ _ORDER = (Purpose.LINK, Purpose.PLUNGE, Purpose.POCKET, Purpose.LEAD, Purpose.CO
 
 @dataclass(frozen=True, slots=True)
 class PathLook:
-    """How paths are shown; `stale` paths, which the job has outgrown, are faint."""
+    """How paths are shown; those that the job has outgrown are `stale`."""
 
     theme: Theme
     layers: PathLayers = PathLayers.ALL
@@ -125,10 +125,10 @@ class ProgramPicture:
 
     def _colour(self, style: PathStyle, look: PathLook) -> QColor:
         theme = look.theme
-        if style.purpose is Purpose.PLUNGE:
-            return theme.plunge
         if look.colour_by is ColourBy.ENGAGEMENT and self.measured:
             return colours(theme)[style.step]
+        if style.purpose is Purpose.PLUNGE:
+            return theme.plunge
         if look.colour_by is ColourBy.REGION and style.region > 0:
             colour = QColor(theme.regions[(style.region - 1) % len(theme.regions)])
         else:

@@ -66,6 +66,7 @@ def _reason() -> QLabel:
     made = QLabel()
     made.setProperty("role", "error")
     made.setWordWrap(True)
+    made.setContentsMargins(0, 0, 0, 4)
     made.hide()
     return made
 

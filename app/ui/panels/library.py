@@ -222,12 +222,13 @@ class LibrarySection(Section):
 
 
 def _about(tool: Tool, row: FeedRow | None) -> str:
-    """Return what there is to know of a tool, in two lines; in three where it is for some operations alone."""
-    lengths = (("corner", tool.corner_radius), ("tip", tool.tip_diameter), ("of cut", tool.flute_length), ("overall", tool.overall_length))
-    shape = [f"{math.degrees(tool.tip_angle):g}°"] * bool(tool.tip_angle) + [f"{value:g} mm {name}" for name, value in lengths if value]
+    """Return what there is to know of a tool: what it is, how long, how fast; and what for, where that is not everything."""
+    shape = [f"{math.degrees(tool.tip_angle):g}°"] * bool(tool.tip_angle)
+    shape += [f"{name} {value:g} mm" for name, value in (("corner", tool.corner_radius), ("tip", tool.tip_diameter)) if value]
+    lengths = [f"{value:g} mm {name}" for name, value in (("of cut", tool.flute_length), ("overall", tool.overall_length)) if value]
     feeds = f"F {grouped(tool.feed_rate, 0)}, down {grouped(tool.plunge_rate, 0)} mm/min"
     chip = f", {row.feed_per_tooth:g} a tooth" if row is not None else ""
-    lines = [", ".join([KINDS[tool.kind], counted(tool.flutes, "flute"), *shape]), feeds + chip, use_of(tool.kind)]
+    lines = [", ".join([KINDS[tool.kind], counted(tool.flutes, "flute"), *shape]), ", ".join(lengths), feeds + chip, use_of(tool.kind)]
     return "\n".join(line for line in lines if line)
 
 

@@ -12,7 +12,7 @@ from app.model.tool import Tool
 from app.ui.figures import TIMES, clock, grouped
 from app.ui.icons import IconButton, IconLabel
 from app.ui.labels import Elided, muted
-from app.ui.panels.changes import Subject, SubjectKind, operation_name
+from app.ui.panels.changes import Subject, SubjectKind, operation_name, refusal
 from app.ui.panels.section import Row, Section, theme_children
 from app.ui.panels.tool_kinds import KINDS, icon_of
 from app.ui.samples import LineSample, Sample, Switch
@@ -224,4 +224,4 @@ class OperationSection(ListSection):
         sample.setEnabled(cut.enabled)
         tool = next((t for t in job.tools if t.number == cut.tool), None)
         text = f"T{cut.tool} {tool.label}" if tool is not None else f"T{cut.tool} is missing"
-        return Row(switch, sample, QLabel(name), Elided(text, "muted"), time, stretch_after=3)
+        return Row(switch, sample, QLabel(name), Elided(text, "error" if refusal(job, operation) else "muted"), time, stretch_after=3)

@@ -6,9 +6,9 @@ import math
 from dataclasses import replace
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QLabel, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
-from app.errors import HitofudeError, ParameterError
+from app.errors import HitofudeError
 from app.model.job import Job
 from app.model.operation import ContourOperation, Direction, DrillOperation, Operation, PocketOperation, RestOperation, Side
 from app.model.tool import Tool
@@ -16,7 +16,7 @@ from app.ui.figures import counted
 from app.ui.icons import IconButton
 from app.ui.labels import muted
 from app.ui.panels import drawings
-from app.ui.panels.changes import operation_name, with_operation
+from app.ui.panels.changes import operation_name, refusal, with_operation
 from app.ui.panels.fields import ChoiceField, ListField, NumberField, Spec
 from app.ui.panels.form import Form
 from app.ui.panels.operation_groups import GROUPS, OperationGroup
@@ -32,15 +32,6 @@ USUAL_SHARE = 0.85
 
 def _too_wide(stepover: float, diameter: float) -> str:
     return f"Stepover is {stepover:g} mm; use more than 0 and not more than the tool's diameter, {diameter:g} mm."
-
-
-def _refusal(job: Job, operation: Operation) -> str:
-    """Return why an operation's tool cannot do it, or ""."""
-    try:
-        job.cutter(operation)
-    except ParameterError as wrong:
-        return str(wrong)
-    return ""
 
 
 class OperationForm(Form):
@@ -64,6 +55,7 @@ class OperationForm(Form):
         self._add_side()
         self._add_holes()
         self.leave: NumberField
+        self.hand: QPushButton
         self.groups: list[OperationGroup] = [make(self) for make in GROUPS]
 
     @property
@@ -185,7 +177,7 @@ class OperationForm(Form):
     def _show_main(self, job: Job, operation: Operation) -> None:
         cut, thickness = operation.cut, job.stock.thickness
         self.tool.set_choices([(t.number, f"T{t.number}  {t.label}") for t in job.tools])
-        self.tool.show_value(cut.tool, _refusal(job, operation))
+        self.tool.show_value(cut.tool, refusal(job, operation))
         self.cut_depth.show_value(cut.depth, "through" if cut.depth == thickness else "")
         if cut.depth > thickness:
             self.cut_depth.refuse(f"Depth is {cut.depth:g} mm, but the stock is {thickness:g} mm thick; reduce it or take thicker stock.")

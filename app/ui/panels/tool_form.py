@@ -39,6 +39,7 @@ class ToolForm(Form):
         self.plunge = self._add(Spec("Plunge", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, plunge_rate=v))
         self.chip = QLabel()
         self.chip.setWordWrap(True)
+        self.chip.setContentsMargins(0, 4, 0, 0)
         self.chip.setProperty("role", "muted")
         self.add(self.chip)
 
