@@ -79,7 +79,8 @@ class EngagedScale(QWidget):
         painter.setPen(self._theme.muted)
         for k, share in enumerate(STEPS, 1):
             unit = " %" if k == len(STEPS) else ""
-            painter.drawText(QRectF(k * wide - 20, 14, 40, 14), Qt.AlignmentFlag.AlignCenter, f"{100 * share:.0f}{unit}")
+            aside = painter.fontMetrics().horizontalAdvance(unit) / 2
+            painter.drawText(QRectF(k * wide - 20 + aside, 14, 40, 14), Qt.AlignmentFlag.AlignCenter, f"{100 * share:.0f}{unit}")
 
 
 class Legend(QFrame):

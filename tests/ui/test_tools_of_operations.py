@@ -67,6 +67,9 @@ def test_computing_says_why_not_in_notice_status_and_findings(qtbot, wiring):
     qtbot.waitUntil(lambda: wiring.computation.state is State.FAILED, timeout=20_000)
     assert window.notice.text.text() == window.status.message.toolTip() == NO_MILL.format("pocket")
     assert window.status.badge.text() == "Could not be computed"
+    window.canvas.hovered.emit("Part")
+    window.canvas.hovered.emit("")
+    assert window.status.message.toolTip() == NO_MILL.format("pocket"), "it stays when the mouse has passed over something"
 
 
 @pytest.mark.parametrize("pixels", [False, True], ids=["exact", "pixels"])

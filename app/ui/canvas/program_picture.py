@@ -125,10 +125,10 @@ class ProgramPicture:
 
     def _colour(self, style: PathStyle, look: PathLook) -> QColor:
         theme = look.theme
-        if look.colour_by is ColourBy.ENGAGEMENT and self.measured:
-            return colours(theme)[style.step]
         if style.purpose is Purpose.PLUNGE:
             return theme.plunge
+        if look.colour_by is ColourBy.ENGAGEMENT and self.measured:
+            return colours(theme)[style.step]
         if look.colour_by is ColourBy.REGION and style.region > 0:
             colour = QColor(theme.regions[(style.region - 1) % len(theme.regions)])
         else:
