@@ -263,3 +263,16 @@ def about_leads(made: Sequence[Run], around: Around, frame: float = 0.0) -> list
     text = (f"Of {len(made)} {'path' if len(made) == 1 else 'paths'} of T{around.tool.number} {around.tool.label}, {' and '.join(said)}, "
             f"because {bounds} no room for more; the first is at ({x:.3f}, {y:.3f}).")
     return [Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=False, amount=float(len(none) + len(other)))]
+
+
+def about_overlaps(made: Sequence[Run], around: Around) -> list[Finding]:
+    """Return one remark about closed paths so short that they go over their beginning by less than was asked."""
+    wanted = around.lead.overlap if around.lead.kind is not LeadKind.NONE else 0.0
+    short = [run for run in made if run.path.closed and run.stop - run.start - run.path.length < wanted - _SAME]
+    if not short:
+        return []
+    x, y = points_at(short[0].path.rows[:1], np.zeros(1))[0]
+    text = (f"Of {len(made)} {'path' if len(made) == 1 else 'paths'} of T{around.tool.number} {around.tool.label}, {len(short)} "
+            f"{'goes' if len(short) == 1 else 'go'} on over the beginning by half the length, less than the {wanted:g} mm asked for; "
+            f"the first is at ({x:.3f}, {y:.3f}).")
+    return [Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=False, amount=float(len(short)))]

@@ -17,7 +17,7 @@ from app.model.tool import Tool
 from app.progress import NO_PROGRESS, Progress
 from app.toolpath.build import Stroke
 from app.toolpath.link import Manner, link
-from app.toolpath.narrow import necks, too_small
+from app.toolpath.narrow import finest, necks, too_small
 from app.toolpath.runs import NOTHING, Filling, between, fill
 from app.toolpath.setting import Setting, emit, passes_of
 from app.toolpath.sheets import Sheet
@@ -49,7 +49,7 @@ def pocket(setting: Setting, index: int, progress: Progress) -> None:
     chosen = shortest(sheet, Wanted(outermost, tool.radius, manner), stepovers, progress.part(0, 0.9))
     setting.note((*chosen.levels, *chosen.filling.halves))
     first = chosen.levels[0] if chosen.levels else Level(outermost, ())
-    setting.findings.extend(too_small(sheet.regions, first, tool, counts=wall == 0))
+    setting.findings.extend(too_small(sheet.regions, first, tool, 0.0 if wall else finest(setting.job, operation)))
     setting.findings.extend(necks(first, sheet.primitives, sheet.distances, tool))
     setting.strokes += len(chosen.strokes) * passes_of(setting, index)
     emit(setting, index, sheet, chosen.strokes, progress.part(0.9, 1.0))

@@ -129,9 +129,10 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
         part: the pixels.
 
     Raises:
-        ParameterError: a tool is not wider than two pixels, or an operation's parameters do not fit its tool.
+        ParameterError: no operation is switched on, a tool is not wider than two pixels, or it cannot do what its operation asks.
         Cancelled: by progress.
     """
+    job.check_operations()
     primitives = pack(part.regions)
     setting = Setting(job, part.regions, Sheets(job, Drawn()))
     walls = Sheet(part.regions, primitives, part.squares, np.zeros(len(primitives.rows), np.bool_))

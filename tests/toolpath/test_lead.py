@@ -19,7 +19,7 @@ from app.model.part import Contour
 from app.model.tool import Tool
 from app.toolpath.compute import compute
 from app.toolpath.contour_path import headings_at, keep_clear
-from app.toolpath.lead import Around, Run, about_leads, corners_of, runs
+from app.toolpath.lead import Around, Run, about_leads, about_overlaps, corners_of, runs
 from app.toolpath.side import wall_paths
 from tests import plain_distance
 from tests.part_shapes import circle, fig2, random_part, square
@@ -124,6 +124,15 @@ def test_the_edge_of_the_area_outside_is_told_where_it_ends_the_room_for_leads()
     inner = replace(operation, side=Side.INSIDE)
     (text,) = about(compute(contour_job([circle(4)], inner)), "leads")
     assert "edge of the area" not in text
+
+
+def test_an_overlap_longer_than_half_the_path_is_told() -> None:
+    made, around = runs_of(contour_job([circle(2.5), square(40, 20, 0)]), Lead(overlap=4.0))
+    (finding,) = about_overlaps(made, around)
+    assert "Of 2 paths" in finding.text and "1 goes on over the beginning by half the length" in finding.text and not finding.counts
+    assert about_overlaps(*runs_of(contour_job([circle(2.5)]), Lead(overlap=3.0))) == []
+    inner = replace(outside(lead=Lead(overlap=4.0)), side=Side.INSIDE)
+    assert about(compute(contour_job([circle(2.5)], inner)), "less than the 4 mm asked for")
 
 
 def test_without_leads_there_is_no_overlap() -> None:
