@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from app.edit.sample import sample, spline_points
 from app.errors import InputError
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from app.tolerances import WELD
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 _FIT = 1e-3
 """Ends of an arc whose distances from the centre differ by up to this are drawn with the centre moved between them, mm."""
@@ -279,6 +282,8 @@ def spline_through(points: list[Point], close: bool = False) -> Spline:
         raise InputError("A spline needs three points or more; write spline x,y x,y x,y.")
     ring = [*points, points[0]] if close else points
     lines_through(ring)  # tells of neighbours that are the same
+    from scipy.interpolate import CubicSpline  # not when the window opens
+
     way = np.concatenate([[0.0], np.cumsum([math.dist(a, b) for a, b in pairwise(ring)])])
     made = CubicSpline(way, np.array(ring), bc_type="periodic" if close else "natural")
     return _clamped(made)

@@ -8,7 +8,6 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-from scipy.interpolate import BSpline, insert
 
 from app.edit.meet import nearest_parameter
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
@@ -81,6 +80,8 @@ def _spline(curve: Spline, points: Sequence[Point]) -> tuple[Curve, ...]:
 
 def _halves(curve: Spline, at: float) -> tuple[Spline, Spline]:
     """Return a spline before and after a parameter, by knots inserted until the curve passes a control point there."""
+    from scipy.interpolate import BSpline, insert  # not when the window opens
+
     p = curve.degree
     weights = np.array(curve.weights or (1.0,) * len(curve.control_points))
     control = np.column_stack([np.array(curve.control_points) * weights[:, None], weights])
