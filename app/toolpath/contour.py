@@ -168,7 +168,8 @@ def _finish(work: _Work, paths: Sequence[Path], ways: Sequence[Bone]) -> _Made:
     """Return the paths along the walls themselves, with tabs by hand and automatic ones."""
     setting, wanted = work.setting, work.operation.tabs
     shape = TabShape.of(work.operation, work.tool)
-    own = by_hand(paths, shape, setting.job.copies.shifts, _followed(work, paths))
+    own, left_out = by_hand(paths, shape, setting.job.copies.shifts, _followed(work, paths))
+    setting.findings.extend(left_out)
     taken = [spans_of(path, places, shape.half) for path, places in zip(paths, own, strict=True)]
     around = work.around(work.wall)
     made = runs(paths, taken, around)
