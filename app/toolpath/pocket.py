@@ -116,7 +116,7 @@ def shortest(sheet: Sheet, wanted: Wanted, stepovers: Sequence[float], progress:
         if best.strokes and ((best.linked <= MOST_LINKED and rings >= best.length) or stepovers[k] > too_far):
             continue
         filling = fill(levels, [found[distance] for distance in halves], sheet.distances, wanted.radius) if halves else NOTHING
-        strokes = link(levels, sheet.distances, wanted.manner, filling)
+        strokes = link(levels, sheet.distances, wanted.manner, filling, 0.0 if halves else stepovers[k])
         length = sum(float(lengths(stroke.rows).sum()) for stroke in strokes)
         made = Cleared(levels, filling, strokes, length, 1 - rings / length, stepovers[k])
         if not best.strokes or (made.linked > MOST_LINKED, length) < (best.linked > MOST_LINKED, best.length):
