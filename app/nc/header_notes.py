@@ -21,6 +21,8 @@ Comments that begin with `hitofude:` hold one `key=value` each, in this order an
                                                     contour that runs elsewhere than inside the walls ,outside or ,on behind it
     operation_layer=N,NAME                          of the operation before it, the N-th: one a layer that it alone machines
     floor_to_leave_mm=N,F                           of the N-th operation, where there is any
+    leads_mm=N,L                                    of the N-th operation, outside: what room its leads need beside the wall's path,
+                                                    where their size was asked for
     holes_mm=N,LEAST,MOST,THROUGH                   of the N-th operation: diameters that it drills (0,0 = the drill's own), and how
                                                     far it goes on below the depth
     tab=X,Y,WIDTH,TOP,DIAMETER                      one a bridge of metal: its middle, and the diameter of the cutter that went over it
@@ -91,6 +93,8 @@ def _operation(operation: Operation, number: int) -> Iterator[str]:
     yield from (f"operation_layer={number},{spelled_name(name)}" for name in cut.layers)
     if cut.floor_to_leave:
         yield f"floor_to_leave_mm={plain_numbers(number, cut.floor_to_leave)}"
+    if isinstance(operation, ContourOperation) and operation.side is Side.OUTSIDE and operation.lead.radius is not None:
+        yield f"leads_mm={plain_numbers(number, 2 * operation.finish_width + operation.lead.radius)}"
     if isinstance(operation, DrillOperation):
         yield f"holes_mm={plain_numbers(number, operation.least or 0.0, operation.most or 0.0, operation.through)}"
 

@@ -61,7 +61,7 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
     return Program(
         setting.builder.moves(), setting.regions, findings, setting.strokes, setting.polyline_rings,
         seen.bitmap_area, seen.exact_area, seen.pitch, areas=setting.sheets.areas(), lines=lines,
-        clamps=parts.clamps, tabs=tuple(setting.tabs), dog_bones=tuple(setting.dog_bones),
+        clamps=parts.clamps, tabs=tuple(setting.tabs), dog_bones=tuple(setting.dog_bones), stepovers=setting.stepovers,
     )  # fmt: skip
 
 

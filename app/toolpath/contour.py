@@ -28,7 +28,7 @@ from app.toolpath.lead import Around, Run, about_leads, about_overlaps, runs
 from app.toolpath.narrow import finest, too_small
 from app.toolpath.open_line import line_paths
 from app.toolpath.setting import Setting, emit, passes_of
-from app.toolpath.sheets import ROOM, Sheet, Sheets
+from app.toolpath.sheets import Sheet, Sheets
 from app.toolpath.side import wall_paths
 from app.toolpath.tab import TabShape, about_far, about_tabs, by_hand, spans_of, spread, tabs_at
 
@@ -168,12 +168,13 @@ def _finish(work: _Work, paths: Sequence[Path], ways: Sequence[Bone]) -> _Made:
     """Return the paths along the walls themselves, with tabs by hand and automatic ones."""
     setting, wanted = work.setting, work.operation.tabs
     shape = TabShape.of(work.operation, work.tool)
-    own = by_hand(paths, shape, setting.job.copies.shifts, _followed(work, paths))
+    own, left_out = by_hand(paths, shape, setting.job.copies.shifts, _followed(work, paths))
+    setting.findings.extend(left_out)
     taken = [spans_of(path, places, shape.half) for path, places in zip(paths, own, strict=True)]
     around = work.around(work.wall)
     made = runs(paths, taken, around)
     tabs = tuple((*places, *spread(run, places, shape, around)) for run, places in zip(made, own, strict=True))
-    setting.findings.extend(about_leads(made, around, ROOM if work.operation.side is Side.OUTSIDE else 0.0))
+    setting.findings.extend(about_leads(made, around))
     if wanted.wanted:
         setting.findings.extend(about_far(paths, shape, setting.job.copies.shifts))
         setting.findings.extend(about_tabs(made, tabs, shape, work.operation))

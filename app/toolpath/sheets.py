@@ -20,12 +20,17 @@ from app.model.part import Contour, Region
 from app.model.stock_box import extent
 from app.toolpath.drawn import Drawn
 from app.toolpath.drill_holes import Hole, circle_of, hole_regions, made_by_drills
+from app.toolpath.lead import lead_size
 
 _ON_CLAMP = 2e-5
 """mm; a wall all of which is this near to a clamp's outline is the clamp's: ends that meet are put together by as much."""
 
-ROOM = 4.0
-"""Tool diameters round the drawing in which the paths outside of it lie; beyond them is nothing that concerns them."""
+_ROOM = 4.0
+"""Tool diameters round the drawing in which the paths outside of it lie, unless their leads ask for more; beyond is nothing that
+concerns them."""
+
+_SPARE = 1.0
+"""mm that the frame is farther off than the leads need."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,11 +115,18 @@ class Sheets:
         box = extent(contours)
         if box is None:
             return None
-        cuts = [operation.cut for operation in self.job.operations if operation.cut.enabled]
-        widest = max((self.job.tool(cut.tool).diameter for cut in cuts), default=1.0)
-        wide = ROOM * widest + max((cut.stock_to_leave for cut in cuts), default=0.0)
+        enabled = [operation for operation in self.job.operations if operation.cut.enabled]
+        widest = max((self.job.tool(each.cut.tool).diameter for each in enabled), default=1.0)
+        wide = _ROOM * widest + max((each.cut.stock_to_leave for each in enabled), default=0.0)
+        wide = max([wide, *(self._led(each) for each in enabled if isinstance(each, ContourOperation) and each.side is Side.OUTSIDE)])
         x0, y0, x1, y1 = box[0] - wide, box[1] - wide, box[2] + wide, box[3] + wide
         return polygon_contour([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
+
+    def _led(self, operation: ContourOperation) -> float:
+        """Return how far round the walls there is room for whole leads, also of what is roughed: they keep off the frame too, mm."""
+        tool = self.job.tool(operation.cut.tool)
+        wall = tool.radius + operation.cut.stock_to_leave + operation.finish_width
+        return 2 * wall + lead_size(operation.lead, tool) + _SPARE
 
 
 def without_clamps(contours: Sequence[Contour], clamps: Sequence[Region]) -> tuple[Region, ...]:

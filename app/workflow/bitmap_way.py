@@ -150,7 +150,8 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
     setting.findings.extend(_left_out(job))
     findings = tuple(sorted(setting.findings, key=lambda finding: not finding.counts))
     program = Program(setting.builder.moves(), part.regions, findings, setting.strokes, pitch_mm=part.frame.pitch,
-                      given_up_mm=given_up.most_mm, allowance_mm=min(given_up.most_mm, MOST_SKIN_PX * part.frame.pitch))
+                      given_up_mm=given_up.most_mm, allowance_mm=min(given_up.most_mm, MOST_SKIN_PX * part.frame.pitch),
+                      stepovers={each.index: each.distances[1] - each.distances[0] for each in paths if len(each.distances) > 1})
     return BitmapProgram(program, tuple(paths), given_up, rough)
 
 

@@ -12,6 +12,7 @@ from app.dexel.workpiece import BoxStock, Stock
 from app.errors import HitofudeError, InputError
 from app.files.drawing import read_drawing
 from app.files.job_toml import JobFile
+from app.model.entry import LONGEST_LEAD, Lead
 from app.model.finding import Finding
 from app.model.job import Copies, Job, OriginXY, OriginZ
 from app.model.job import Stock as JobStock
@@ -270,7 +271,7 @@ def _as_noted(note: OperationNote) -> Operation:
     try:
         cut = Cut(note.tool, note.depth, note.depth, note.leave, floor_to_leave=note.floor_to_leave, layers=note.layers)
         if note.kind == "contour":
-            return ContourOperation(cut, note.side)
+            return ContourOperation(cut, note.side, Lead(radius=min(note.leads, LONGEST_LEAD) or None))
         if note.kind == "drill":
             least, most, through = note.holes
             return DrillOperation(cut, None, least or None, most or None, through)
