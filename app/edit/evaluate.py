@@ -83,6 +83,8 @@ def _named(name: s.Name, scope: Scope) -> Value:
         return scope.names[name.text]
     if name.text == "pi":
         return math.pi
+    if scope.names is None:
+        raise wrong(f"'{name.text}' is no number; write a number such as 12.5 or 1in+8mm.", name.place)
     raise wrong(f"'{name.text}' has no value; say let {name.text} = … before, or write a number or a point.", name.place)
 
 
@@ -134,6 +136,8 @@ def _chained(chain: s.Chain, scope: Scope) -> Value:
 
 
 def _is_plain(operand: s.Expression) -> bool:
+    if isinstance(operand, s.Signed):
+        return _is_plain(operand.operand)
     return isinstance(operand, s.Quantity) and not operand.unit
 
 

@@ -179,7 +179,7 @@ def _left(wanted: Shape, moves: Moves, where: tuple[Job, float], progress: Progr
     tiles = uncertain(wanted, [(path.rows, path.radius) for path in paths], progress.part(0.0, 0.5))
     left, done = [], 0
     for part in _Doubt(wanted, tiles, shapely.bounds(tiles), paths).parts():
-        progress.step(0.5 + done / len(tiles) / 2, _TEXT)
+        progress.step(0.5 + done / max(len(tiles), 1) / 2, _TEXT)  # no box is in doubt where no move cuts
         left.append(part.left())
         done += len(part.tiles)
     return _solid(shapely.union_all(left))
