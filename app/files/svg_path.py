@@ -44,8 +44,8 @@ def read_path(text: str, most: int) -> Path:
         most: after this many curves the rest is left unread (and the count tells the caller).
     """
     text = text.rstrip(" \t\r\n,")
-    pen, at, command, drawn = _Pen(), 0, "", 0
-    while at < len(text):
+    pen, at, command = _Pen(), 0, ""
+    while at < len(text) and pen.drawn <= most:
         found = _COMMAND.match(text, at)
         if found:
             command, at = found[1], found.end()
@@ -56,9 +56,7 @@ def read_path(text: str, most: int) -> Path:
             break
         pen.do(command, values)
         command = {"M": "L", "m": "l"}.get(command, command)
-        at, drawn = after, drawn + 1
-        if drawn > most:
-            break
+        at = after
     pen.lift()
     return pen.path
 
@@ -85,6 +83,7 @@ class _Pen:
         self._run: list[Curve] = []
         self._here = self._first = (0.0, 0.0)
         self._handle: tuple[str, Point] = ("", (0.0, 0.0))
+        self.drawn = 0
 
     def do(self, command: str, values: list[float]) -> None:
         kind = command.upper()
@@ -102,6 +101,10 @@ class _Pen:
             self.path.runs.append(self._run)
         self._run = []
 
+    def _add(self, curve: Curve) -> None:
+        self._run.append(curve)
+        self.drawn += 1
+
     def _move(self, places: list[Point], _: list[float], __: object) -> None:
         self.lift()
         self._here = self._first = places[0]
@@ -109,7 +112,7 @@ class _Pen:
 
     def _line(self, places: list[Point], _: list[float], __: object) -> None:
         if places[0] != self._here:
-            self._run.append(Line(self._here, places[0]))
+            self._add(Line(self._here, places[0]))
         self._here = places[0]
 
     def _close(self, _: list[Point], __: list[float], ___: object) -> None:
@@ -119,7 +122,7 @@ class _Pen:
     def _bezier(self, places: list[Point], _: list[float], __: object) -> None:
         degree = len(places)
         if any(place != self._here for place in places):
-            self._run.append(Spline(degree, (self._here, *places), BEZIER_KNOTS[degree]))
+            self._add(Spline(degree, (self._here, *places), BEZIER_KNOTS[degree]))
         self._handle = ("C" if degree == 3 else "Q", places[-2])
         self._here = places[-1]
 
@@ -132,7 +135,7 @@ class _Pen:
     def _arc(self, places: list[Point], values: list[float], _: object) -> None:
         end = places[-1]
         if end != self._here:
-            self._run.append(arc_between(self._here, end, values[:5]))
+            self._add(arc_between(self._here, end, values[:5]))
         self._here = end
 
     _DO: ClassVar[dict[str, Callable[[_Pen, list[Point], list[float], tuple[str, Point]], None]]] = {

@@ -25,6 +25,7 @@ SODIPODI = "http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd"
 _LINK = "http://www.w3.org/1999/xlink href"
 _NOT_CURVES = ("text", "image", "foreignObject", "flowRoot", "video", "audio", "iframe", "canvas")
 BLACK = "#000000"
+_TOO_MUCH = f"the drawing unfolds to more than {MOST_CURVES} curves; use fewer copies, or save it in parts"
 _BREAK = re.compile(r"[\x00-\x1f]+")
 
 
@@ -97,7 +98,6 @@ class Walker:
             self._ids.setdefault(node.attributes.get("id", ""), node)
             self._named_layers |= _is_layer(node)
         self._open: list[int] = []
-        self._seen = 0
 
     def sheet(self, to: Affine, view: View) -> Sheet:
         """Return what the file draws.
@@ -109,17 +109,37 @@ class Walker:
         Raises:
             InputError: a transform or a viewBox cannot be read; uses go in a circle, too deep, or unfold to too much.
         """
+        self._size(self._root, {}, 0)
         self._children(self._root.children, State(to, view, self._styles.style(self._root, Style())))
         return self._sheet
+
+    def _size(self, node: Node, known: dict[int, tuple[int, int]], depth: int) -> tuple[int, int]:
+        """Return how many elements an element unfolds to, with all copies, and in how many levels; a copy of itself counts once.
+
+        Raises:
+            InputError: there are too many of either.
+        """
+        if id(node) not in known and depth <= DEEPEST + 1:
+            known[id(node)] = (1, 1)
+            target = self._target(node) if node.tag == "use" else None
+            inner = [self._size(child, known, depth + 1) for child in ([target] if target else node.children)]
+            known[id(node)] = 1 + sum(count for count, _ in inner), 1 + max((levels for _, levels in inner), default=0)
+        count, levels = known.get(id(node), (1, 1))
+        if count > MOST_CURVES:
+            self._refuse(node, _TOO_MUCH)
+        if depth + levels > DEEPEST + 2:  # the root, and a copy in the deepest element
+            self._refuse(node, f"copies of copies are nested deeper than {DEEPEST} levels; unlink some and save again")
+        return count, levels
+
+    def _target(self, use: Node) -> Node | None:
+        link = use.attributes.get("href", use.attributes.get(_LINK, "")).strip()
+        return self._ids.get(link[1:]) if link.startswith("#") and len(link) > 1 else None
 
     def _children(self, nodes: Iterable[Node], state: State) -> None:
         for node in nodes:
             self._one(node, state)
 
     def _one(self, node: Node, outer: State) -> None:
-        self._seen += 1
-        if self._seen > MOST_CURVES or len(self._sheet.curves) > MOST_CURVES:
-            self._refuse(node, f"the drawing unfolds to more than {MOST_CURVES} curves; use fewer copies, or save it in parts")
         if node.tag in _NOT_CURVES:
             self._sheet.left_out[node.tag] += 1
         elif node.tag in SHAPES or node.tag in _CONTAINERS:
@@ -159,15 +179,12 @@ class Walker:
         return next((label for label in labels if label.strip()), "layer" if self._named_layers else "")
 
     def _use(self, node: Node, state: State) -> None:
-        link = node.attributes.get("href", node.attributes.get(_LINK, "")).strip()
-        target = self._ids.get(link[1:]) if link.startswith("#") and len(link) > 1 else None
+        target = self._target(node)
         if target is None:
             self._sheet.left_out["use of what is not in the file"] += 1
             return
         if id(target) in self._open:
-            self._refuse(node, f"{link} is used in itself; break the loop and save again")
-        if state.depth + len(self._open) >= DEEPEST:
-            self._refuse(node, f"copies of copies are nested deeper than {DEEPEST} levels; unlink some and save again")
+            self._refuse(node, f"#{target.attributes['id'][:60]} is used in itself; break the loop and save again")
         x, y = self._measured(node, ("x", "y"), state, (0.0, 0.0))
         state = replace(state, to=state.to.after(Affine(x0=x, y0=y)), copied=True)
         self._open.append(id(target))
@@ -219,6 +236,8 @@ class Walker:
         note.inks |= {style.ink or BLACK} if style.stroke != "none" else set()
         sheet.clipped += style.clipped
         sheet.curves += [(curve, layer) for curve in curves]
+        if len(sheet.curves) > MOST_CURVES:
+            self._refuse(node, _TOO_MUCH)
 
     def _placed(self, node: Node, drawn: Path, to: Affine) -> list[Curve]:
         """Return the curves in the drawing; notes the place of a shape that draws nothing."""
