@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import NoReturn
 
+from app import tolerances
 from app.errors import InputError
 from app.files.drawing_account import MOST_CURVES
 from app.files.dxf_affine import Affine, transformed
@@ -17,7 +19,7 @@ from app.files.svg_path import Path
 from app.files.svg_shapes import SHAPES, View, measure, shape
 from app.files.svg_style import Style, StyleSheet
 from app.files.svg_xml import DEEPEST, Node
-from app.model.curves import Circle, Curve, Ellipse, Point
+from app.model.curves import Circle, Curve, Ellipse, Line, Point
 from app.model.part import Layer
 
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
@@ -223,6 +225,8 @@ class Walker:
             return
         try:
             drawn = shape(node, state.view, MOST_CURVES)
+            if drawn is not None and style.stroke == "none":
+                drawn.runs = [_area(run) for run in drawn.runs]
             curves = self._placed(node, drawn, state.to) if drawn is not None else []
         except (ValueError, ArithmeticError):  # numbers that are none, or beyond all measure
             sheet.left_out[f"{node.tag} (damaged)"] += 1
@@ -245,7 +249,8 @@ class Walker:
         for run in drawn.runs:
             moved = [transformed(curve, to) for curve in run]
             self._sheet.nothing += [to.point(curve.start) for curve, there in zip(run, moved, strict=True) if there is None]
-            curves += joined([curve for curve in moved if curve is not None])
+            seen = [curve for curve in moved if curve is not None]
+            curves += joined([curve for curve in seen if not _is_point(curve)] or seen[:1])
         if not any(drawn.runs):
             self._sheet.nothing.append(to.point(drawn.start) if drawn.start is not None else None)
         return [_forward(curve) for curve in curves] if node.tag in ("circle", "ellipse") else curves
@@ -259,6 +264,18 @@ def _forward(curve: Curve) -> Curve:
     if isinstance(curve, Ellipse):
         return Ellipse(curve.centre, curve.major, curve.ratio)
     return Circle(curve.centre, curve.radius) if isinstance(curve, Circle) else curve
+
+
+def _is_point(curve: Curve) -> bool:
+    """True for a line between points that are one, as rounding leaves them where a path is closed."""
+    return isinstance(curve, Line) and math.dist(curve.start, curve.end) < tolerances.WELD
+
+
+def _area(run: list[Curve]) -> list[Curve]:
+    """Return the outline of what a fill paints: an open run is closed by a line, unless it is but one line itself."""
+    if not run or run[0].start == run[-1].end or (len(run) == 1 and isinstance(run[0], Line)):
+        return run
+    return [*run, Line(run[-1].end, run[0].start)]
 
 
 def _is_layer(node: Node) -> bool:

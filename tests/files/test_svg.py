@@ -33,7 +33,7 @@ def one(body: str, page: str = PAGE) -> Curve:
 
 def path(d: str) -> list[Curve]:
     """Curves of path data, y downwards as in the file."""
-    return curves(f'<path d="{d}" transform="matrix(1 0 0 -1 0 100)"/>')
+    return curves(f'<path d="{d}" stroke="red" transform="matrix(1 0 0 -1 0 100)"/>')
 
 
 def near(p: Point) -> object:
@@ -155,7 +155,7 @@ def test_basic_shapes() -> None:
     assert isinstance(ellipse, Ellipse) and ellipse.centre == (50, 60) and ellipse.ratio == pytest.approx(0.5)
     assert abs(ellipse.major[1]) == pytest.approx(14)
     assert one('<ellipse cx="50" cy="40" rx="7"/>') == Circle((50, 60), 7)
-    assert len(curves('<polygon points="0,0 10,0 10,10"/>')) == 3 and len(curves('<polyline points="0,0 10,0 10,10"/>')) == 2
+    assert len(curves('<polygon points="0,0 10,0 10,10"/>')) == 3 and len(curves('<polyline points="0,0 10,0 10,10" stroke="red"/>')) == 2
     assert curves('<rect x="10" y="20" width="30" height="40"/>') == [
         Line((10, 80), (40, 80)), Line((40, 80), (40, 40)), Line((40, 40), (10, 40)), Line((10, 40), (10, 80))]
 
@@ -205,11 +205,11 @@ def test_groups_nest() -> None:
 
 
 def test_mirrored_and_stretched_arcs() -> None:
-    turned = one('<path d="M5 0A5 5 0 0 1 0 5" transform="rotate(30)scale(2)"/>')
+    turned = one('<path stroke="red" d="M5 0A5 5 0 0 1 0 5" transform="rotate(30)scale(2)"/>')
     assert isinstance(turned, Arc) and turned.radius == pytest.approx(10) and not turned.ccw
-    mirrored = one('<path d="M5 0A5 5 0 0 1 0 5" transform="scale(-1,1)"/>')
+    mirrored = one('<path stroke="red" d="M5 0A5 5 0 0 1 0 5" transform="scale(-1,1)"/>')
     assert isinstance(mirrored, Arc) and mirrored.ccw and mirrored.end == near((0, 95))
-    stretched = one('<path d="M5 0A5 5 0 0 1 0 5" transform="scale(2,1)"/>')
+    stretched = one('<path stroke="red" d="M5 0A5 5 0 0 1 0 5" transform="scale(2,1)"/>')
     assert isinstance(stretched, Ellipse) and stretched.start == near((10, 100)) and stretched.end == near((0, 95))
     skewed = one('<circle r="5" transform="skewX(30)"/>')
     assert isinstance(skewed, Ellipse)
@@ -282,7 +282,19 @@ def test_a_path_is_drawn_up_to_its_fault() -> None:
         faults = [f for f in drawing.findings if f.counts]
         assert [(f.amount, "line 2" in f.text) for f in faults] == ([] if d.endswith(",") else [(1, True)]), d
     assert len(read('<circle r="1"/><path d="L5 5"/>').part.entities) == 1
-    assert len(read('<polyline points="0 0 1 0 2 0 3"/>').part.entities) == 2
+    assert len(read('<polyline stroke="red" points="0 0 1 0 2 0 3"/>').part.entities) == 2
+
+
+def test_what_is_only_filled_is_a_closed_outline() -> None:
+    """A fill closes what it paints; an outline stays as open as it is drawn."""
+    assert len(curves('<polyline points="0,0 10,0 10,10"/>')) == 3 and len(curves('<path d="M0 0C0 9 9 9 9 0M20 0h5v5z"/>')) == 5
+    assert curves('<path d="M0 0h5"/>') == [Line((0, 100), (5, 100))]
+
+
+def test_a_path_that_ends_where_it_began_but_for_rounding_is_closed_without_more() -> None:
+    drawing = read('<path stroke="red" d="M0.1 0.2l0.1 0 0 0.1-0.1 0 0-0.1z"/>')
+    assert len(drawing.part.entities) == 4 and not drawing.findings
+    assert read('<circle r="1"/><path stroke="red" d="M5 5l1e-9 0 0 1e-9"/>').findings[0].amount == 1
 
 
 def test_a_clip_is_told() -> None:
