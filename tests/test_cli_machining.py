@@ -113,15 +113,18 @@ def test_no_effect_is_bad_usage(arguments: str, words: str, tmp_path: Path, caps
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("way", [[], ["--bitmap", "200"]], ids=["exact", "bitmap"])
 @pytest.mark.parametrize(("text", "words"), [
     ("[[operation]]\nkind = 'pocket'\ntool = 1\nenabled = false\n", "every operation of the job is switched off, so nothing is cut"),
     ("[[tool]]\nnumber = 1\ndiameter = 6\nkind = 'drill'\n[[operation]]\nkind = 'pocket'\ntool = 1\n",
      "T1 is a drill, which cannot cut sideways"),
 ])  # fmt: skip
-def test_job_files_that_cut_nothing_are_bad_usage(text: str, words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_job_files_that_cut_nothing_are_bad_usage(
+    text: str, words: str, way: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
     job = tmp_path / "job.toml"
     job.write_text(text, "utf-8")
-    assert main(["make", str(FIG2), "-o", str(tmp_path / "out.ngc"), "--job", str(job)]) == 2
+    assert main(["make", str(FIG2), "-o", str(tmp_path / "out.ngc"), "--job", str(job), *way]) == 2
     shown = capsys.readouterr()
     assert (shown.out, shown.err.count("\n")) == ("", 1)
     assert words in shown.err

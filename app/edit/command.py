@@ -2,27 +2,45 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from itertools import count
 
-from app.edit.move import moved_curve
+from app.edit.syntax import Define
+from app.edit.transform import Similarity, transformed
+from app.edit.values import Scope, Value
 from app.errors import InputError
-from app.model.curves import Curve, Point
+from app.model.curves import Curve, Point, reversed_curve
 from app.model.part import Entity, Layer, Part
 
 
 @dataclass(frozen=True, slots=True)
-class Context:
-    """What a line may refer to without saying it.
+class Session:
+    """What a line of the language may refer to without saying it, and what it leaves for the next one.
 
     Attributes:
-        last: the point given last; a line that begins with `@` starts from it, mm.
+        last: the point given last; coordinates that begin with `@` start from it, mm.
         layer: where new curves go.
         selection: ids that `delete` and `move` mean when none are written.
+        names: what `let` and `as` have named. commands: what `define` has made.
     """
 
+    part: Part = field(default_factory=Part)
     last: Point = (0.0, 0.0)
     layer: str = "0"
     selection: frozenset[int] = frozenset()
+    names: Mapping[str, Value] = field(default_factory=dict)
+    commands: Mapping[str, Define] = field(default_factory=dict)
+
+    @property
+    def scope(self) -> Scope:
+        """What its expressions may refer to."""
+        return Scope(self.names, self.last, self.part)
+
+    def with_part(self, part: Part) -> Session:
+        """Return the session with another drawing; what has gone is no longer selected."""
+        kept = self.selection & {e.id for e in part.entities} if self.selection else self.selection
+        return replace(self, part=part, selection=kept)
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +55,6 @@ class Draw:
 
     name: str
     curves: tuple[Curve, ...]
-    layer: str
     figures: str
     last: Point
 
@@ -46,11 +63,9 @@ class Draw:
         """A short sentence for the log."""
         return f"{self.name}, {self.figures}."
 
-    def apply(self, part: Part) -> Part:
-        """Return the part with the curves added, on fresh ids."""
-        first = part.next_id()
-        new = tuple(Entity(first + n, curve, self.layer) for n, curve in enumerate(self.curves))
-        return part.with_entities(part.entities + new)
+    def carried_out(self, session: Session) -> Session:
+        """Return the session with the curves added, on fresh ids."""
+        return replace(session, part=session.part.with_curves(self.curves, session.layer), last=self.last)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,38 +80,101 @@ class Delete:
         """A short sentence for the log."""
         return f"{len(self.ids)} deleted."
 
-    def apply(self, part: Part) -> Part:
-        """Return the part without these entities.
+    def carried_out(self, session: Session) -> Session:
+        """Return the session without these entities.
 
         Raises:
             InputError: an id that the part does not have.
         """
+        part = session.part
         check_ids(part, self.ids)
-        return replace(part, entities=tuple(e for e in part.entities if e.id not in self.ids))
+        kept = tuple(e for e in part.entities if e.id not in self.ids)
+        return session.with_part(replace(part, entities=kept, used_id=part.next_id() - 1))
 
 
 @dataclass(frozen=True, slots=True)
-class Move:
-    """Shift curves by a vector, mm."""
+class Transform:
+    """Map curves by similarities of the plane: onto one place, or onto several as copies.
+
+    Attributes:
+        maps: one for each place; where `keep` is False there is one, and the curves themselves go there.
+        keep: the curves stay and copies go to the places.
+    """
 
     ids: frozenset[int]
-    by: Point
-    name: str = "Move"
+    maps: tuple[Similarity, ...]
+    name: str
+    keep: bool = False
 
     @property
     def reply(self) -> str:
         """A short sentence for the log."""
-        return f"{len(self.ids)} moved by {self.by[0]:.3f}, {self.by[1]:.3f}."
+        return f"{len(self.ids)} curves, {len(self.maps)} copies." if self.keep else f"{len(self.ids)} curves."
 
-    def apply(self, part: Part) -> Part:
-        """Return the part with these entities shifted.
+    def carried_out(self, session: Session) -> Session:
+        """Return the session with the curves at their places.
 
         Raises:
             InputError: an id that the part does not have.
         """
+        part = session.part
         check_ids(part, self.ids)
-        return replace(part, entities=tuple(
-            replace(e, curve=moved_curve(e.curve, self.by)) if e.id in self.ids else e for e in part.entities))
+        if not self.keep:
+            return replace(session, part=replace(part, entities=tuple(
+                replace(e, curve=transformed(e.curve, self.maps[0])) if e.id in self.ids else e for e in part.entities)))
+        chosen = [e for e in part.entities if e.id in self.ids]
+        ids = count(part.next_id())
+        copies = tuple(replace(e, id=next(ids), curve=transformed(e.curve, to)) for to in self.maps for e in chosen)
+        return replace(session, part=part.with_entities(part.entities + copies))
+
+
+@dataclass(frozen=True, slots=True)
+class Rework:
+    """Put other curves in the place of some.
+
+    Attributes:
+        pieces: by id what each becomes: the first piece keeps the id, the others follow it, none takes it away.
+        added: (id, curve): new curves on the layers of these entities.
+    """
+
+    pieces: Mapping[int, tuple[Curve, ...]]
+    name: str
+    reply: str
+    added: tuple[tuple[int, Curve], ...] = ()
+
+    def carried_out(self, session: Session) -> Session:
+        """Return the session with the pieces, on fresh ids but for the first of each."""
+        part, entities, fresh = session.part, list[Entity](), session.part.next_id()
+        layers = {e.id: e.layer for e in part.entities}
+        for entity in part.entities:
+            for number, curve in enumerate(self.pieces.get(entity.id, (entity.curve,))):
+                entities.append(replace(entity, id=entity.id if number == 0 else fresh, curve=curve))
+                fresh += number > 0
+        entities += [Entity(fresh + number, curve, layers[near]) for number, (near, curve) in enumerate(self.added)]
+        return session.with_part(replace(part.with_entities(tuple(entities)), used_id=fresh + len(self.added) - 1))
+
+
+@dataclass(frozen=True, slots=True)
+class Reverse:
+    """Let curves run the other way."""
+
+    ids: frozenset[int]
+    name: str = "Reverse"
+
+    @property
+    def reply(self) -> str:
+        """A short sentence for the log."""
+        return f"{len(self.ids)} reversed."
+
+    def carried_out(self, session: Session) -> Session:
+        """Return the session with these entities reversed.
+
+        Raises:
+            InputError: an id that the part does not have.
+        """
+        check_ids(session.part, self.ids)
+        return replace(session, part=replace(session.part, entities=tuple(
+            replace(e, curve=reversed_curve(e.curve)) if e.id in self.ids else e for e in session.part.entities)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,18 +190,46 @@ class SetLayer:
         """A short sentence for the log."""
         return f"{len(self.ids)} put on layer {self.layer}." if self.ids else f"Layer {self.layer} is current."
 
-    def apply(self, part: Part) -> Part:
-        """Return the part that has the layer.
+    def carried_out(self, session: Session) -> Session:
+        """Return the session that has the layer.
 
         Raises:
             InputError: an id that the part does not have.
         """
+        part = session.part
         check_ids(part, self.ids)
         if all(layer.name != self.layer for layer in part.layers):
             part = replace(part, layers=(*part.layers, Layer(self.layer)))
         if not self.ids:
-            return part
-        return replace(part, entities=tuple(replace(e, layer=self.layer) if e.id in self.ids else e for e in part.entities))
+            return replace(session, part=part, layer=self.layer)
+        return replace(session, part=replace(part, entities=tuple(
+            replace(e, layer=self.layer) if e.id in self.ids else e for e in part.entities)))
+
+
+@dataclass(frozen=True, slots=True)
+class SetLook:
+    """Show or hide a layer, lock or unlock it, or give it a colour.
+
+    Attributes:
+        change: the attributes of `Layer` that become other, with their values.
+    """
+
+    layer: str
+    change: Mapping[str, str | bool]
+    reply: str
+    name: str = "Layer"
+
+    def carried_out(self, session: Session) -> Session:
+        """Return the session with the layer changed.
+
+        Raises:
+            InputError: there is no such layer.
+        """
+        layers = session.part.layers
+        if all(layer.name != self.layer for layer in layers):
+            raise InputError(f"There is no layer {self.layer}; the drawing has {', '.join(layer.name for layer in layers)}.")
+        changed = tuple(replace(layer, **self.change) if layer.name == self.layer else layer for layer in layers)  # type: ignore[arg-type]
+        return replace(session, part=replace(session.part, layers=changed))
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,8 +242,8 @@ class Redo:
     """Do again what was taken back."""
 
 
-Edit = Draw | Delete | Move | SetLayer
-"""Commands that make a new part; each has a name, a reply and `apply(part) -> part`."""
+Edit = Draw | Delete | Transform | Rework | Reverse | SetLayer | SetLook
+"""Commands that change the drawing; each has a name, a reply and `carried_out(session) -> session`."""
 
 
 def check_ids(part: Part, ids: frozenset[int]) -> None:

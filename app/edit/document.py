@@ -7,14 +7,17 @@ from dataclasses import dataclass, replace
 from enum import Flag, auto
 from pathlib import Path
 
-from app.edit.command import Context, Draw, Redo, SetLayer, Undo
+from app.edit.command import Session
 from app.edit.errors import CommandError
+from app.edit.grammar import read_script
 from app.edit.history import History, State
-from app.edit.language import Command, parse
-from app.edit.select import Select
+from app.edit.interpret import Interpreter, Outcome
+from app.edit.language import command_word
+from app.edit.syntax import Command, Statement
 from app.errors import InputError
 from app.model.job import Job
 from app.model.part import Part
+from app.progress import NO_PROGRESS, Progress
 
 
 class Change(Flag):
@@ -105,15 +108,26 @@ class Document:
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener) if listener in self._listeners else None
 
+    @property
+    def session(self) -> Session:
+        """What the next line may refer to."""
+        state = self._history.state
+        return Session(state.job.part, state.last, state.layer, self.selection, state.names, state.commands)
+
     def run(self, line: str) -> str:
-        """Carry out one line of the drawing language and return the reply; line and reply go to the log.
+        """Carry out a line of the shape language, or a block of lines, and return the reply; both go to the log.
+
+        What it changes is undone together.
 
         Raises:
             InputError: the line cannot be read or carried out; nothing has changed.
         """
         line = line.strip()
         try:
-            reply, change = self._carry_out(parse(line, Context(self.last_point, self.layer, self.selection)))
+            statements = read_script(line)
+            if not statements:
+                raise CommandError("The line ends too early; a command such as line, arc, circle or rect is expected.")
+            reply, change = self._carry_out(statements, Interpreter())
         except InputError as error:
             self.log.append(LogLine(line, str(error), error=True))
             self._tell(Change.LOG)
@@ -122,22 +136,24 @@ class Document:
         self._tell(change | Change.LOG)
         return reply
 
-    def run_script(self, text: str, name: str = "script") -> None:
-        """Carry out a list of lines; `#` begins a remark, empty lines count for nothing.
+    def run_script(self, text: str, name: str = "script", progress: Progress = NO_PROGRESS) -> None:
+        """Carry out a whole text of the shape language, statement by statement, each undone by itself.
 
         Raises:
-            InputError: names the file and the line that failed; the lines before it have been carried out.
+            InputError: names the file, the line and the column of what failed; nothing has been carried out where the
+                text cannot be read, else what stands before it has.
         """
-        for number, line in enumerate(text.splitlines(), start=1):
-            command = line.split("#", 1)[0].strip()
-            if not command:
-                continue
-            try:
-                self.run(command)
-            except CommandError as error:
-                raise InputError(f"{name}:{number}: column {error.column}: {error.reason}") from error
-            except InputError as error:
-                raise InputError(f"{name}:{number}: {error}") from error
+        interpreter = Interpreter(progress)
+        try:
+            statements = read_script(text)
+            for number, statement in enumerate(statements):
+                interpreter.fraction = number / len(statements)
+                reply, change = self._carry_out((statement,), interpreter)
+                place = statement.place
+                self.log.append(LogLine(text[place.start:place.end], reply))
+                self._tell(change | Change.LOG)
+        except CommandError as error:
+            raise InputError(f"{name}:{error.line}: column {error.column}: {error.reason}") from error
 
     def change_job(self, name: str, job: Job, merge: bool = False) -> None:
         """Replace the job: tools, operations, stock, …
@@ -180,24 +196,27 @@ class Document:
             self.selection = chosen
             self._tell(Change.SELECTION)
 
-    def _carry_out(self, command: Command) -> tuple[str, Change]:
-        if isinstance(command, Undo | Redo):
-            return self._step(command)
-        if isinstance(command, Select):
-            self.selection = command.resolve(self.part, self.selection)
-            return f"{len(self.selection)} selected.", Change.SELECTION
-        part = command.apply(self.part)
-        state = replace(self._history.state, job=replace(self.job, part=part) if part is not self.part else self.job)
-        if isinstance(command, Draw):
-            state = replace(state, last=command.last)
-        elif isinstance(command, SetLayer) and not command.ids:
-            state = replace(state, layer=command.layer)
-        self._history.change(command.name, state)
-        return command.reply, self._after(part_changed=True)
+    def _carry_out(self, statements: tuple[Statement, ...], interpreter: Interpreter) -> tuple[str, Change]:
+        if len(statements) == 1 and (step := _step_word(statements[0])):
+            return self._step(back=step == "undo")
+        before = self.session
+        outcome = Outcome(before, "", "")
+        for statement in statements:
+            outcome = interpreter.carry_out(statement, outcome.session)
+        after = outcome.session
+        name = outcome.name if len(statements) == 1 else f"{len(statements)} statements"
+        if after == replace(before, selection=after.selection):
+            self.selection = after.selection
+            return outcome.reply, Change.SELECTION
+        part_changed = after.part is not before.part
+        job = replace(self.job, part=after.part) if part_changed else self.job
+        self._history.change(name, State(job, after.layer, after.last, after.names, after.commands))
+        selected, self.selection = self.selection, after.selection
+        change = self._after(part_changed)
+        return outcome.reply, change | (Change.SELECTION if selected != self.selection else Change(0))
 
-    def _step(self, command: Undo | Redo) -> tuple[str, Change]:
+    def _step(self, back: bool) -> tuple[str, Change]:
         before = self.job
-        back = isinstance(command, Undo)
         name = self._history.undo() if back else self._history.redo()
         if name is None:
             return ("Nothing to undo." if back else "Nothing to redo."), Change.HISTORY
@@ -217,6 +236,12 @@ class Document:
     def _tell(self, change: Change) -> None:
         for listener in tuple(self._listeners):
             listener(change)
+
+
+def _step_word(statement: Statement) -> str:
+    """Return undo or redo when a statement is that, else ""."""
+    word = command_word(statement.word.text) if isinstance(statement, Command) and not statement.arguments else None
+    return word if word in ("undo", "redo") else ""
 
 
 def _first_state(job: Job) -> State:

@@ -6,15 +6,16 @@ from app.errors import InputError
 
 
 class CommandError(InputError):
-    """A line of the drawing language is wrong at one place.
+    """A text of the drawing language is wrong at one place.
 
     Attributes:
         reason: what was found, what was expected, what to do; a sentence.
-        column: 1-based column in the line where reading stopped.
+        column, line: 1-based, where reading stopped.
     """
 
-    def __init__(self, reason: str, column: int = 1) -> None:
-        """Say what is wrong and in which column."""
-        super().__init__(f"Column {column}: {reason}")
+    def __init__(self, reason: str, column: int = 1, line: int = 1) -> None:
+        """Say what is wrong and where."""
+        super().__init__(f"{f'Line {line}, column' if line > 1 else 'Column'} {column}: {reason}")
         self.reason = reason
         self.column = column
+        self.line = line

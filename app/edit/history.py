@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
+from app.edit.syntax import Define
+from app.edit.values import Value
 from app.model.curves import Point
 from app.model.job import Job
 
@@ -17,11 +20,14 @@ class State:
     Attributes:
         layer: where new curves go.
         last: the point given last, mm.
+        names: what the shape language has named. commands: what it has defined.
     """
 
     job: Job
     layer: str = "0"
     last: Point = (0.0, 0.0)
+    names: Mapping[str, Value] = field(default_factory=dict)
+    commands: Mapping[str, Define] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

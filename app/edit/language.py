@@ -1,35 +1,57 @@
-"""The drawing language: one line, one action.
+"""The shape language: a drawing in words, a command a line.
 
-    line x,y x,y [x,y …] [close]              li
-    polyline x,y x,y [arc via end] … [close]  pl    lines, and arcs by way of a point
-    arc x,y x,y centre x,y [cw]               ar    start, end, centre
-    arc x,y x,y x,y                                 start, by way of, end
-    circle x,y r                              ci
-    rect x,y x,y                              re
-    select all | none | ID … | window x,y x,y | crossing x,y x,y | layer NAME     (before it: add, remove)
-    delete [ID …]   move @dx,dy [ID …]   layer NAME [ID …]   undo   redo
+    line P P [P …] [close]                  li
+    polyline P P [arc via end] … [close]    pl    lines, and arcs by way of a point
+    arc P P centre P [cw]                   ar    start, end, centre
+    arc P P radius r [cw] [large]                 start, end, radius
+    arc P P P                                     start, by way of, end
+    arc on P                                      onward from the curve drawn last, without a corner
+    circle P r                              ci    also: circle P through P, circle diameter P P, circle through P P P
+    rect P P [round r]                      re
+    polygon n P P                           pg    corners, centre, a corner; with side before the last point: the middle of a side
+    slot P P width                          sl
+    ellipse P P half [from a to a] [cw]     el    centre, end of a half axis, length of the other
+    spline P P P … [close]                  sp    through points
+    spline degree n P P … [knots k …] [weights w …]    by control points
 
-A point is `x,y`, `@dx,dy` or `@r<angle`; numbers take units and arithmetic (`1in+8mm`) and are mm without a unit.
+    select all | none | CURVES | window P P | crossing P P | layer NAME     (before it: add, remove)
+    delete [CURVES]     reverse [CURVES]     layer NAME [CURVES]     undo     redo
+    hide NAME     show NAME     lock NAME     unlock NAME     colour NAME "#rrggbb" | none     (of layers)
+    move @dx,dy [CURVES]     copy @dx,dy [times n] [CURVES]
+    rotate P angle [copy] [CURVES]     scale P factor [copy] [CURVES]     mirror P P [copy] [CURVES]
+    array n n @dx,dy [CURVES]     array polar P n [over angle] [CURVES]
+
+    trim CURVE P [by CURVES]     extend CURVE P [to CURVES]     break CURVE P [P]     offset d P [CURVES]
+    fillet r CURVE [P] CURVE [P]     fillet r CURVES     chamfer d [and d] CURVE [P] CURVE [P]     chamfer d CURVES
+
+    let w = 60 + 2     let p = mid(a, b)     circle p w/4 as hole
+    repeat 6 as i … end     if w > 50 … else … end     define bolt(c, r) … end
+
+P is `x,y`, `r<angle`, `@dx,dy`, `@r<angle`, or anything that is a point. CURVES are numbers such as 4 7-9 and names given by
+`as`; without any what is selected is meant. Numbers take units and arithmetic (`1in+8mm`) and are mm and degrees without a
+unit; functions are those of `functions`.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 
-from app.edit.command import Context, Delete, Draw, Edit, Move, Redo, SetLayer, Undo
-from app.edit.errors import CommandError
-from app.edit.select import By, How, Select
-from app.edit.shapes import arc_about, arc_through, circle, curve_length, lines_through, rectangle
-from app.edit.words import Words, read_point
-from app.errors import InputError
-from app.model.curves import Arc, Line, Point
+from app.edit import read_draw as draw
+from app.edit import read_edit as edit
+from app.edit import read_rework as rework
+from app.edit import syntax
+from app.edit.arguments import Arguments
+from app.edit.command import Edit, Redo, Session, Undo
+from app.edit.select import Select
+from app.edit.values import wrong
 
 Command = Edit | Select | Undo | Redo
 
 ALIASES = {
     "li": "line", "l": "line", "pl": "polyline", "ar": "arc", "a": "arc", "ci": "circle", "c": "circle", "re": "rect",
     "rectangle": "rect", "del": "delete", "erase": "delete", "mo": "move", "se": "select", "la": "layer", "u": "undo",
+    "pg": "polygon", "sl": "slot", "el": "ellipse", "sp": "spline", "co": "copy", "ro": "rotate", "mi": "mirror", "tr": "trim",
+    "ex": "extend", "br": "break", "fi": "fillet", "cha": "chamfer", "o": "offset", "color": "colour",
 }
 """Short and other words for the commands."""
 
@@ -41,124 +63,32 @@ def command_word(text: str) -> str | None:
     return word if word in _READERS else None
 
 
-def parse(line: str, context: Context | None = None) -> Command:
-    """Return the command that a line of the drawing language asks for.
-
-    Args:
-        line: one line, without a comment.
-        context: what the line may refer to; by default an empty drawing.
+def read(written: syntax.Command, session: Session) -> Command:
+    """Return what a command asks for.
 
     Raises:
-        InputError: the line cannot be read or asks for a shape that is none; a CommandError tells the column.
+        InputError: it cannot be read or asks for a shape that is none; a CommandError tells the place.
     """
-    context = context or Context()
-    words = Words(line, context.last)
-    column = words.column
-    word = words.take("a command such as line, arc, circle or rect").text.lower()
-    read = _READERS.get(ALIASES.get(word, word))
-    if read is None:
-        raise CommandError(f"'{word}' is no command; use {', '.join(_READERS)}.", column)
-    command = read(words, context)
+    word = written.word.text.lower()
+    reader = _READERS.get(ALIASES.get(word, word))
+    if reader is None:
+        raise wrong(f"'{word}' is no command; use {', '.join(_READERS)}.", written.place)
+    words = Arguments(written, session.scope)
+    command = reader(words, session)
     words.end()
     return command
 
 
-def _line(words: Words, context: Context) -> Draw:
-    points = [words.point(), words.point(), *words.points()]
-    close = bool(words.accept("close"))
-    curves = lines_through(points, close)
-    total = sum(map(curve_length, curves))
-    figures = f"{total:.3f} mm" if len(curves) == 1 else f"{len(curves)} sides, {total:.3f} mm"
-    return Draw("Line", curves, context.layer, figures, curves[-1].end)
-
-
-def _polyline(words: Words, context: Context) -> Draw:
-    first = at = words.point()
-    curves: list[Line | Arc] = []
-    while words.more:
-        if words.accept("close"):
-            curves += lines_through([at, first]) if at != first else ()
-            break
-        if words.accept("arc"):
-            curves.append(arc_through(at, words.point("a point on the arc"), words.point("the end of the arc")))
-        else:
-            curves += lines_through([at, words.point()])
-        at = curves[-1].end
-    if not curves:
-        raise CommandError("A polyline needs two points or more; write polyline x,y x,y.", words.column)
-    total = sum(map(curve_length, curves))
-    return Draw("Polyline", tuple(curves), context.layer, f"{len(curves)} segments, {total:.3f} mm", curves[-1].end)
-
-
-def _arc(words: Words, context: Context) -> Draw:
-    start, second = words.point(), words.point()
-    if words.accept("centre", "center"):
-        words.last = start
-        centre = words.point("the centre x,y")
-        curve = arc_about(start, second, centre, ccw=not words.accept("cw"))
-        words.accept("ccw")
-    else:
-        curve = arc_through(start, second, words.point("the end of the arc, or centre x,y,"))
-    figures = f"radius {curve.radius:.3f} mm, {abs(math.degrees(curve.sweep)):.2f}°"
-    return Draw("Arc", (curve,), context.layer, figures, curve.end)
-
-
-def _circle(words: Words, context: Context) -> Draw:
-    centre = words.point("the centre x,y")
-    curve = circle(centre, words.length("the radius"))
-    return Draw("Circle", (curve,), context.layer, f"radius {curve.radius:.3f} mm", centre)
-
-
-def _rect(words: Words, context: Context) -> Draw:
-    a, b = words.point("a corner x,y"), words.point("the opposite corner x,y")
-    return Draw("Rectangle", rectangle(a, b), context.layer, f"{abs(b[0] - a[0]):.3f} by {abs(b[1] - a[1]):.3f} mm", b)
-
-
-def _chosen(words: Words, context: Context, verb: str) -> frozenset[int]:
-    ids = frozenset(words.ids()) or context.selection
-    if not ids:
-        raise InputError(f"Nothing is selected; select what to {verb}, or write its numbers after the command.")
-    return ids
-
-
-def _delete(words: Words, context: Context) -> Delete:
-    return Delete(_chosen(words, context, "delete"))
-
-
-def _move(words: Words, context: Context) -> Move:
-    word = words.take("the shift @dx,dy")
-    if not word.text.startswith("@"):
-        raise CommandError(f"'{word.text}' is no shift; write @dx,dy or @r<angle.", word.column)
-    by = read_point(word.text, (0.0, 0.0), word.column)
-    return Move(_chosen(words, context, "move"), by)
-
-
-def _layer(words: Words, context: Context) -> SetLayer:
-    name = words.name("the name of a layer").strip()
-    if not name:
-        raise CommandError("The name of the layer is empty; write a name.", words.column)
-    return SetLayer(name, frozenset(words.ids()))
-
-
-def _select(words: Words, context: Context) -> Select:
-    how = How(words.accept("add", "remove"))
-    kind = words.accept("all", "none", "window", "crossing", "layer")
-    if kind in ("window", "crossing"):
-        return Select(By(kind), how, box=_box(words.point("a corner x,y"), words.point("the opposite corner x,y")))
-    if kind == "layer":
-        return Select(By.LAYER, how, layer=words.name("the name of a layer"))
-    if kind:
-        return Select(By(kind), how)
-    if not words.more:
-        raise CommandError("Write what to select: all, none, window, crossing, layer, or entity numbers.", words.column)
-    return Select(By.IDS, how, frozenset(words.ids()))
-
-
-def _box(a: Point, b: Point) -> tuple[float, float, float, float]:
-    return (min(a[0], b[0]), min(a[1], b[1]), max(a[0], b[0]), max(a[1], b[1]))
-
-
-_READERS: dict[str, Callable[[Words, Context], Command]] = {
-    "line": _line, "polyline": _polyline, "arc": _arc, "circle": _circle, "rect": _rect, "select": _select, "delete": _delete,
-    "move": _move, "layer": _layer, "undo": lambda words, context: Undo(), "redo": lambda words, context: Redo(),
+_READERS: dict[str, Callable[[Arguments, Session], Command]] = {
+    "line": draw.line, "polyline": draw.polyline, "arc": draw.arc, "circle": draw.circle_of, "rect": draw.rect,
+    "polygon": draw.polygon_of, "slot": draw.slot_of, "ellipse": draw.ellipse_of, "spline": draw.spline_of,
+    "select": edit.select, "delete": edit.delete, "move": edit.move, "copy": edit.copy, "rotate": edit.rotate, "scale": edit.scale,
+    "mirror": edit.mirror, "array": edit.array, "reverse": edit.reverse, "layer": edit.layer,
+    "hide": edit.hide, "show": edit.show, "lock": edit.lock, "unlock": edit.unlock, "colour": edit.colour,
+    "trim": rework.trim, "extend": rework.extend, "break": rework.break_at, "fillet": rework.fillet_of, "chamfer": rework.chamfer_of,
+    "offset": rework.offset,
+    "undo": lambda words, session: Undo(), "redo": lambda words, session: Redo(),
 }
+
+COMMANDS = tuple(_READERS)
+"""Every command by its full word."""

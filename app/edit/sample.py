@@ -33,8 +33,8 @@ def sample(curve: Curve) -> Points:
 
 def spline_points(spline: Spline, parameters: Points) -> Points:
     """Return (n, 2) points of a spline at parameters within its knots (de Boor's algorithm on weighted points)."""
-    p, knots = spline.degree, np.asarray(spline.knots)
-    weights = np.asarray(spline.weights or (1.0,) * len(spline.control_points))
+    p, knots = spline.degree, np.asarray(spline.knots, np.float64)
+    weights = np.asarray(spline.weights or (1.0,) * len(spline.control_points), np.float64)
     control = np.column_stack([np.asarray(spline.control_points) * weights[:, None], weights])
     span = np.clip(np.searchsorted(knots, parameters, side="right") - 1, p, len(control) - 1)
     d = control[span[:, None] - p + np.arange(p + 1)]

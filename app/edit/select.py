@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.edit.command import check_ids
+from app.edit.command import Session, check_ids
 from app.edit.sample import Box, bounds, sample
 from app.model.curves import Curve
 from app.model.part import Entity, Part
@@ -47,17 +47,19 @@ class Select:
     box: Box = (0.0, 0.0, 0.0, 0.0)
     layer: str = ""
 
-    def resolve(self, part: Part, selection: frozenset[int]) -> frozenset[int]:
-        """Return the new selection.
+    def carried_out(self, session: Session) -> Session:
+        """Return the session with the new selection.
 
         Raises:
             InputError: an id that the part does not have.
         """
-        check_ids(part, self.ids)
-        found = self.ids if self.by is By.IDS else frozenset(e.id for e in reachable(part) if self._takes(e))
+        check_ids(session.part, self.ids)
+        found = self.ids if self.by is By.IDS else frozenset(e.id for e in reachable(session.part) if self._takes(e))
         if self.how is How.ADD:
-            return selection | found
-        return selection - found if self.how is How.REMOVE else found
+            found = session.selection | found
+        elif self.how is How.REMOVE:
+            found = session.selection - found
+        return replace(session, selection=found)
 
     def _takes(self, entity: Entity) -> bool:
         if self.by is By.LAYER:

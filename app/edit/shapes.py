@@ -4,10 +4,17 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
+import numpy as np
+
+from app.edit.sample import sample, spline_points
 from app.errors import InputError
-from app.model.curves import Arc, Circle, Line, Point, Primitive
+from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from app.tolerances import WELD
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 _FIT = 1e-3
 """Ends of an arc whose distances from the centre differ by up to this are drawn with the centre moved between them, mm."""
@@ -69,6 +76,8 @@ def arc_about(start: Point, end: Point, centre: Point, ccw: bool = True) -> Arc:
     if math.dist(start, end) < WELD:
         raise InputError(f"The arc begins and ends at {shown(start)}; draw a full circle with circle x,y r.")
     a, b = math.dist(start, centre), math.dist(end, centre)
+    if a == b >= WELD:
+        return Arc(start, end, centre, ccw)
     if abs(a - b) > _FIT or min(a, b) < WELD:
         raise InputError(f"The start is {a:.3f} mm from the centre and the end {b:.3f} mm; both must be equally far. "
                          f"Move the end to {shown(on_circle(end, centre, a))}.")
@@ -102,10 +111,190 @@ def arc_through(start: Point, via: Point, end: Point) -> Arc:
     return Arc(start, end, centre, ccw=cross > 0)
 
 
-def curve_length(curve: Primitive) -> float:
-    """Return the length of a line, arc or circle, mm."""
+def curve_length(curve: Curve) -> float:
+    """Return the length of a curve, mm: exact for lines, arcs and circles, that of the samples for others."""
     if isinstance(curve, Line):
         return math.dist(curve.start, curve.end)
     if isinstance(curve, Arc):
         return curve.radius * abs(curve.sweep)
-    return math.tau * curve.radius
+    if isinstance(curve, Circle):
+        return math.tau * curve.radius
+    return float(np.hypot(*np.diff(sample(curve), axis=0).T).sum())
+
+
+def middle_of(curve: Curve) -> Point:
+    """Return the point half way along a line or arc, or between the ends of an ellipse's or spline's parameters, mm."""
+    if isinstance(curve, Line):
+        return ((curve.start[0] + curve.end[0]) / 2, (curve.start[1] + curve.end[1]) / 2)
+    if isinstance(curve, Arc):
+        turn = curve.start_angle + curve.sweep / 2
+        return (curve.centre[0] + curve.radius * math.cos(turn), curve.centre[1] + curve.radius * math.sin(turn))
+    if isinstance(curve, Circle):
+        return (curve.centre[0] - curve.radius, curve.centre[1])
+    if isinstance(curve, Ellipse):
+        return curve.at((curve.start_parameter + curve.end_parameter) / 2)
+    x, y = spline_points(curve, np.array([(curve.knots[0] + curve.knots[-1]) / 2]))[0]
+    return (float(x), float(y))
+
+
+def centre_of(curve: Curve) -> Point:
+    """Return the centre of an arc, circle or ellipse, mm.
+
+    Raises:
+        InputError: the curve has none.
+    """
+    if isinstance(curve, Arc | Circle | Ellipse):
+        return curve.centre
+    raise InputError("A line or spline has no centre; name an arc, a circle or an ellipse.")
+
+
+def radius_of(curve: Curve) -> float:
+    """Return the radius of an arc or circle, mm.
+
+    Raises:
+        InputError: the curve has none.
+    """
+    if isinstance(curve, Arc | Circle):
+        return curve.radius
+    raise InputError("Only arcs and circles have a radius; name one of these.")
+
+
+def arc_of_radius(start: Point, end: Point, radius: float, ccw: bool = True, large: bool = False) -> Arc:
+    """Return the arc between two points with a radius: the smaller of the two, or the larger one.
+
+    Raises:
+        InputError: the ends are the same, or farther apart than the diameter.
+    """
+    chord = math.dist(start, end)
+    if chord < WELD:
+        raise InputError(f"The arc begins and ends at {shown(start)}; draw a full circle with circle x,y r.")
+    if chord > 2 * radius * (1 + 1e-12):
+        raise InputError(f"The ends are {chord:.3f} mm apart, more than the diameter; the radius must be {chord / 2:.3f} mm or more.")
+    off = math.sqrt(max(radius * radius - chord * chord / 4, 0.0)) * (1 if ccw != large else -1)
+    ux, uy = (end[0] - start[0]) / chord, (end[1] - start[1]) / chord
+    centre = ((start[0] + end[0]) / 2 - off * uy, (start[1] + end[1]) / 2 + off * ux)
+    return Arc(start, end, centre, ccw)
+
+
+def arc_along(start: Point, heading: float, end: Point) -> Arc:
+    """Return the arc that leaves a point in a direction, radians, and ends at another.
+
+    Raises:
+        InputError: the end lies straight ahead or behind.
+    """
+    ux, uy = math.cos(heading), math.sin(heading)
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    cross = ux * dy - uy * dx
+    if abs(cross) < WELD:
+        raise InputError(f"{shown(end)} lies straight ahead; draw a line there, or move the end aside.")
+    radius = (dx * dx + dy * dy) / (2 * cross)
+    return Arc(start, end, (start[0] - uy * radius, start[1] + ux * radius), ccw=cross > 0)
+
+
+def circle_through(a: Point, b: Point, c: Point) -> Circle:
+    """Return the circle through three points.
+
+    Raises:
+        InputError: two are the same, or all lie on a straight line.
+    """
+    arc = arc_through(a, b, c)
+    return Circle(arc.centre, arc.radius)
+
+
+def rounded_rectangle(a: Point, b: Point, radius: float) -> tuple[Line | Arc, ...]:
+    """Return the rectangle with these opposite corners and quarter circles at all four, counter-clockwise.
+
+    Raises:
+        InputError: no width, no height, or a radius that does not fit.
+    """
+    sides = rectangle(a, b)
+    (x0, y0), (x1, y1) = sides[0].start, sides[1].end
+    room = min(x1 - x0, y1 - y0) / 2
+    if not WELD <= radius <= room:
+        raise InputError(f"The radius is {radius:.3f} mm; it must be greater than 0 and at most {room:.3f} mm, half the shorter side.")
+    r, made = radius, list[Line | Arc]()
+    points = [(x0 + r, y0), (x1 - r, y0), (x1, y0 + r), (x1, y1 - r), (x1 - r, y1), (x0 + r, y1), (x0, y1 - r), (x0, y0 + r)]
+    centres = [(x1 - r, y0 + r), (x1 - r, y1 - r), (x0 + r, y1 - r), (x0 + r, y0 + r)]
+    for k in range(4):
+        p, q, onward = points[2 * k], points[2 * k + 1], points[(2 * k + 2) % 8]
+        made += [Line(p, q)] * (math.dist(p, q) >= WELD)
+        made.append(Arc(q, onward, centres[k]))
+    return tuple(made)
+
+
+def polygon(centre: Point, corners: int, first: Point) -> tuple[Line, ...]:
+    """Return the regular polygon about a centre with its first corner at a point, counter-clockwise.
+
+    Raises:
+        InputError: the corner is the centre.
+    """
+    radius, begin = math.dist(centre, first), math.atan2(first[1] - centre[1], first[0] - centre[0])
+    if radius < WELD:
+        raise InputError("The polygon has no size; give a corner away from its centre.")
+    turns = [begin + math.tau * k / corners for k in range(1, corners)]
+    return lines_through([first, *((centre[0] + radius * math.cos(t), centre[1] + radius * math.sin(t)) for t in turns)], close=True)
+
+
+def slot(a: Point, b: Point, width: float) -> tuple[Line | Arc, ...]:
+    """Return the outline of everything within half a width of a straight line, counter-clockwise.
+
+    Raises:
+        InputError: the line has no length, or the slot no width.
+    """
+    size, r = math.dist(a, b), width / 2
+    if size < WELD or r < WELD:
+        raise InputError(f"The slot is {size:.3f} mm between its centres and {width:.3f} mm wide; both must be greater than 0.")
+    ox, oy = (b[1] - a[1]) / size * r, -(b[0] - a[0]) / size * r
+    p, q, s, t = (a[0] + ox, a[1] + oy), (b[0] + ox, b[1] + oy), (b[0] - ox, b[1] - oy), (a[0] - ox, a[1] - oy)
+    return (Line(p, q), Arc(q, s, b), Line(s, t), Arc(t, p, a))
+
+
+def ellipse(centre: Point, end: Point, half: float, span: tuple[float, float] = (0.0, math.tau), ccw: bool = True) -> Ellipse:
+    """Return an ellipse, or a part of it.
+
+    Args:
+        end: of one half axis. half: length of the other, mm.
+        span: range of the parameter from `end` on, radians.
+
+    Raises:
+        InputError: a half axis without length, or an empty span.
+    """
+    along = (end[0] - centre[0], end[1] - centre[1])
+    size = math.hypot(*along)
+    if size < WELD or half < WELD:
+        raise InputError(f"The half axes are {size:.3f} and {half:.3f} mm; both must be greater than 0.")
+    first, last = span
+    if not 1e-9 < last - first <= math.tau + 1e-9:
+        raise InputError("The part of an ellipse spans more than 0\u00b0 and at most 360\u00b0.")
+    if half > size:
+        turned = (-along[1] * half / size, along[0] * half / size)
+        return Ellipse(centre, turned, size / half, first - math.pi / 2, last - math.pi / 2, ccw)
+    return Ellipse(centre, along, half / size, first, last, ccw)
+
+
+def spline_through(points: list[Point], close: bool = False) -> Spline:
+    """Return the cubic spline through points, its parameter the way between them; C2, round the closing point too.
+
+    Raises:
+        InputError: fewer than three points, or neighbours that are the same.
+    """
+    if len(points) < 3:
+        raise InputError("A spline needs three points or more; write spline x,y x,y x,y.")
+    ring = [*points, points[0]] if close else points
+    lines_through(ring)  # tells of neighbours that are the same
+    from scipy.interpolate import CubicSpline  # not when the window opens
+
+    way = np.concatenate([[0.0], np.cumsum([math.dist(a, b) for a, b in pairwise(ring)])])
+    made = CubicSpline(way, np.array(ring), bc_type="periodic" if close else "natural")
+    return _clamped(made)
+
+
+def _clamped(made: CubicSpline) -> Spline:
+    """Return a piecewise cubic as a B-spline with threefold knots, which holds any joint exactly."""
+    x = made.x
+    knots = np.concatenate([[x[0]] * 4, *([k] * 3 for k in x[1:-1]), [x[-1]] * 4])
+    starts, ends = made(x[:-1]), made(x[1:])
+    thirds = np.diff(x)[:, None] / 3
+    inner = np.stack([starts, starts + made(x[:-1], 1) * thirds, ends - made(x[1:], 1) * thirds], axis=1).reshape(-1, 2)
+    control = np.concatenate([inner, ends[-1:]])
+    return Spline(3, tuple((float(u), float(v)) for u, v in control), tuple(map(float, knots)))

@@ -9,7 +9,7 @@ from app.errors import InputError
 from app.model.finding import Finding
 from app.model.part import Part, Units
 
-SUFFIXES = (".dxf", ".svg")
+SUFFIXES = (".dxf", ".svg", ".draw")
 """Suffixes of drawings that can be read, in lower case."""
 
 
@@ -50,6 +50,10 @@ def read_drawing(path_name: str, data: bytes, units: Units | None = None, layers
         from app.files.svg import read_svg
 
         return read_svg(data, name, units, layers)
+    if suffix == ".draw":
+        from app.files.draw import read_draw
+
+        return read_draw(data, name, units, layers)
     from app.files.dxf import read_dxf
 
     return read_dxf(data, name, units, layers)

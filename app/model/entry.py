@@ -12,6 +12,9 @@ from app.model.curves import Point
 STEEPEST = math.radians(45)
 """Radians; a steeper ramp is a plunge by another name."""
 
+LONGEST_LEAD = 1000.0
+"""mm."""
+
 MOST_OVERLAP = 50.0
 """mm; no mark on a wall wants more, and most paths are too short for it."""
 
@@ -70,8 +73,8 @@ class Lead:
     overlap: float = 0.5
 
     def __post_init__(self) -> None:
-        if self.radius is not None and not 1e-3 <= self.radius <= 1000:
-            raise ParameterError(f"Lead radius is {self.radius:g} mm; use 0.001 to 1000 mm.")
+        if self.radius is not None and not 1e-3 <= self.radius <= LONGEST_LEAD:
+            raise ParameterError(f"Lead radius is {self.radius:g} mm; use 0.001 to {LONGEST_LEAD:g} mm.")
         if not 0 <= self.overlap <= MOST_OVERLAP:
             raise ParameterError(f"Lead overlap is {self.overlap:g} mm; use 0 to {MOST_OVERLAP:g} mm.")
 

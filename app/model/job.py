@@ -158,3 +158,17 @@ class Job:
             raise ParameterError(f"T{tool.number} is a drill, which cannot cut sideways; a {kind_word(operation)} operation needs a mill: "
                                  "choose another tool, or make it a drill operation.")
         return tool
+
+    def check_operations(self) -> None:
+        """Refuse a job that cannot be computed, whichever way.
+
+        Raises:
+            ParameterError: no operation is switched on, or one that is has no tool that can do it.
+        """
+        if not any(operation.cut.enabled for operation in self.operations):
+            what = "every operation of the job is switched off, so nothing is cut; switch one on" if self.operations else \
+                "the job has no operation, so nothing is cut; add one"
+            raise ParameterError(f"{self.part.name}: {what}.")
+        for operation in self.operations:
+            if operation.cut.enabled:
+                self.cutter(operation)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Any
 
@@ -174,6 +175,7 @@ class Program:
         clamps: that no tool comes over below their height.
         tabs, dog_bones: where metal was left standing, and where walls were cut into, on purpose.
         strokes: pocket strokes (connected pocket paths without a lift), summed over depth passes.
+        stepovers: distance between the rings of pockets, mm, by index of the operation; of those that have rings.
         polyline_rings: rings that had to fall back to a fine polyline.
         bitmap_area_mm2, exact_area_mm2: area of A' by the bitmap fill and by the exact offset (independent check).
         pitch_mm: size of that bitmap's pixels; 0 when nothing was filled.
@@ -196,3 +198,4 @@ class Program:
     clamps: tuple[Region, ...] = ()
     tabs: tuple[Tab, ...] = ()
     dog_bones: tuple[DogBone, ...] = ()
+    stepovers: Mapping[int, float] = field(default_factory=dict)

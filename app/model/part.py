@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
 from enum import Enum
 
 from app.model.curves import Curve, Primitive
@@ -57,22 +58,36 @@ class Part:
         layers: every layer that exists, in order; entities name only these.
         units: the units in which the drawing was made or is shown.
         name: shown in titles and NC headers.
+        used_id: the highest entity id that was ever given, where it is known; 0: the highest there is.
     """
 
     entities: tuple[Entity, ...] = ()
     layers: tuple[Layer, ...] = (Layer(),)
     units: Units = Units.MM
     name: str = "untitled"
+    used_id: int = field(default=0, compare=False)
 
     def next_id(self) -> int:
-        """Return an entity id that is not in use."""
-        return max((e.id for e in self.entities), default=0) + 1
+        """Return an entity id that was never given."""
+        return (self.used_id or max((e.id for e in self.entities), default=0)) + 1
+
+    def curve(self, entity_id: int) -> Curve | None:
+        """Return an entity's curve, or None when the part does not have it."""
+        return next((e.curve for e in self.entities if e.id == entity_id), None)
+
+    def with_curves(self, curves: Iterable[Curve], layer: str) -> Part:
+        """Return the part with curves added on fresh ids; the layer is added where it is new."""
+        first = self.next_id()
+        new = tuple(Entity(first + n, curve, layer) for n, curve in enumerate(curves))
+        layers = self.layers if any(known.name == layer for known in self.layers) else (*self.layers, Layer(layer))
+        return replace(self, entities=self.entities + new, layers=layers, used_id=first + len(new) - 1)
 
     def with_entities(self, entities: tuple[Entity, ...]) -> Part:
         """Return the part with other entities; layers they name are added."""
         known = {layer.name for layer in self.layers}
         new = tuple(Layer(name) for name in dict.fromkeys(e.layer for e in entities) if name not in known)
-        return replace(self, entities=entities, layers=self.layers + new)
+        used = max((e.id for e in entities), default=0)
+        return replace(self, entities=entities, layers=self.layers + new, used_id=max(self.used_id, used))
 
 
 @dataclass(frozen=True)

@@ -14,12 +14,15 @@ Comments that begin with `hitofude:` hold one `key=value` each, in this order an
     units=mm|in                                     of the program's words
     origin_mm=X,Y,Z                                 the work origin; part = program + origin
     stock_mm=X0,Y0,Z0,X1,Y1,Z1                      the stock's box
-    tool=NUMBER,KIND,DIAMETER                       one a tool, in the order of use; ,CORNER,TIP,ANGLE behind it (radius of the
-                                                    corner, diameter of the tip, full angle in degrees) where it has one of them
-    operation=KIND,TOOL,DEPTH,STOCK_TO_LEAVE        one an operation that cuts: pocket, rest, contour, drill; of a contour that runs
-                                                    elsewhere than inside the walls ,outside or ,on behind it
+    tool=NUMBER,KIND,DIAMETER                       one a tool, in the order of use, those that make no moves last; ,CORNER,TIP,ANGLE
+                                                    behind it (radius of the corner, diameter of the tip, full angle in degrees)
+                                                    where it has one of them
+    operation=KIND,TOOL,DEPTH,STOCK_TO_LEAVE        one an operation, also one that makes no moves: pocket, rest, contour, drill; of a
+                                                    contour that runs elsewhere than inside the walls ,outside or ,on behind it
     operation_layer=N,NAME                          of the operation before it, the N-th: one a layer that it alone machines
     floor_to_leave_mm=N,F                           of the N-th operation, where there is any
+    leads_mm=N,L                                    of the N-th operation, outside: what room its leads need beside the wall's path,
+                                                    where their size was asked for
     holes_mm=N,LEAST,MOST,THROUGH                   of the N-th operation: diameters that it drills (0,0 = the drill's own), and how
                                                     far it goes on below the depth
     tab=X,Y,WIDTH,TOP,DIAMETER                      one a bridge of metal: its middle, and the diameter of the cutter that went over it
@@ -63,9 +66,10 @@ def _notes(heading: Heading) -> Iterator[str]:
     yield f"units={unit_sign(job.out_units)}"
     yield f"origin_mm={plain_numbers(*work_origin(job, box))}"
     yield f"stock_mm={plain_numbers(box.x0, box.y0, box.z0, box.x1, box.y1, box.z1)}"
-    for tool in tools_of(heading):
+    operations = [operation for operation, _ in operations_of(heading)]
+    for tool in dict.fromkeys((*tools_of(heading), *(job.tool(each.cut.tool) for each in operations))):
         yield f"tool={tool.number},{tool.kind.value},{plain_numbers(tool.diameter, *_shape(tool))}"
-    for number, operation in enumerate((each for each, cuts in operations_of(heading) if cuts), 1):
+    for number, operation in enumerate(operations, 1):
         yield from _operation(operation, number)
     yield from _on_purpose(heading.program)
     yield f"path_tolerance_mm={plain_numbers(path_tolerance(heading))}"
@@ -89,6 +93,8 @@ def _operation(operation: Operation, number: int) -> Iterator[str]:
     yield from (f"operation_layer={number},{spelled_name(name)}" for name in cut.layers)
     if cut.floor_to_leave:
         yield f"floor_to_leave_mm={plain_numbers(number, cut.floor_to_leave)}"
+    if isinstance(operation, ContourOperation) and operation.side is Side.OUTSIDE and operation.lead.radius is not None:
+        yield f"leads_mm={plain_numbers(number, 2 * operation.finish_width + operation.lead.radius)}"
     if isinstance(operation, DrillOperation):
         yield f"holes_mm={plain_numbers(number, operation.least or 0.0, operation.most or 0.0, operation.through)}"
 

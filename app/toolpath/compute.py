@@ -20,7 +20,7 @@ from app.toolpath.bitmap_check import BitmapCheck
 from app.toolpath.contour import contour
 from app.toolpath.drawn import Drawn, drawn
 from app.toolpath.drill import drill
-from app.toolpath.drill_holes import without_drilled
+from app.toolpath.drill_holes import across_holes
 from app.toolpath.flat import region_shapes
 from app.toolpath.pocket import pocket
 from app.toolpath.rest import rest
@@ -57,11 +57,11 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
     if job.order is Order.PATENT_1986:
         setting.findings.extend(slotting(job))
     seen = setting.on_bitmap or BitmapCheck(0.0, 0.0, 0, (0.0, 0.0), 0.0)
-    findings = worst_first(without_drilled(setting.findings, job, parts))
+    findings = worst_first(setting.findings)
     return Program(
         setting.builder.moves(), setting.regions, findings, setting.strokes, setting.polyline_rings,
         seen.bitmap_area, seen.exact_area, seen.pitch, areas=setting.sheets.areas(), lines=lines,
-        clamps=parts.clamps, tabs=tuple(setting.tabs), dog_bones=tuple(setting.dog_bones),
+        clamps=parts.clamps, tabs=tuple(setting.tabs), dog_bones=tuple(setting.dog_bones), stepovers=setting.stepovers,
     )  # fmt: skip
 
 
@@ -85,7 +85,8 @@ def followed_lines(job: Job, parts: Drawn) -> tuple[Contour, ...]:
 def about_drawing(job: Job, parts: Drawn, lines: Sequence[Contour]) -> list[Finding]:
     """Return what is to say of a drawing; that lines are open, or cross, counts for nothing where they are but followed."""
     followed = {line.entity_ids for line in lines}
-    kept = [each for each in parts.findings if each.kind is not FindingKind.OPEN_CONTOUR or each.entity_ids not in followed]
+    kept = [each for each in across_holes(parts.findings, job, parts)
+            if each.kind is not FindingKind.OPEN_CONTOUR or each.entity_ids not in followed]  # fmt: skip
     if any(operation.cut.enabled and not follows_lines(operation) for operation in job.operations):
         return kept
     return [replace(each, counts=False) if each.kind is FindingKind.SELF_INTERSECTION else each for each in kept]

@@ -24,11 +24,11 @@ from app.toolpath.contour_gaps import Gap, gaps
 from app.toolpath.contour_path import Path
 from app.toolpath.contour_stroke import Extras, stroke_of
 from app.toolpath.dogbone import Bone, about_refused, bones, recorded
-from app.toolpath.lead import Around, Run, about_leads, runs
-from app.toolpath.narrow import too_small
+from app.toolpath.lead import Around, Run, about_leads, about_overlaps, runs
+from app.toolpath.narrow import finest, too_small
 from app.toolpath.open_line import line_paths
 from app.toolpath.setting import Setting, emit, passes_of
-from app.toolpath.sheets import ROOM, Sheet
+from app.toolpath.sheets import Sheet, Sheets
 from app.toolpath.side import wall_paths
 from app.toolpath.tab import TabShape, about_far, about_tabs, by_hand, spans_of, spread, tabs_at
 
@@ -101,6 +101,7 @@ def contour(setting: Setting, index: int, progress: Progress) -> None:
             ways = _bones(work, gaps(levels[1], sheet), levels[1], progress) if operation.dog_bones else ()
             rough = _rough(work, wall_paths(levels[1], sheet, operation.cut.direction), levels[1].distance, finish, ways)
             setting.findings.extend(_about_thick(work))
+    setting.findings.extend(about_overlaps(finish.runs, work.around(work.wall)))
     progress.step(0.7, "Contours")
     emit(setting, index, sheet, _together(work, finish, rough), progress.part(0.7, 1.0))
 
@@ -125,26 +126,33 @@ def _levels(work: _Work, progress: Progress) -> tuple[Level, ...]:
 
 def _looked_at(work: _Work, level: Level, progress: Progress) -> list[Gap]:
     """Return what of the walls the cutter does not touch; say where it does not fit, and whether the bitmap agrees (step 130)."""
-    setting, sheet, tool = work.setting, work.sheet, work.tool
+    setting, sheet = work.setting, work.sheet
     progress.step(0.5, "Fill")
     setting.on_bitmap = check_on_bitmap(sheet.distances, level, setting.observer)
     setting.findings.extend(setting.on_bitmap.findings())
-    found = gaps(level, sheet)
-    places = narrow_places(found, sheet, level.distance)
-    setting.findings.extend(too_small(sheet.regions, level, tool, counts=work.operation.side is Side.INSIDE or _is_last(work)))
-    setting.findings.extend(about_narrow(places, tool, level.distance, work.operation.side is Side.OUTSIDE and _is_last(work)))
-    layers = work.operation.cut.layers
-    walls: list[Contour] = [each for each in setting.sheets.drawn.closed if not layers or each.layer in layers]
-    setting.findings.extend(about_clamps(places, walls, setting.sheets.drawn.clamps, tool))
+    found, told = about_walls(setting.sheets, work.operation, sheet, level)
+    setting.findings.extend(told)
     return found
 
 
-def _is_last(work: _Work) -> bool:
-    """Tell whether no other contour operation of the job follows the same walls with a smaller tool, as deep."""
-    job, own = work.setting.job, work.operation
-    others = [each for each in job.operations if isinstance(each, ContourOperation) and each.cut.enabled and each.side is own.side]
-    return not any(each.cut.layers == own.cut.layers and each.cut.floor >= own.cut.floor
-                   and job.tool(each.cut.tool).radius + each.cut.stock_to_leave < work.wall - 1e-9 for each in others)  # fmt: skip
+def about_walls(sheets: Sheets, operation: ContourOperation, sheet: Sheet, level: Level) -> tuple[list[Gap], list[Finding]]:
+    """Return what of the walls an operation's cutter does not touch, and what there is to say of it: regions, necks and slots, clamps.
+
+    What is too narrow for one operation counts only where no other one follows the same walls with a finer tool. Necks and slots inside
+    count for nothing: what is out of reach there is measured on the floor.
+
+    Args:
+        level: the rings of its centre.
+    """
+    job, drawn, tool = sheets.job, sheets.drawn, sheets.job.tool(operation.cut.tool)
+    found = gaps(level, sheet)
+    places = narrow_places(found, sheet, level.distance)
+    least, layers = finest(job, operation), operation.cut.layers
+    counts = operation.side is Side.OUTSIDE and least >= 2 * level.distance - 1e-9
+    walls: list[Contour] = [each for each in drawn.closed if not layers or each.layer in layers]
+    told = [*too_small(sheet.regions, level, tool, least), *about_narrow(places, tool, level.distance, counts),
+            *about_clamps(places, walls, drawn.clamps, tool)]  # fmt: skip
+    return found, told
 
 
 def _bones(work: _Work, found: Sequence[Gap], level: Level, progress: Progress) -> tuple[Bone, ...]:
@@ -160,12 +168,13 @@ def _finish(work: _Work, paths: Sequence[Path], ways: Sequence[Bone]) -> _Made:
     """Return the paths along the walls themselves, with tabs by hand and automatic ones."""
     setting, wanted = work.setting, work.operation.tabs
     shape = TabShape.of(work.operation, work.tool)
-    own = by_hand(paths, shape, setting.job.copies.shifts, _followed(work, paths))
+    own, left_out = by_hand(paths, shape, setting.job.copies.shifts, _followed(work, paths))
+    setting.findings.extend(left_out)
     taken = [spans_of(path, places, shape.half) for path, places in zip(paths, own, strict=True)]
     around = work.around(work.wall)
     made = runs(paths, taken, around)
     tabs = tuple((*places, *spread(run, places, shape, around)) for run, places in zip(made, own, strict=True))
-    setting.findings.extend(about_leads(made, around, ROOM if work.operation.side is Side.OUTSIDE else 0.0))
+    setting.findings.extend(about_leads(made, around))
     if wanted.wanted:
         setting.findings.extend(about_far(paths, shape, setting.job.copies.shifts))
         setting.findings.extend(about_tabs(made, tabs, shape, work.operation))

@@ -33,6 +33,7 @@ class Path:
         region: number of its region, 0 = none.
         rank: how many other contours lie round it; what lies inside is cut first.
         area: that it encloses, or the ring that it was cut out of, mm2; negative when the area to machine lies round it; 0 of open lines.
+        loop: number of the drawn loop that it follows or was cut out of; 0 of rings and open lines.
     """
 
     rows: Rows
@@ -40,6 +41,7 @@ class Path:
     region: int = 0
     rank: int = 0
     area: float = 0.0
+    loop: int = 0
 
     @cached_property
     def sizes(self) -> Floats:
@@ -51,6 +53,11 @@ class Path:
         """(n,) how far along each row ends, mm."""
         total: Floats = np.cumsum(self.sizes)
         return total
+
+    @property
+    def ring(self) -> tuple[int, float, int]:
+        """What all pieces of one ring or loop have alike."""
+        return self.region, self.area, self.loop
 
     @property
     def length(self) -> float:

@@ -10,6 +10,7 @@ distances do not prove the floor cleared; strips thinner than STRIP are numeric 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
@@ -19,7 +20,7 @@ from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
 from app.geometry.near import near
-from app.geometry.primitives import Rows
+from app.geometry.primitives import CX, TURN, R, Rows
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program
@@ -48,6 +49,11 @@ _BACK = -0.9
 
 _ASKED = 16
 """Points on the rim of a piece towards which it is asked whether a cutter's centre can be near."""
+
+_TEXT = "Measuring what is left"
+
+_TILES = 256
+"""Boxes that are held against moves in one go."""
 
 _RUN = 64
 """Moves that are widened in one go; longer runs cross themselves too often for the library."""
@@ -111,13 +117,13 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: 
     Args:
         program: moves and the regions they machine.
         job: tools and operations that the moves belong to.
-        progress: steps once a tool.
+        progress: looked at before every few boxes and every piece.
         miss: by which a move may miss the floor and still counts as on it, mm; more than nothing for moves that were read back.
 
     Raises:
         Cancelled: the job was asked to stop.
     """
-    progress.step(0.0, "Measuring what is left")
+    progress.step(0.0, _TEXT)
     found = wanted_of(program, job)
     inner = wanted_of(program, job, program.allowance_mm) if program.allowance_mm else found
     fields = Fields()
@@ -125,15 +131,17 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: 
     corners: list[Place] = []
     skins: list[Place] = []
     for k, (each, deeper) in enumerate(zip(found, inner, strict=True)):
-        metal = _left(each.wanted, program.moves, (job, each.depth - miss), progress.part(k / len(found), (k + 1) / len(found)))
+        share = progress.part(k / len(found), (k + 1) / len(found))
+        metal = _left(each.wanted, program.moves, (job, each.depth - miss), share.part(0.0, 0.6))
         if program.allowance_mm:
             skin = _skin(metal, each, deeper.reach, program.allowance_mm)
             metal = _solid(shapely.difference(metal, skin))
-            skins += _places(skin, True)
-        for place in _places(metal, True):
+            skins += _places(skin, True, share.part(0.6, 0.75))
+        for place in _places(metal, True, share.part(0.75, 0.9)):
+            share.step(0.9, _TEXT)
             within = reached(_inner(place), each.cutters, fields) or not each.cutters
             (left if within else corners).append(place if within else replace(place, reachable=False))
-        corners += _places(_solid(shapely.difference(each.floor, each.reach)), False)
+        corners += _places(_solid(shapely.difference(each.floor, each.reach)), False, share.part(0.9, 1.0))
     for places in (left, corners, skins):
         places.sort(key=lambda place: -place.disc_mm)
     return Coverage(
@@ -155,7 +163,8 @@ def _skin(left: Shape, areas: Wanted, inner: Shape, off: float) -> Shape:
     """
     beyond = _solid(shapely.difference(left, inner))
     thick = shapely.buffer(shapely.buffer(left, -_THICK * off), (_THICK + 1) * off)
-    cleared = shapely.buffer(shapely.difference(areas.reach, left), _TIP * off)
+    pieces = shapely.get_parts(shapely.difference(areas.reach, left))
+    cleared = shapely.union_all(shapely.buffer(pieces, _TIP * off))  # one by one: the library takes the square of the time for all at once
     return _solid(shapely.intersection(shapely.difference(beyond, thick), cleared))
 
 
@@ -166,29 +175,92 @@ def _left(wanted: Shape, moves: Moves, where: tuple[Job, float], progress: Progr
     drills = [tool.number for tool in job.tools if tool.kind is ToolKind.DRILL]  # their tips leave a cone
     chosen = deep & (moves.kind != MoveKind.RAPID) & ~np.isin(moves.tool, drills)
     numbers = [int(number) for number in np.unique(moves.tool[chosen])]
-    paths = [_Path(np.flatnonzero(chosen & (moves.tool == number)), moves, job.tool(number).radius) for number in numbers]
-    tiles = uncertain(wanted, [(path.rows, path.radius) for path in paths], progress)
-    wanted = shapely.intersection(wanted, shapely.union_all(tiles))
-    tree = shapely.STRtree(tiles)
-    for done, path in enumerate(paths):
-        progress.step(0.5 + done / len(paths) / 2, "Measuring what is left")
-        wanted = shapely.difference(wanted, path.swept_near(tree))
-    return _solid(wanted)
+    paths = [_Path.of(np.flatnonzero(chosen & (moves.tool == number)), moves, job.tool(number).radius) for number in numbers]
+    tiles = uncertain(wanted, [(path.rows, path.radius) for path in paths], progress.part(0.0, 0.5))
+    left, done = [], 0
+    for part in _Doubt(wanted, tiles, shapely.bounds(tiles), paths).parts():
+        progress.step(0.5 + done / len(tiles) / 2, _TEXT)
+        left.append(part.left())
+        done += len(part.tiles)
+    return _solid(shapely.union_all(left))
 
 
+@dataclass(frozen=True, eq=False)
 class _Path:
-    """The cutting moves of one tool."""
+    """Cutting moves of one tool.
 
-    def __init__(self, chosen: NDArray[np.int64], moves: Moves, radius: float) -> None:
-        self._chosen, self.rows, self.radius = chosen, move_rows(moves)[chosen], radius
+    Attributes:
+        chosen: (n,) their indices. rows: (n, 8) of their centre. boxes: (n, 4) that hold these.
+        radius: of the tool, mm.
+    """
+
+    chosen: NDArray[np.int64]
+    rows: Rows
+    boxes: NDArray[np.float64]
+    radius: float
+
+    @staticmethod
+    def of(chosen: NDArray[np.int64], moves: Moves, radius: float) -> _Path:
+        """Return the path of some moves."""
+        rows = move_rows(moves)[chosen]
+        arc = (rows[:, TURN] != 0)[:, None]
+        size = rows[:, R, None]
+        low = np.where(arc, rows[:, CX:R] - size, np.minimum(rows[:, :2], rows[:, 2:4]))
+        high = np.where(arc, rows[:, CX:R] + size, np.maximum(rows[:, :2], rows[:, 2:4]))
+        return _Path(chosen, rows, np.hstack([low, high]), radius)
+
+    def near(self, box: NDArray[np.float64]) -> _Path:
+        """Return the moves that may cut in a box (4,)."""
+        reach = self.radius + STRIP
+        some = np.all((self.boxes[:, :2] <= box[2:] + reach) & (self.boxes[:, 2:] >= box[:2] - reach), axis=1)
+        return _Path(self.chosen[some], self.rows[some], self.boxes[some], self.radius)
 
     def swept_near(self, tree: shapely.STRtree) -> Shape:
         """Return the area that is covered by those moves that come near some boxes."""
         rough = self.radius / 20  # who is near is asked with few chords, and with as much more reach
         moves = np.unique(near(tree, lines(self.rows, rough), self.radius + rough + STRIP)[0])
-        runs = _runs(self.rows[moves], self._chosen[moves])
+        runs = _runs(self.rows[moves], self.chosen[moves])
         parts = [part for points in runs for part in _between_reversals(points)]
         return shapely.union_all([shape for points in parts for shape in _widened(points, self.radius)])
+
+
+@dataclass(frozen=True, eq=False)
+class _Doubt:
+    """Boxes of a wanted area that may not be cut all over.
+
+    It is decided in parts of a few boxes, with what is near them: the library takes more than twice the time for twice as much.
+
+    Attributes:
+        wanted: what of the area is near the boxes.
+        tiles: (n,) boxes that do not overlap. boxes: (n, 4) the same.
+        paths: moves that are near.
+    """
+
+    wanted: Shape
+    tiles: NDArray[np.object_]
+    boxes: NDArray[np.float64]
+    paths: list[_Path]
+
+    def parts(self) -> Iterator[_Doubt]:
+        """Yield it in parts of few boxes each."""
+        if len(self.tiles) <= _TILES:
+            yield self
+            return
+        wide = self.boxes[:, 2:].max(axis=0) - self.boxes[:, :2].min(axis=0)
+        axis = int(wide[1] > wide[0])
+        order = np.argsort(self.boxes[:, axis] + self.boxes[:, axis + 2], kind="stable")
+        for half in (order[:len(order) // 2], order[len(order) // 2:]):
+            box = np.concatenate([self.boxes[half, :2].min(axis=0), self.boxes[half, 2:].max(axis=0)])
+            wanted = shapely.intersection(self.wanted, shapely.box(*box))
+            yield from _Doubt(wanted, self.tiles[half], self.boxes[half], [path.near(box) for path in self.paths]).parts()
+
+    def left(self) -> Shape:
+        """Return what of the wanted area no move has cut in the boxes."""
+        left = shapely.intersection(self.wanted, shapely.union_all(self.tiles))
+        tree = shapely.STRtree(self.tiles)
+        for path in self.paths:
+            left = shapely.difference(left, path.swept_near(tree))
+        return left
 
 
 def _between_reversals(points: NDArray[np.float64]) -> list[NDArray[np.float64]]:
@@ -231,16 +303,18 @@ def _runs(rows: Rows, chosen: NDArray[np.int64]) -> list[NDArray[np.float64]]:
 def _solid(shape: Shape) -> Shape:
     """Return the shape without strips thinner than STRIP (an opening)."""
     thin = STRIP / 2
-    kept = shapely.buffer(shape, -thin, join_style="mitre")
-    if kept.is_empty:
-        return kept  # to intersect nothing with lines and areas at once makes GEOS give up
-    return shapely.intersection(shapely.buffer(kept, thin, join_style="mitre"), shape)
+    parts = shapely.get_parts(shape)
+    kept = shapely.buffer(parts, -thin, join_style="mitre")
+    there = ~shapely.is_empty(kept)  # to intersect nothing with lines and areas at once makes GEOS give up
+    return shapely.union_all(shapely.intersection(shapely.buffer(kept[there], thin, join_style="mitre"), parts[there]))
 
 
-def _places(shape: Shape, reachable: bool) -> tuple[Place, ...]:
+def _places(shape: Shape, reachable: bool, progress: Progress) -> tuple[Place, ...]:
     """Return the pieces of a shape, the largest disc first."""
     places = []
-    for piece in shapely.get_parts(shape):
+    pieces = shapely.get_parts(shape)
+    for k, piece in enumerate(pieces):
+        progress.step(k / len(pieces), _TEXT)
         if piece.geom_type != "Polygon" or piece.area < STRIP**2:
             continue
         centre, rim = (np.array(point) for point in shapely.maximum_inscribed_circle(piece, tolerance=CHORD).coords)

@@ -82,15 +82,17 @@ class DepthPasses:
             Cancelled: by progress.
         """
         for k, group in enumerate(groups):
-            progress.step(k / len(groups), "Depth passes")
-            self._cut_group([from_hole(stroke, self.holes, self.ground) for stroke in group])
+            strokes = [from_hole(stroke, self.holes, self.ground) for stroke in group]
+            self._cut_group(strokes, progress.part(k / len(groups), (k + 1) / len(groups)))
         self._lift()
 
-    def _cut_group(self, strokes: list[Stroke]) -> None:
+    def _cut_group(self, strokes: list[Stroke], progress: Progress) -> None:
         ready: dict[int, Stroke] = {}
         self._slotted.clear()
-        for z in self.levels.passes:
+        count = len(self.levels.passes) * len(strokes)
+        for done, z in enumerate(self.levels.passes):
             for k, stroke in enumerate(strokes):
+                progress.step((done * len(strokes) + k) / count, "Depth passes")
                 if stroke.at_floor and z != self.levels.passes[-1]:
                     continue
                 begun = self._enter(stroke, z)

@@ -43,7 +43,7 @@ def drill(setting: Setting, index: int, progress: Progress) -> None:
         raise ParameterError(f"Depth is {operation.cut.depth:g} mm, but the stock is {job.stock.thickness:g} mm thick; "
                              "reduce the depth, or let the drill go through below it.")
     holes, tool = holes_of(job, setting.sheets.drawn, operation), job.tool(operation.cut.tool)
-    setting.findings.extend(_findings(holes, job, operation))
+    setting.findings.extend(about_holes(holes, job, operation))
     strokes = [_as_stroke(hole) for hole in holes.drilled]
     label = Label(index, tool.number, tool.feed_rate, tool.plunge_rate)
     stops = tuple(_stops(operation, job))
@@ -82,7 +82,7 @@ def _drill_hole(setting: Setting, place: tuple[float, float], stops: Sequence[fl
     builder.straight((*place, job.travel_z), Purpose.RAPID, label)
 
 
-def _findings(holes: Holes, job: Job, operation: DrillOperation) -> Iterator[Finding]:
+def about_holes(holes: Holes, job: Job, operation: DrillOperation) -> Iterator[Finding]:
     """Yield what is drilled how deep, and what is not."""
     tool = job.tool(operation.cut.tool)
     who = f"T{tool.number} {tool.label}"

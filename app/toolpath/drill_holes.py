@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import shapely
 
-from app.model.curves import Arc, Circle, Point
+from app.geometry.as_circle import as_circle
+from app.model.curves import Circle
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.operation import DrillOperation
@@ -56,22 +57,9 @@ class Holes:
 
 
 def circle_of(contour: Contour) -> Hole | None:
-    """Return the circle that a closed contour is: one circle, or arcs round one centre; None where it is none.
-
-    Centres and radii of arcs may differ by as much as curves may when they become arcs.
-    """
-    arcs = contour.primitives
-    if not contour.closed or not all(isinstance(each, (Arc, Circle)) for each in arcs):
-        return None
-    round_ = [each for each in arcs if isinstance(each, (Arc, Circle))]
-    (x, y), radius = _mean([each.centre for each in round_]), sum(each.radius for each in round_) / len(round_)
-    far = max(max(math.dist(each.centre, (x, y)), abs(each.radius - radius)) for each in round_)
-    turn = sum(math.tau if isinstance(each, Circle) else abs(each.sweep) for each in round_)
-    return Hole(x, y, 2 * radius) if far <= CURVE and abs(turn - math.tau) < 1e-3 else None
-
-
-def _mean(points: Sequence[Point]) -> Point:
-    return sum(x for x, _ in points) / len(points), sum(y for _, y in points) / len(points)
+    """Return the hole that a closed contour is where it is a circle, by whatever it is drawn; None where it is none."""
+    circle = as_circle(contour)
+    return None if circle is None else Hole(*circle.centre, 2 * circle.radius)
 
 
 def holes_of(job: Job, drawn: Drawn, operation: DrillOperation) -> Holes:
@@ -139,20 +127,17 @@ def hole_regions(job: Job, drawn: Drawn, operation: DrillOperation) -> tuple[Reg
                  for number, hole in enumerate(holes_of(job, drawn, operation).drilled, 1))
 
 
-def without_drilled(findings: Iterable[Finding], job: Job, drawn: Drawn) -> list[Finding]:
-    """Return findings, of which those no longer count that tell of a region too small for a mill that is a circle which is drilled."""
+def made_by_drills(job: Job, drawn: Drawn) -> frozenset[Hole]:
+    """Return the circles that drill operations make as wide as they are drawn: for mills these are no walls, and no lines to follow."""
     drills = [each for each in job.operations if isinstance(each, DrillOperation) and each.cut.enabled]
+    return frozenset(hole for each in drills for hole in holes_of(job, drawn, each).drilled
+                     if hole.diameter <= job.tool(each.cut.tool).diameter + ALIKE + 1e-6)  # fmt: skip
+
+
+def across_holes(findings: Iterable[Finding], job: Job, drawn: Drawn) -> list[Finding]:
+    """Return findings about a drawing, of which those do not count that tell that something crosses a circle which drills make."""
     findings = list(findings)
-    small = [finding for finding in findings if finding.kind is FindingKind.REGION_TOO_SMALL and finding.counts]
-    if not drills or not small:
-        return findings
-    tree = [hole for operation in drills for hole in holes_of(job, drawn, operation).drilled]
-    if not tree:
-        return findings
-    discs = shapely.STRtree(shapely.points([(hole.x, hole.y) for hole in tree]))
-    places = shapely.points([(finding.x or 0.0, finding.y or 0.0) for finding in small])
-    nearest = discs.nearest(places)
-    drilled = {finding for finding, place, k in zip(small, places, nearest.tolist(), strict=True)
-               if math.dist((place.x, place.y), (tree[k].x, tree[k].y)) < tree[k].diameter / 4
-               and (finding.amount or 0.0) <= 1.1 * tree[k].diameter}  # fmt: skip
-    return [replace(each, counts=False, text=f"{each.text} It is drilled.") if each in drilled else each for each in findings]
+    made = made_by_drills(job, drawn) if any(each.kind is FindingKind.SELF_INTERSECTION for each in findings) else frozenset()
+    ids = {number for contour in drawn.closed if made and circle_of(contour) in made for number in contour.entity_ids}
+    return [replace(each, counts=False) if each.kind is FindingKind.SELF_INTERSECTION and not ids.isdisjoint(each.entity_ids) else each
+            for each in findings]  # fmt: skip

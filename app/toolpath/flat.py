@@ -39,9 +39,15 @@ def flattened(rows: Rows, chord: float) -> tuple[NDArray[np.int64], NDArray[np.f
 
 
 def lines(rows: Rows, chord: float) -> NDArray[np.object_]:
-    """Return each row as a shapely line of chords that stay within `chord` mm of it."""
+    """Return each row as a shapely line of chords that stay within `chord` mm of it; a row without a length as a point.
+
+    Trees of shapes find nothing near a line without a length.
+    """
     owner, points = flattened(rows, chord)
-    return np.asarray(shapely.linestrings(points, indices=owner), dtype=object)
+    found = np.asarray(shapely.linestrings(points, indices=owner), dtype=object)
+    still = np.all(rows[:, :2] == rows[:, 2:4], axis=1) & (rows[:, TURN] == 0)
+    found[still] = shapely.points(rows[still, :2])
+    return found
 
 
 def region_shapes(regions: Sequence[Region], chord: float) -> NDArray[np.object_]:

@@ -30,6 +30,11 @@ _LEAST = 0.02
 """mm; a smaller lead is none."""
 
 
+def lead_size(lead: Lead, tool: Tool) -> float:
+    """Return the radius or length of a whole lead, mm."""
+    return tool.radius if lead.radius is None else lead.radius
+
+
 @dataclass(frozen=True)
 class Around:
     """What leads go by.
@@ -51,7 +56,7 @@ class Around:
     @property
     def size(self) -> float:
         """Radius or length of a whole lead, mm."""
-        return self.tool.radius if self.lead.radius is None else self.lead.radius
+        return lead_size(self.lead, self.tool)
 
 
 @dataclass(frozen=True, eq=False)
@@ -242,12 +247,8 @@ def _freest(path: Path, taken: Sequence[tuple[float, float]]) -> float:
     return float((middles[k] + between[k] / 2) % path.length)
 
 
-def about_leads(made: Sequence[Run], around: Around, frame: float = 0.0) -> list[Finding]:
-    """Return one remark about leads that do not fit as they were asked for.
-
-    Args:
-        frame: how far round the drawing the area ends in which leads may lie, tool diameters; 0 = it ends at walls and clamps alone.
-    """
+def about_leads(made: Sequence[Run], around: Around) -> list[Finding]:
+    """Return one remark about leads that do not fit as they were asked for."""
     if around.lead.kind is LeadKind.NONE:
         return []
     wanted = around.lead.kind is LeadKind.ARC
@@ -258,8 +259,19 @@ def about_leads(made: Sequence[Run], around: Around, frame: float = 0.0) -> list
     x, y = points_at((none or other)[0].path.rows[:1], np.zeros(1))[0]
     said = [f"{len(some)} {'has' if len(some) == 1 else 'have'} {what}"
             for some, what in ((other, "smaller or straight leads"), (none, "no leads")) if some]  # fmt: skip
-    edge = f"walls, clamps and the edge of the area {frame:g} tool diameters round the drawing"
-    bounds = f"{edge} leave" if frame else "walls and clamps leave"
     text = (f"Of {len(made)} {'path' if len(made) == 1 else 'paths'} of T{around.tool.number} {around.tool.label}, {' and '.join(said)}, "
-            f"because {bounds} no room for more; the first is at ({x:.3f}, {y:.3f}).")
+            f"because walls and clamps leave no room for more; the first is at ({x:.3f}, {y:.3f}).")
     return [Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=False, amount=float(len(none) + len(other)))]
+
+
+def about_overlaps(made: Sequence[Run], around: Around) -> list[Finding]:
+    """Return one remark about closed paths so short that they go over their beginning by less than was asked."""
+    wanted = around.lead.overlap if around.lead.kind is not LeadKind.NONE else 0.0
+    short = [run for run in made if run.path.closed and run.stop - run.start - run.path.length < wanted - _SAME]
+    if not short:
+        return []
+    x, y = points_at(short[0].path.rows[:1], np.zeros(1))[0]
+    text = (f"Of {len(made)} {'path' if len(made) == 1 else 'paths'} of T{around.tool.number} {around.tool.label}, {len(short)} "
+            f"{'goes' if len(short) == 1 else 'go'} on over the beginning by half the length, less than the {wanted:g} mm asked for; "
+            f"the first is at ({x:.3f}, {y:.3f}).")
+    return [Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=False, amount=float(len(short)))]

@@ -37,13 +37,15 @@ class Manner:
     outside_in: bool = False
 
 
-def link(levels: Sequence[Level], field: DistanceField, manner: Manner, filling: Filling = NOTHING) -> tuple[Stroke, ...]:
+def link(levels: Sequence[Level], field: DistanceField, manner: Manner, filling: Filling = NOTHING,
+         step: float = 0.0) -> tuple[Stroke, ...]:  # fmt: skip
     """Return as few strokes as there are connected areas that the tool's centre can be in.
 
     Args:
         levels: rings of the pocket tool, outermost first.
         field: distances from the drawing.
         filling: what cuts all that the levels leave.
+        step: between levels, mm, where it is no more than the tool's radius: then ways between rings save pieces of them; 0 = none is.
     """
     if not levels:
         return ()
@@ -56,7 +58,7 @@ def link(levels: Sequence[Level], field: DistanceField, manner: Manner, filling:
     lines = _lines_out(tree.roots(depth), _Numbered(rings, depth), levels, field)
     bridges = [*(bridge for line in lines.values() for bridge in line), *bridges]
     tree = _grown(_Apart(rings, Tree(len(rings)), areas), bridges, levels, field)
-    return _strokes(Walked(rings, depth, tree, filling.trips, (field, levels[0].distance)), manner, lines)
+    return _strokes(Walked(rings, depth, tree, filling.trips, (field, levels[0].distance), step), manner, lines)
 
 
 def _grown(apart: _Apart, bridges: Sequence[Bridge], levels: Sequence[Level], field: DistanceField) -> Tree:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.geometry.primitives import Rows, points_at
+from app.geometry.primitives import Rows, lengths, points_at
 from app.toolpath.build import split_row
 
 _SAME = 1e-9  # fraction of a row
@@ -32,6 +32,26 @@ def position(place: Place, count: int, forward: bool) -> float:
     """Return where a place is along a ring of `count` rows, in rows from its beginning."""
     at = place.row + place.fraction
     return at if forward else count - at
+
+
+def point_at(rows: Rows, at: float) -> Rows:
+    """Return the point (2,) at a position along a closed ring, in rows from its beginning or past it."""
+    row = math.floor(at)
+    return point_of(rows, Place(0, row % len(rows), at - row))
+
+
+def along(rows: Rows, start: float, distance: float) -> float:
+    """Return the position so many mm on from another one along a closed ring, or back if less than 0; at most once round."""
+    ends = np.append(0.0, np.cumsum(lengths(rows)))
+    row = math.floor(start)
+    lap = row // len(rows)
+    k = row - lap * len(rows)
+    total = float(ends[-1])
+    where = float(ends[k] + (start - row) * (ends[k + 1] - ends[k])) + distance
+    turns = math.floor(where / total)
+    rest = where - turns * total
+    at = min(int(np.searchsorted(ends, rest, "right")) - 1, len(rows) - 1)
+    return (lap + turns) * len(rows) + at + (rest - float(ends[at])) / float(ends[at + 1] - ends[at])
 
 
 def span(rows: Rows, start: float, end: float) -> Rows:

@@ -1,7 +1,8 @@
 """The walk through a tree of rings: each ring once, the bridges of the longest way once, all others there and back.
 
 From the first ring the walk goes along the longest way of the tree: round a ring back to where it was entered, then straight
-on to the next. What hangs beside is an excursion from where its bridge begins: there, all of it, and back.
+on to the next. What hangs beside is an excursion from where its bridge begins: there, all of it, and back. Where rings cover twice
+what lies between them such a way there and back is two slants, which leave a piece of the outer ring out (`link_slant.py`).
 """
 
 from __future__ import annotations
@@ -20,7 +21,8 @@ from app.model.operation import Direction
 from app.tolerances import LEVEL
 from app.toolpath.bridge import Bridge, RingField, is_clear
 from app.toolpath.build import Stroke
-from app.toolpath.link_rows import Place, joined, point_of, position, span, straight
+from app.toolpath.link_rows import Place, joined, point_at, point_of, position, span, straight
+from app.toolpath.link_slant import left_out, room_beside
 from app.toolpath.link_tree import Edge, Tree
 from app.toolpath.runs import Trip
 
@@ -35,6 +37,7 @@ class Walked:
         tree: bridges between them.
         trips: from places of rings and back.
         walls: distances that are kept, and how much, mm.
+        step: between levels no farther apart than the tool's radius, mm; 0 = farther: every ring is walked whole.
     """
 
     rings: Sequence[Ring]
@@ -42,14 +45,41 @@ class Walked:
     tree: Tree
     trips: Sequence[Trip]
     walls: tuple[DistanceField, float]
+    step: float = 0.0
 
 
-@dataclass
+@dataclass(frozen=True, eq=False)
+class _Excursion:
+    """Over a bridge to all that hangs there, and back.
+
+    Attributes:
+        here, there: where the bridge begins and ends.
+        leave, back: (2,) where the ring here is left, and come back to.
+        left: of the ring there before and after `there`, what is left out, in rows.
+        slants: True where its ways cut what is left out.
+    """
+
+    here: Place
+    there: Place
+    leave: Rows
+    back: Rows
+    left: tuple[float, float]
+    slants: bool
+
+
+@dataclass(eq=False)
 class _Visit:
-    """A ring being walked: pieces still to go, each followed by an excursion over a bridge."""
+    """A ring being walked: pieces still to go, each followed by an excursion over a bridge.
 
-    pieces: list[tuple[Rows, tuple[Place, Place] | Trip | None]]
-    way_back: Rows | None
+    Attributes:
+        first, last: (2,) where it begins and ends.
+        way_back: to the ring that it was come to from, and whether that cuts.
+    """
+
+    pieces: list[tuple[Rows, _Excursion | Trip | None]]
+    first: Rows
+    last: Rows
+    way_back: tuple[Rows, bool] | None = None
 
 
 class Walk:
@@ -120,13 +150,13 @@ class Walk:
 
     def _round(self, entry: Place, came_from: Place | None, after: Edge | None) -> None:
         """Append a ring from its entry back to it, with all that hangs on it but the bridge that is taken after it."""
-        stack = [self._visit(entry, came_from, after, main=True)]
+        stack = [self._visit(entry, came_from, after)]
         while stack:
             visit = stack[-1]
             if not visit.pieces:
                 stack.pop()
                 if visit.way_back is not None:
-                    self._append(visit.way_back, np.zeros(1, np.bool_))
+                    self._append(visit.way_back[0], np.full(1, visit.way_back[1]))
                 continue
             piece, excursion = visit.pieces.pop(0)
             self._append(piece, np.ones(len(piece), np.bool_))
@@ -135,32 +165,54 @@ class Walk:
                 self._append(reversed_rows(excursion.rows) if backwards else excursion.rows,
                              (excursion.cuts[::-1] if backwards else excursion.cuts))
             elif excursion is not None:
-                here, there = excursion
-                out = straight(*(point_of(self._walked.rings[place.ring].rows, place) for place in excursion))
-                self._append(out, np.zeros(1, np.bool_))
-                stack.append(self._visit(there, here, None, main=False))
-                stack[-1].way_back = reversed_rows(out)
+                stack.append(self._visit(excursion.there, excursion.here, None, excursion.left))
+                stack[-1].way_back = straight(stack[-1].last, excursion.back), excursion.slants
+                self._append(straight(excursion.leave, stack[-1].first), np.full(1, excursion.slants))
 
-    def _visit(self, entry: Place, came_from: Place | None, after: Edge | None, main: bool) -> _Visit:
-        """Cut a ring into pieces between its bridges, all round from `entry`; a bridge at the entry comes last."""
+    def _visit(self, entry: Place, came_from: Place | None, after: Edge | None, left: tuple[float, float] | None = None) -> _Visit:
+        """Cut a ring into pieces between its bridges, all round from `entry`; a bridge at the entry comes last.
+
+        Args:
+            left: before and after the entry, what an excursion leaves out, in rows of the ring's own direction; None on the main way.
+        """
         number = entry.ring
         rows, count = self._walked.rings[number].rows, len(self._walked.rings[number].rows)
-        forward = self._forward(number, came_from, after, main)
+        forward = self._forward(number, came_from, after, main=left is None)
+        edges = [(a, b) for a, b, _ in self._walked.tree.neighbours[number]
+                 if (came_from is None or b.ring != came_from.ring) and (after is None or b.ring != after[1].ring)]
+        trips = self._trips.get(number, [])
+        taken = [entry, *(a for a, _ in edges), *(trip.place for trip in trips)]
         if not forward:
             rows = reversed_rows(rows)
         start = position(entry, count, forward)
-        beside: list[tuple[Place, tuple[Place, Place] | Trip]] = [
-            (a, (a, b)) for a, b, _ in self._walked.tree.neighbours[number]
-            if (came_from is None or b.ring != came_from.ring) and (after is None or b.ring != after[1].ring)]
-        beside += [(trip.place, trip) for trip in self._trips.get(number, ())]
-        ahead = sorted((((position(place, count, forward) - start) % count or count, k) for k, (place, _) in enumerate(beside)))
-        pieces: list[tuple[Rows, tuple[Place, Place] | Trip | None]] = []
-        done = 0.0
-        for gone, k in ahead:
-            pieces.append((span(rows, start + done, start + gone), beside[k][1]))
-            done = gone
-        pieces.append((span(rows, start + done, start + count), None))
-        return _Visit(pieces, None)
+        stops: list[tuple[float, float, float, _Excursion | Trip]] = []
+        for k, (a, b) in enumerate(edges):
+            at = (position(a, count, forward) - start) % count or count
+            here, there = self._left_out(a, b, [*taken[:k + 1], *taken[k + 2:]])
+            before, beyond = here if forward else here[::-1]
+            leave, back = point_at(rows, start + at - before), point_at(rows, start + at + beyond)
+            stops.append((at, before, beyond, _Excursion(a, b, leave, back, there, here != there)))
+        stops += [((position(trip.place, count, forward) - start) % count or count, 0.0, 0.0, trip) for trip in trips]
+        before, done = (left or (0.0, 0.0)) if forward else (left or (0.0, 0.0))[::-1]
+        visit = _Visit([], point_at(rows, start + done), point_at(rows, start + count - before))
+        for at, back_off, beyond, stop in sorted(stops, key=lambda each: each[0]):
+            visit.pieces.append((span(rows, start + done, start + at - back_off), stop))
+            done = at + beyond
+        visit.pieces.append((span(rows, start + done, start + count - before), None))
+        return visit
+
+    def _left_out(self, here: Place, there: Place, taken: Sequence[Place]) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Return what an excursion leaves out before and after each end of its bridge, in rows of the rings' own directions."""
+        walked, none = self._walked, (0.0, 0.0)
+        outer, inner = (here, there) if walked.depth[here.ring] < walked.depth[there.ring] else (there, here)
+        if not walked.step or walked.depth[inner.ring] - walked.depth[outer.ring] != 1 or walked.depth[outer.ring] < 1:
+            return none, none
+        if outer is there:
+            taken = [a for a, b, _ in walked.tree.neighbours[there.ring] if b.ring != here.ring]
+        rows = walked.rings[outer.ring].rows
+        apex = point_of(walked.rings[inner.ring].rows, inner)
+        left = left_out(rows, outer, apex, room_beside(rows, outer, taken), (*walked.walls, walked.step))
+        return (left, none) if outer is here else (none, left)
 
     def _forward(self, ring: int, came_from: Place | None, after: Edge | None, main: bool) -> bool:
         """Tell whether a ring is walked in its own direction, in which the walls' side is to the right.

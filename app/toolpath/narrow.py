@@ -15,6 +15,8 @@ from app.geometry.distance import DistanceField
 from app.geometry.offset import Level, Ring, offset_levels
 from app.geometry.primitives import Primitives, contour_rows, sample
 from app.model.finding import Finding, FindingKind
+from app.model.job import Job
+from app.model.operation import ContourOperation, DrillOperation, Operation, Side
 from app.model.part import Region
 from app.model.tool import Tool
 from app.toolpath.bridge import level_bridges
@@ -58,12 +60,23 @@ class Need:
         return f"T{self.tool.number} {self.tool.label} needs {self.width:.3f} mm{why}"
 
 
-def too_small(regions: Sequence[Region], level: Level, tool: Tool, counts: bool) -> list[Finding]:
+def finest(job: Job, operation: Operation) -> float:
+    """Return the least width, mm, of a region that some operation of the job machines in the layers of this one, as deep, on its side."""
+
+    def side(each: Operation) -> Side | None:
+        return each.side if isinstance(each, ContourOperation) else None if isinstance(each, DrillOperation) else Side.INSIDE
+
+    alike = [each.cut for each in job.operations if each.cut.enabled and side(each) is side(operation)
+             and each.cut.layers == operation.cut.layers and each.cut.floor >= operation.cut.floor]  # fmt: skip
+    return min(2 * (job.tool(cut.tool).radius + cut.stock_to_leave) for cut in alike)
+
+
+def too_small(regions: Sequence[Region], level: Level, tool: Tool, least: float) -> list[Finding]:
     """Return a finding for each region in which a tool has no room at all.
 
     Args:
         level: the rings of the tool's centre.
-        counts: True when nothing else of the job machines such a region.
+        least: regions as wide as this are machined by others, mm, and count for nothing here; 0 = all are.
     """
     reached = {ring.region for ring in level.rings}
     need = Need(tool, 2 * level.distance)
@@ -74,6 +87,7 @@ def too_small(regions: Sequence[Region], level: Level, tool: Tool, counts: bool)
         x, y, diameter = largest_disc(region)
         text = (f"Region {region.number} at ({x:.3f}, {y:.3f}) is too small: its largest disc is about {diameter:.2f} mm, "
                 f"and {need.text}. Use a smaller tool for it.")
+        counts = diameter < least or 0 < need.width <= least + 1e-9
         findings.append(Finding(FindingKind.REGION_TOO_SMALL, text, x, y, counts, amount=diameter,
                                 entity_ids=region.boundary.entity_ids))
     return findings

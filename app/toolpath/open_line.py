@@ -39,7 +39,8 @@ def line_paths(sheet: Sheet, tool: Tool, direction: Direction, progress: Progres
         depth = rank[id(contour)] if contour.closed else len(loops)  # open lines before any loop that may free a part
         clockwise = direction is Direction.CLIMB if depth % 2 == 0 else direction is not Direction.CLIMB
         wrong = (area > 0) == clockwise if contour.closed else direction is not Direction.CLIMB
-        whole = Path(reversed_rows(rows) if wrong else rows, contour.closed, 0, depth, area)
+        parts = -abs(area) if depth % 2 == 0 else abs(area)
+        whole = Path(reversed_rows(rows) if wrong else rows, contour.closed, 0, depth, parts, k + 1 if contour.closed else 0)
         kept, lost = _beside_clamps(whole, sheet, tool.radius)
         paths.extend(kept)
         cut_off.extend(lost)
@@ -65,7 +66,7 @@ def _beside_clamps(path: Path, sheet: Sheet, radius: float) -> tuple[list[Path],
         spans = [*spans[1:-1], (spans[-1][0], length + spans[0][1])]
     elif path.closed and len(spans) == 1 and spans[0] == (0.0, length):
         return [path], []
-    kept = [Path(path.span(a, b, np.zeros(0))[0], False, 0, path.rank) for a, b in spans]
+    kept = [Path(path.span(a, b, np.zeros(0))[0], False, 0, path.rank, path.area, path.loop) for a, b in spans]
     return kept, _between(path, spans)
 
 

@@ -17,7 +17,7 @@ from app.model.tool import Tool
 from app.progress import NO_PROGRESS, Progress
 from app.toolpath.build import Stroke
 from app.toolpath.link import Manner, link
-from app.toolpath.narrow import necks, too_small
+from app.toolpath.narrow import finest, necks, too_small
 from app.toolpath.runs import NOTHING, Filling, between, fill
 from app.toolpath.setting import Setting, emit, passes_of
 from app.toolpath.sheets import Sheet
@@ -49,8 +49,10 @@ def pocket(setting: Setting, index: int, progress: Progress) -> None:
     chosen = shortest(sheet, Wanted(outermost, tool.radius, manner), stepovers, progress.part(0, 0.9))
     setting.note((*chosen.levels, *chosen.filling.halves))
     first = chosen.levels[0] if chosen.levels else Level(outermost, ())
-    setting.findings.extend(too_small(sheet.regions, first, tool, counts=wall == 0))
+    setting.findings.extend(too_small(sheet.regions, first, tool, 0.0 if wall else finest(setting.job, operation)))
     setting.findings.extend(necks(first, sheet.primitives, sheet.distances, tool))
+    if chosen.strokes:
+        setting.stepovers[index] = chosen.stepover
     setting.strokes += len(chosen.strokes) * passes_of(setting, index)
     emit(setting, index, sheet, chosen.strokes, progress.part(0.9, 1.0))
 
@@ -78,6 +80,7 @@ class Cleared:
         levels: rings, outermost first. filling: what cuts all that they leave. strokes: all of it.
         length: of all strokes, mm.
         linked: share of it that is no ring: bridges, and runs between rings.
+        stepover: between the rings, mm.
     """
 
     levels: tuple[Level, ...] = ()
@@ -85,6 +88,7 @@ class Cleared:
     strokes: tuple[Stroke, ...] = ()
     length: float = 0.0
     linked: float = 0.0
+    stepover: float = 0.0
 
 
 def candidates(radius: float, rows: int) -> tuple[float, ...]:
@@ -112,9 +116,9 @@ def shortest(sheet: Sheet, wanted: Wanted, stepovers: Sequence[float], progress:
         if best.strokes and ((best.linked <= MOST_LINKED and rings >= best.length) or stepovers[k] > too_far):
             continue
         filling = fill(levels, [found[distance] for distance in halves], sheet.distances, wanted.radius) if halves else NOTHING
-        strokes = link(levels, sheet.distances, wanted.manner, filling)
+        strokes = link(levels, sheet.distances, wanted.manner, filling, 0.0 if halves else stepovers[k])
         length = sum(float(lengths(stroke.rows).sum()) for stroke in strokes)
-        made = Cleared(levels, filling, strokes, length, 1 - rings / length)
+        made = Cleared(levels, filling, strokes, length, 1 - rings / length, stepovers[k])
         if not best.strokes or (made.linked > MOST_LINKED, length) < (best.linked > MOST_LINKED, best.length):
             best = made
         if made.linked > _FAR_TOO_LINKED:

@@ -20,6 +20,7 @@ from app.toolpath.cleared import flat_radius
 from app.toolpath.flat import move_rows
 from app.toolpath.rest_left import Floats, Ground, Reach, core_cells, left_of, rim_cells, suspects
 from app.toolpath.rest_runs import Cells, Chunks, Run, all_runs, runs
+from app.toolpath.rest_sides import sensed
 from app.toolpath.setting import Setting, emit
 from app.toolpath.sheets import Sheet
 
@@ -47,7 +48,7 @@ def rest(setting: Setting, index: int, progress: Progress) -> None:
 
     What counts as cut are all moves so far that are as deep as the operation's floor, and the contours that operations later
     in the list will follow as deep. What the operations before left at the floor they left at every depth, so the same paths
-    are cut at all depths. Runs are cut either way, whatever the direction asked for: most of them are slots.
+    are cut at all depths. A run with metal on one side is cut in the direction asked for; only slots go either way.
 
     Raises:
         ParameterError: the stepover is larger than the tool, or the operation is deeper than the stock.
@@ -67,7 +68,9 @@ def rest(setting: Setting, index: int, progress: Progress) -> None:
     setting.note(clearing.levels)
     if not found:
         return
-    corridor = Corridor(sheet.distances, reach.closest, Ground.of(before), tool.radius)
+    ground = Ground.of(before)
+    corridor = Corridor(sheet.distances, reach.closest, ground, tool.radius)
+    found = sensed(chunks, found, ground, tool.radius, operation.cut.direction)
     strokes = chains(chunks, found, corridor, longest_way(setting.job, tool, operation.cut), progress.part(0.5, 0.8))
     emit(setting, index, sheet, strokes, progress.part(0.8, 1.0))
 

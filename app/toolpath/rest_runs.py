@@ -92,10 +92,15 @@ class Chunks:
 
 @dataclass(frozen=True)
 class Run:
-    """A piece of a ring to be cut: so many short rows from one on."""
+    """A piece of a ring to be cut: so many short rows from one on.
+
+    Attributes:
+        sense: +1 it is cut in the ring's own direction, -1 the other way, 0 either way.
+    """
 
     chunk: int
     count: int
+    sense: int = 0
 
 
 @dataclass(frozen=True, eq=False)

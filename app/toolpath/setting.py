@@ -37,7 +37,7 @@ class Setting:
         regions: what the job machines, copies and all.
         sheets: areas and walls of each operation.
         builder: the moves so far, in the order of cutting.
-        findings, polyline_rings, strokes, on_bitmap, tabs, dog_bones: collected while operations run.
+        findings, polyline_rings, strokes, stepovers, on_bitmap, tabs, dog_bones: collected while operations run.
         cleared: ground that was cut.
         observer: is shown the numbered steps of the fill.
         at: where the tool is, mm.
@@ -51,6 +51,7 @@ class Setting:
     findings: list[Finding] = field(default_factory=list)
     polyline_rings: int = 0
     strokes: int = 0
+    stepovers: dict[int, float] = field(default_factory=dict)
     observer: Observer | None = None
     on_bitmap: BitmapCheck | None = None
     tabs: list[Tab] = field(default_factory=list)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,13 +19,18 @@ from app.model.operation import ContourOperation, DrillOperation, Operation, Poc
 from app.model.part import Contour, Region
 from app.model.stock_box import extent
 from app.toolpath.drawn import Drawn
-from app.toolpath.drill_holes import circle_of, hole_regions, holes_of
+from app.toolpath.drill_holes import Hole, circle_of, hole_regions, made_by_drills
+from app.toolpath.lead import lead_size
 
 _ON_CLAMP = 2e-5
 """mm; a wall all of which is this near to a clamp's outline is the clamp's: ends that meet are put together by as much."""
 
-ROOM = 4.0
-"""Tool diameters round the drawing in which the paths outside of it lie; beyond them is nothing that concerns them."""
+_ROOM = 4.0
+"""Tool diameters round the drawing in which the paths outside of it lie, unless their leads ask for more; beyond is nothing that
+concerns them."""
+
+_SPARE = 1.0
+"""mm that the frame is farther off than the leads need."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,9 +90,9 @@ class Sheets:
 
     def _sheet(self, layers: frozenset[str], side: Side) -> Sheet | None:
         closed, lines = ([c for c in contours if not layers or c.layer in layers] for contours in (self.drawn.closed, self.drawn.open))
-        if side is Side.ON:
-            closed = [contour for contour in closed if not self._is_drilled(contour)]
-        elif self.drawn.crossing:
+        if self._made_by_drills:
+            closed = [contour for contour in closed if circle_of(contour) not in self._made_by_drills]
+        if side is not Side.ON and self.drawn.crossing:
             closed = list(without_crossings(closed))
         frame = self._frame((*closed, *lines, *(c for region in self.drawn.clamps for c in region.contours)))
         if frame is None or (side is not Side.ON and not closed):
@@ -100,22 +106,27 @@ class Sheets:
         bare = _lies_on(primitives, outlines)
         return Sheet(regions, primitives, DistanceField.of(primitives.rows), bare, (*closed, *lines) if side is Side.ON else (), outlines)
 
-    def _is_drilled(self, contour: Contour) -> bool:
-        """Tell whether a drill operation of the job makes a contour: then no other tool follows it."""
-        hole = circle_of(contour)
-        drills = [each for each in self.job.operations if isinstance(each, DrillOperation) and each.cut.enabled]
-        return hole is not None and any(hole in holes_of(self.job, self.drawn, each).drilled for each in drills)
+    @cached_property
+    def _made_by_drills(self) -> frozenset[Hole | None]:
+        return frozenset(made_by_drills(self.job, self.drawn))
 
     def _frame(self, contours: Sequence[Contour]) -> Contour | None:
         """Return a box with room for every tool round all contours, counter-clockwise; None where there is no contour."""
         box = extent(contours)
         if box is None:
             return None
-        cuts = [operation.cut for operation in self.job.operations if operation.cut.enabled]
-        widest = max((self.job.tool(cut.tool).diameter for cut in cuts), default=1.0)
-        wide = ROOM * widest + max((cut.stock_to_leave for cut in cuts), default=0.0)
+        enabled = [operation for operation in self.job.operations if operation.cut.enabled]
+        widest = max((self.job.tool(each.cut.tool).diameter for each in enabled), default=1.0)
+        wide = _ROOM * widest + max((each.cut.stock_to_leave for each in enabled), default=0.0)
+        wide = max([wide, *(self._led(each) for each in enabled if isinstance(each, ContourOperation) and each.side is Side.OUTSIDE)])
         x0, y0, x1, y1 = box[0] - wide, box[1] - wide, box[2] + wide, box[3] + wide
         return polygon_contour([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
+
+    def _led(self, operation: ContourOperation) -> float:
+        """Return how far round the walls there is room for whole leads, also of what is roughed: they keep off the frame too, mm."""
+        tool = self.job.tool(operation.cut.tool)
+        wall = tool.radius + operation.cut.stock_to_leave + operation.finish_width
+        return 2 * wall + lead_size(operation.lead, tool) + _SPARE
 
 
 def without_clamps(contours: Sequence[Contour], clamps: Sequence[Region]) -> tuple[Region, ...]:

@@ -57,24 +57,34 @@ class TabShape:
         return (self.wanted.width + self.tool.diameter) / 2
 
 
-def by_hand(paths: Sequence[Path], shape: TabShape, shifts: Sequence[Point], walls: DistanceField | None) -> list[list[float]]:
-    """Return for each path where tabs are put by hand, mm along it: at what is nearest to each place, on every copy.
+def by_hand(paths: Sequence[Path], shape: TabShape, shifts: Sequence[Point],
+            walls: DistanceField | None) -> tuple[list[list[float]], list[Finding]]:  # fmt: skip
+    """Return for each path where tabs are put by hand, mm along it, at what is nearest to each place, on every copy; and which are not.
+
+    A path that is too short for a tab gets none; it counts where a part comes loose there.
 
     Args:
         walls: what the paths follow; a place goes to the wall nearest to it, and then to the path along that.
     """
     found: list[list[float]] = [[] for _ in paths]
+    told: list[Finding] = []
     if not shape.wanted.places or not paths or walls is None:
-        return found
+        return found, told
     places = np.array([(x + dx, y + dy) for dx, dy in shifts for x, y in shape.wanted.places])
     row = walls.nearest(places)[1]
     feet = points_at(walls.rows[row], fractions_at(walls.rows[row], places))
     near = [path.nearest(feet) for path in paths]
     owner = np.argmin(np.array([distance for _, distance in near]), axis=0)
     for k, path in enumerate(owner.tolist()):
-        if paths[path].length > 2 * shape.half + shape.tool.diameter:
+        least = 2 * shape.half + shape.tool.diameter
+        if paths[path].length > least:
             found[path].append(float(near[path][0][k]))
-    return found
+            continue
+        x, y = places[k].tolist()
+        text = (f"The tab by hand at ({x:.3f}, {y:.3f}) is left out: the path of T{shape.tool.number} {shape.tool.label} nearest to it is "
+                f"{paths[path].length:.3f} mm long, and it takes more than {least:.3f} mm.")
+        told.append(Finding(FindingKind.LEFT_OUT, text, x, y, counts=paths[path].area < 0, amount=paths[path].length))
+    return found, told
 
 
 def spread(run: Run, own: Sequence[float], shape: TabShape, around: Around) -> list[float]:
@@ -146,12 +156,12 @@ def about_tabs(made: Sequence[Run], tabs: Sequence[Sequence[float]], shape: TabS
     It counts where a path round a part, from which it comes loose, has none at all; of one that clamps cut open, where no piece has any.
     """
     findings = []
-    held = {(run.path.region, run.path.area) for run, places in zip(made, tabs, strict=True) if places and not run.path.closed}
+    held = {run.path.ring for run, places in zip(made, tabs, strict=True) if places and not run.path.closed}
     few = [(run.path, len(places)) for run, places in zip(made, tabs, strict=True)
            if goes_round(run.path) and len(places) < shape.wanted.count]  # fmt: skip
     for loose in (True, False):
         which = [path for path, count in few
-                 if (count == 0 and path.area < 0 and (path.closed or (path.region, path.area) not in held)) == loose]  # fmt: skip
+                 if (count == 0 and path.area < 0 and (path.closed or path.ring not in held)) == loose]  # fmt: skip
         if which:
             x, y = which[0].rows[0, :2]
             what = "no tab though a part comes loose there" if loose else f"fewer than {shape.wanted.count} tabs"

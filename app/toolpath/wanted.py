@@ -161,8 +161,7 @@ def _wanted(group: Sequence[_Work], cutting: Sequence[_Work], made: _Shapes) -> 
         outside = isinstance(work.operation, ContourOperation) and work.operation.side is Side.OUTSIDE
         swath = _along_walls(work, made) if isinstance(work.operation, ContourOperation) else None
         floor = shapely.union_all(grown(shapes, -leave, CHORD) if leave else shapes)
-        near = shapely.buffer(swath, work.operation.cut.stock_to_leave + made.wall(work)) if outside and swath is not None else None
-        floors.append(shapely.intersection(floor, near) if near is not None else floor)
+        floors.append(shapely.intersection(floor, _band(work, made)) if outside else floor)
         wanted.append(swath if swath is not None else shapely.intersection(reach, floor))
     lines = [each for work, each in zip(group, wanted, strict=True) if work.area.lines]
     floor, asked = shapely.union_all([*floors, *lines]), shapely.union_all(wanted)
@@ -187,12 +186,22 @@ def _farthest(works: Sequence[_Work], job: Job) -> list[_Work]:
 def _along_walls(work: _Work, made: _Shapes) -> Shape:
     """Return what the tool covers when its centre follows the walls, but not clamps."""
     radius, wall = made.job.tool(work.operation.cut.tool).radius, made.wall(work)
-    paths = shapely.union_all(shapely.boundary(made.inner(work)))
-    bare = work.area.bare
-    if bare:
-        outlines = shapely.union_all([_line(contour) for contour in bare])
-        paths = shapely.difference(paths, shapely.buffer(outlines, wall + _BARE, quad_segs=64))
-    return shapely.buffer(paths, radius - FITS, quad_segs=64)
+    return shapely.buffer(_beside_bare(made.inner(work), work, wall), radius - FITS, quad_segs=64)
+
+
+def _band(work: _Work, made: _Shapes) -> Shape:
+    """Return what the tool would cover if it could follow all walls: what lies as near to one as it is wide."""
+    wide = work.operation.cut.stock_to_leave + made.job.tool(work.operation.cut.tool).diameter
+    return shapely.buffer(_beside_bare(made.plain(work.area), work, 0.0), wide, quad_segs=64)
+
+
+def _beside_bare(shapes: NDArray[np.object_], work: _Work, distance: float) -> Shape:
+    """Return the outlines of shapes, but for what runs along clamps or the frame, a distance from them, mm."""
+    outlines = shapely.union_all(shapely.boundary(shapes))
+    if not work.area.bare:
+        return outlines
+    bare = shapely.union_all([_line(contour) for contour in work.area.bare])
+    return shapely.difference(outlines, shapely.buffer(bare, distance + _BARE, quad_segs=64))
 
 
 def _on_lines(work: _Work, made: _Shapes) -> Shape:

@@ -14,11 +14,12 @@ from app.workflow.make import Made
 
 
 def engaged_picture(made: Made, progress: Progress) -> ProgramPicture:
-    """Return the moves of a result prepared for painting, those alike engaged together."""
-    from app.toolpath.engagement import engagement
+    """Return the moves of a result prepared for painting, stretch by stretch of engagement."""
+    from app.toolpath.engagement import look
+    from app.ui.canvas.stretches import stretches
 
-    shares = engagement(made.program, made.job, progress).shares
-    return ProgramPicture(made.program, made.coverage.places, shares)
+    seen = look(made.program, made.job, progress)
+    return ProgramPicture(made.program, made.coverage.places, stretches(made.program.moves, seen))
 
 
 class Engaging(QObject):

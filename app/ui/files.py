@@ -10,6 +10,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
+from app.files.drawing import SUFFIXES
 from app.model.part import Part, Units
 from app.ui import opening as opening_files
 from app.ui.exporting import FILTER, Exporting
@@ -25,8 +26,8 @@ from app.ui.views import View
 from app.workflow.bitmap_options import PICTURES, is_picture
 
 FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
-OPEN_FILTER = (f"Drawings, pictures and NC programs (*.dxf *.DXF {' '.join('*' + suffix for suffix in (*PICTURES, *PROGRAM_SUFFIXES))});;"
-               "All files (*)")
+OPEN_FILTER = ("Drawings, pictures and NC programs "
+               f"({' '.join('*' + suffix for suffix in (*SUFFIXES, '.DXF', *PICTURES, *PROGRAM_SUFFIXES))});;All files (*)")
 _UNIT_NAMES = {Units.MM: "mm", Units.INCH: "inch"}
 
 

@@ -49,17 +49,17 @@ def _faded(picture: QPixmap) -> QPixmap:
 
 
 class IconLabel(QLabel):
-    """An icon of 16 px that follows the theme and does nothing."""
+    """An icon of 16 px that follows the theme and does nothing; `name` says which."""
 
     def __init__(self, name: str) -> None:
         super().__init__()
-        self._name = name
+        self.name = name
         self.setFixedSize(16, 16)
         self.setScaledContents(True)
 
     def set_theme(self, theme: Theme) -> None:
         """Draw the icon in the theme's ink."""
-        self.setPixmap(pixmap(self._name, theme.ink, 3))
+        self.setPixmap(pixmap(self.name, theme.ink, 3))
 
 
 class IconButton(QToolButton):

@@ -17,7 +17,7 @@ def muted(text: str = "") -> QLabel:
 
 
 class Elided(QLabel):
-    """One line that gives way where room is short; `role` is its colour: "muted", or "" for ink."""
+    """One line that gives way where room is short; `role` is its colour: "muted", "error", or "" for ink."""
 
     def __init__(self, text: str = "", role: str = "") -> None:
         super().__init__(text)

@@ -78,7 +78,9 @@ class EngagedScale(QWidget):
             painter.fillRect(QRectF(k * wide, 6, wide, 6), colour)
         painter.setPen(self._theme.muted)
         for k, share in enumerate(STEPS, 1):
-            painter.drawText(QRectF(k * wide - 20, 14, 40, 14), Qt.AlignmentFlag.AlignCenter, f"{100 * share:.0f} %")
+            unit = " %" if k == len(STEPS) else ""
+            aside = painter.fontMetrics().horizontalAdvance(unit) / 2
+            painter.drawText(QRectF(k * wide - 20 + aside, 14, 40, 14), Qt.AlignmentFlag.AlignCenter, f"{100 * share:.0f}{unit}")
 
 
 class Legend(QFrame):
@@ -116,7 +118,7 @@ class Legend(QFrame):
         column.addSpacing(8)
         column.addWidget(muted("Colour by"))
         self.colour = ChoiceField("", [(ColourBy.TOOL, "Tool"), (ColourBy.REGION, "Region"), (ColourBy.ENGAGEMENT, "Load")])
-        self.colour.buttons[ColourBy.ENGAGEMENT].setToolTip("The largest share of the diameter that is engaged along each move")
+        self.colour.buttons[ColourBy.ENGAGEMENT].setToolTip("How much of the diameter is engaged along the path")
         self.colour.show_value(ColourBy.TOOL)
         self.colour.chosen.connect(self._choose_colour)
         column.addWidget(self.colour)

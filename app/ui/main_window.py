@@ -7,6 +7,7 @@ from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplicat
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QLayout, QMainWindow, QVBoxLayout, QWidget
 
 from app.edit.document import Document
+from app.files.drawing import SUFFIXES
 from app.settings import Settings, ThemeChoice
 from app.ui import style
 from app.ui.actions import Actions
@@ -20,7 +21,6 @@ from app.ui.cut.cut_panel import CutPanel
 from app.ui.cut.setup_form import SetupForm
 from app.ui.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
 from app.ui.notice import Notice
-from app.ui.opening import SUFFIXES
 from app.ui.panels.side_panel import SidePanel
 from app.ui.stages.import_panel import ImportPanel
 from app.ui.stages.stages_panel import StagesPanel

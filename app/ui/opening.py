@@ -20,8 +20,6 @@ from app.ui.worker import Answer, Worker
 if TYPE_CHECKING:
     from app.files.drawing import Drawing
 
-SUFFIXES = (".dxf",)
-
 
 @dataclass(frozen=True)
 class Opened:

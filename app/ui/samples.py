@@ -125,6 +125,9 @@ class Switch(QAbstractButton):
         painter.drawEllipse(QPointF(21 if on else 9, 9), 5.5, 5.5)
 
 
+_METAL_PX = 10.0  # of standing metal that is seen however wide the stepover
+
+
 class StepoverDrawing(QWidget):
     """The tool in two neighbouring rings, seen from the side: s is what it moves, the rest is overlap."""
 
@@ -148,8 +151,8 @@ class StepoverDrawing(QWidget):
         theme = self._theme
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        diameter, top, floor = 66.0, 20.5, 62.5
-        right = 116.5
+        top, floor, right = 20.5, 62.5, 116.5
+        diameter = min(66.0, (right - _METAL_PX) / (1 + self._ratio))
         step = max(self._ratio * diameter, 2.0)
         left = right - diameter
         self._metal(painter, left - step, floor)

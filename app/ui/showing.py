@@ -106,7 +106,7 @@ class Showing(QObject):
         self._window.views.show_view(view)
         self._window.tool_strip.setVisible(view in (View.DRAW, View.PATHS))
         self.show_prompt()
-        self._window.status.show_message(self._standing())
+        self._show_standing()
         self.view_changed.emit(view)
         self.show_missing()
 
@@ -185,13 +185,16 @@ class Showing(QObject):
 
     def show_hovered(self, text: str) -> None:
         """Show what the mouse is over, or else where the paths stand."""
-        self._window.status.show_message(text or self._standing())
+        if text:
+            self._window.status.show_message(text)
+        else:
+            self._show_standing()
 
-    def _standing(self) -> str:
-        """Return what the status bar says when nothing else is to be said."""
-        views = self._window.views
+    def _show_standing(self) -> None:
+        """Show what the status bar says when nothing else is to be said: of a run that failed, why it did."""
+        views, computation = self._window.views, self._computation
         words = {View.NC: views.nc.summary, View.STAGES: views.stages.summary}.get(self.view, "")
-        return words or self._computation.state.value
+        self._window.status.show_message(words or computation.error or computation.state.value, error=bool(computation.error and not words))
 
     def _on_computation(self) -> None:
         made, state = self._computation.made, self._computation.state

@@ -79,7 +79,7 @@ _FIELDS = """
 QLineEdit { background: $raised; color: $ink; border: 0; border-bottom: 1px solid $edge; padding: 2px 6px;
   selection-background-color: $accent; selection-color: $accent_ink; }
 QLineEdit:focus { border-bottom: 1px solid $accent_text; }
-QLineEdit[wrong="true"] { border-bottom: 1px solid $error; color: $error; }
+QLineEdit[wrong="true"], QComboBox[wrong="true"] { border-bottom: 1px solid $error; color: $error; }
 QLineEdit#commandLine { background: transparent; border: 0; padding: 0; }
 QComboBox { background: $raised; color: $ink; border: 0; border-bottom: 1px solid $edge; padding: 2px 6px; min-height: 18px; }
 QComboBox:focus { border-bottom: 1px solid $accent_text; }

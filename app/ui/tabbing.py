@@ -11,6 +11,7 @@ from app.model.operation import ContourOperation
 from app.ui.canvas.hands import Marking
 from app.ui.main_window import MainWindow
 from app.ui.panels.changes import with_operation
+from app.ui.panels.operation_groups import BY_HAND
 
 
 class Tabbing:
@@ -19,6 +20,11 @@ class Tabbing:
     def __init__(self, window: MainWindow) -> None:
         self._window, self._index = window, 0
         window.panel.operation_form.tabs.connect(self.start)
+        window.canvas.prompt_changed.connect(lambda _: self._show())
+
+    def _show(self) -> None:
+        """Have the button say what a click on it does."""
+        self._window.panel.operation_form.hand.setText(BY_HAND if self._window.canvas.marking is None else "Done")
 
     def start(self) -> None:
         """Begin, or end when it had begun."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 from PySide6.QtGui import QColor, QFont, QFontDatabase
 
@@ -54,6 +55,12 @@ class Theme:
     ok: QColor
     parameter: QColor
     regions: tuple[QColor, ...]
+
+    def faint(self, part: float) -> Theme:
+        """Return the theme with `part` of each colour left, and the canvas for the rest: lines that lie over one another stay faint."""
+        faded: dict[str, Any] = {f.name: mixed(self.canvas, getattr(self, f.name), part) for f in fields(self)
+                                 if isinstance(getattr(self, f.name), QColor)}  # fmt: skip
+        return replace(self, regions=tuple(mixed(self.canvas, colour, part) for colour in self.regions), **faded)
 
     def hex_colours(self) -> dict[str, str]:
         """Return every single colour as "#rrggbb" by its name, for style sheets and icons."""

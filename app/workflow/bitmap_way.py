@@ -129,9 +129,10 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
         part: the pixels.
 
     Raises:
-        ParameterError: a tool is not wider than two pixels, or an operation's parameters do not fit its tool.
+        ParameterError: no operation is switched on, a tool is not wider than two pixels, or it cannot do what its operation asks.
         Cancelled: by progress.
     """
+    job.check_operations()
     primitives = pack(part.regions)
     setting = Setting(job, part.regions, Sheets(job, Drawn()))
     walls = Sheet(part.regions, primitives, part.squares, np.zeros(len(primitives.rows), np.bool_))
@@ -149,7 +150,8 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
     setting.findings.extend(_left_out(job))
     findings = tuple(sorted(setting.findings, key=lambda finding: not finding.counts))
     program = Program(setting.builder.moves(), part.regions, findings, setting.strokes, pitch_mm=part.frame.pitch,
-                      given_up_mm=given_up.most_mm, allowance_mm=min(given_up.most_mm, MOST_SKIN_PX * part.frame.pitch))
+                      given_up_mm=given_up.most_mm, allowance_mm=min(given_up.most_mm, MOST_SKIN_PX * part.frame.pitch),
+                      stepovers={each.index: each.distances[1] - each.distances[0] for each in paths if len(each.distances) > 1})
     return BitmapProgram(program, tuple(paths), given_up, rough)
 
 

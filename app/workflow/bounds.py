@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import tan
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from app.dexel.cutter import DRILL_ANGLE, cutter_of
 from app.geometry.distance import DistanceField
 from app.geometry.primitives import contour_rows, points_at, within_half_turn
+from app.model.curves import Circle
 from app.model.job import Job
 from app.model.moves import Area, DogBone, Moves, Program
 from app.model.operation import DrillOperation, Operation
-from app.model.part import Contour
+from app.model.part import Contour, Region
 from app.model.tool import Tool, ToolKind
 from app.toolpath.wanted import areas_of_operations
 
@@ -34,6 +36,7 @@ class Bound:
         area: that their cutters stay in.
         leave: stock to leave on its walls, mm.
         floor: how deep they may go, mm.
+        holes: True where the area is circles to drill, which may cross: a drill stays in one of them.
     """
 
     operations: tuple[int, ...]
@@ -41,6 +44,7 @@ class Bound:
     area: Area
     leave: float
     floor: float
+    holes: bool = False
 
 
 def bounds_of(program: Program, job: Job) -> list[Bound]:
@@ -53,7 +57,8 @@ def bounds_of(program: Program, job: Job) -> list[Bound]:
             found.setdefault(key, []).append(k)
     busy = {operation.cut.tool for operation in job.operations if operation.cut.enabled}
     idle = tuple(tool.number for tool in job.tools if tool.number not in busy)
-    return [Bound(tuple(group), (*dict.fromkeys(job.operations[k].cut.tool for k in group), *idle), areas[group[0]], leave, floor)
+    return [Bound(tuple(group), (*dict.fromkeys(job.operations[k].cut.tool for k in group), *idle), areas[group[0]], leave, floor,
+                  isinstance(job.operations[group[0]], DrillOperation))
             for (_, _, leave, floor), group in found.items()]  # fmt: skip
 
 
@@ -109,10 +114,32 @@ def off_lines(rows: Floats, lines: Sequence[Contour]) -> tuple[Floats, Floats]:
     A path on lines runs along them, so a move that is on a line at five places runs along it.
     """
     field = DistanceField.of(within_half_turn(np.concatenate([contour_rows(contour) for contour in lines])))
-    worst, places = np.zeros(len(rows)), rows[:, :2].copy()
+    return _worst_along(rows, lambda points: field.nearest(points)[0])
+
+
+def out_of_holes(rows: Floats, need: Floats, holes: Sequence[Region]) -> tuple[Floats, Floats]:
+    """Return how far moves (n, 8) that need room all round, mm, reach beyond the hole whose middle is nearest, mm, and where, (n, 2).
+
+    Args:
+        holes: regions that are circles; they may cross one another.
+    """
+    circles = [each for region in holes for each in region.boundary.primitives if isinstance(each, Circle)]
+    tree, radius = cKDTree([each.centre for each in circles]), np.array([each.radius for each in circles])
+
+    def off(points: Floats) -> Floats:
+        far, which = tree.query(points)
+        beyond: Floats = far + need - radius[which]
+        return beyond
+
+    return _worst_along(rows, off)
+
+
+def _worst_along(rows: Floats, measure: Callable[[Floats], Floats]) -> tuple[Floats, Floats]:
+    """Return the largest of what is measured at the ends of moves (n, 8) and at three places between, and where that is, (n, 2)."""
+    worst, places = np.full(len(rows), -np.inf), rows[:, :2].copy()
     for part in (0.0, 0.25, 0.5, 0.75, 1.0):
         points = points_at(rows, np.full(len(rows), part))
-        off = field.nearest(points)[0]
+        off = measure(points)
         more = off > worst
         worst[more], places[more] = off[more], points[more]
     return worst, places

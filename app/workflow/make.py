@@ -119,7 +119,7 @@ def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_P
     job = job_from_drawing(drawing, options)
     made = export(job, progress.part(0.1, 1.0), drawing.findings, options.machine)
     if not len(made.program.moves):
-        raise GeometryError(_nothing(name, job, made.findings))
+        raise GeometryError(_nothing(name, made.findings))
     return made
 
 
@@ -133,14 +133,12 @@ def _make_on_bitmap(name: str, data: bytes, options: MakeOptions, progress: Prog
     program = compute_on_bitmap(ready.job, ready.part, progress.part(0.1, 0.5)).program
     made = finish(program, ready.job, progress.part(0.5, 1.0), ready.findings, options.machine)
     if not len(program.moves):
-        raise GeometryError(_nothing(name, ready.job, made.findings))
+        raise GeometryError(_nothing(name, made.findings))
     return made
 
 
-def _nothing(name: str, job: Job, findings: tuple[Finding, ...]) -> str:
+def _nothing(name: str, findings: tuple[Finding, ...]) -> str:
     """Return why a drawing gave no path."""
-    if not any(each.cut.enabled for each in job.operations):
-        return f"{name}: every operation of the job is switched off, so nothing is cut; switch one on (enabled = true)."
     if not findings:
         return f"{name}: there is no closed contour to machine; draw one, or choose other layers."
     telling = sorted(findings, key=lambda finding: (not finding.counts, finding.kind is not FindingKind.OPEN_CONTOUR))
@@ -163,9 +161,7 @@ def export(job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[F
     """
     from app.toolpath.compute import compute
 
-    for operation in job.operations:
-        if operation.cut.enabled:
-            job.cutter(operation)
+    job.check_operations()
     return finish(compute(job, progress.part(0.0, 0.6)), job, progress.part(0.6, 1.0), drawing_findings, machine)
 
 
@@ -185,7 +181,8 @@ def finish(
     lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
     program = replace(program, moves=replace(program.moves, line=lines))
     progress.step(0.2, "Checking clearance")
-    depths, rapids = gouge_depths(program, job), rapids_in_material(program, job)
+    depths = gouge_depths(program, job, progress=progress.part(0.2, 0.28))
+    rapids = rapids_in_material(program, job, progress.part(0.28, 0.3))
     deepest = deepest_of(depths)
     coverage = measure(program, job, progress.part(0.3, 0.7))
     clamped = deepest_of(clamps_met(program, job, depths))

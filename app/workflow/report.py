@@ -123,7 +123,7 @@ def make_report(measured: Measured) -> Report:
         "regions": _regions(program),
         "area_check_mm2": {"exact": program.exact_area_mm2, "bitmap": program.bitmap_area_mm2, "pitch_mm": program.pitch_mm},
         "tools": [_tool(tool, measured) for tool in job.tools],
-        "operations": [operation_values(job, index, moves, written, top) for index in range(len(job.operations))],
+        "operations": [operation_values(job, index, program, written, top) for index in range(len(job.operations))],
         **_setup(measured),
         "post": job.post,
         "out_units": "in" if job.out_units.value == 25.4 else "mm",

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from app.model.job import Job
 from app.model.motion import MotionKind
-from app.model.moves import MoveKind, Moves, Purpose
+from app.model.moves import MoveKind, Moves, Program, Purpose
 from app.model.operation import ContourOperation, DrillOperation, Operation, PocketOperation, RestOperation, kind_word
 from app.workflow.verdict import in_stock
 from app.workflow.written import Written
@@ -69,24 +69,34 @@ def _runs(moves: Moves, chosen: Mask) -> int:
     return len(np.unique(np.cumsum(~feed)[feed & chosen]))
 
 
-def operation_values(job: Job, index: int, moves: Moves, written: Written, top: float) -> Json:
+def operation_values(job: Job, index: int, program: Program, written: Written, top: float) -> Json:
     """Return an operation as a report lists it.
 
     Args:
         top: height of the stock's top, mm, program coordinates.
     """
-    operation = job.operations[index]
+    operation, moves = job.operations[index], program.moves
     cut, mine = operation.cut, moves.operation[written.move] == index
     return {
         "kind": kind_word(operation), "tool": cut.tool, "enabled": cut.enabled, "depth_mm": cut.depth,
-        **_parameters(operation), "layers": list(cut.layers), "strokes": strokes_of(moves, index),
+        **_parameters(operation), **_stepover(job, index, program), "layers": list(cut.layers), "strokes": strokes_of(moves, index),
         "length_mm": path_lengths(moves, written, top, index), "time_s": float(np.sum(written.moving[mine])),
         "rapid_time_s": float(np.sum(written.moving[mine & (written.kind == MotionKind.RAPID)])),
     }  # fmt: skip
 
 
+def _stepover(job: Job, index: int, program: Program) -> Json:
+    """Return the stepover that was asked for, or what the program has chosen, of rest runs the most; None where a pocket makes no rings."""
+    operation = job.operations[index]
+    if isinstance(operation, PocketOperation):
+        return {"stepover_mm": program.stepovers.get(index, operation.stepover)}
+    if isinstance(operation, RestOperation):
+        return {"stepover_mm": operation.stepover or job.tool(operation.cut.tool).diameter}
+    return {}
+
+
 def _parameters(operation: Operation) -> Json:
-    """Return what was asked of an operation of its kind; None where the program chooses."""
+    """Return what was asked of an operation of its kind, None where nothing was."""
     cut = operation.cut
     if isinstance(operation, DrillOperation):
         return {"peck_mm": operation.peck, "least_mm": operation.least, "most_mm": operation.most, "through_mm": operation.through}
@@ -95,8 +105,6 @@ def _parameters(operation: Operation) -> Json:
         "finish_depth_mm": cut.finish_depth, "direction": cut.direction.value, "entry": cut.entry.kind.value,
         "most_engaged": operation.most_engaged,
     }  # fmt: skip
-    if isinstance(operation, (PocketOperation, RestOperation)):
-        asked["stepover_mm"] = operation.stepover
     if isinstance(operation, PocketOperation):
         asked["outside_in"] = operation.outside_in
     if isinstance(operation, ContourOperation):

@@ -12,6 +12,7 @@ from app.dexel.workpiece import BoxStock, Stock
 from app.errors import HitofudeError, InputError
 from app.files.drawing import read_drawing
 from app.files.job_toml import JobFile
+from app.model.entry import LONGEST_LEAD, Lead
 from app.model.finding import Finding
 from app.model.job import Copies, Job, OriginXY, OriginZ
 from app.model.job import Stock as JobStock
@@ -170,6 +171,7 @@ def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
     """Return the drawing and what of it is milled, and what there is to say about it."""
     from app.toolpath.compute import about_drawing, followed_lines, machined
     from app.toolpath.drawn import drawn
+    from app.toolpath.missed import missed
     from app.toolpath.sheets import Sheets
 
     assert wishes.against is not None
@@ -187,9 +189,10 @@ def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
     proven = header.path_tolerance if wishes.tolerance is None else None
     tolerance = TOLERANCE if wishes.tolerance is None else wishes.tolerance
     tabs, dog_bones = _on_purpose(programs)
+    sheets = Sheets(job, parts)
     part = FlatPart(job, regions, _origin(job, (regions, lines), wishes, header), tolerance if proven is None else proven, tolerance,
-                    header.allowance or 0.0, Sheets(job, parts).areas(), lines, clamps=parts.clamps, tabs=tabs, dog_bones=dog_bones)
-    return part, (*drawing.findings, *about_drawing(job, parts, lines))
+                    header.allowance or 0.0, sheets.areas(), lines, clamps=parts.clamps, tabs=tabs, dog_bones=dog_bones)
+    return part, (*drawing.findings, *about_drawing(job, parts, lines), *missed(sheets, regions))
 
 
 def _on_purpose(programs: tuple[Examined, ...]) -> tuple[tuple[Tab, ...], tuple[DogBone, ...]]:
@@ -268,7 +271,7 @@ def _as_noted(note: OperationNote) -> Operation:
     try:
         cut = Cut(note.tool, note.depth, note.depth, note.leave, floor_to_leave=note.floor_to_leave, layers=note.layers)
         if note.kind == "contour":
-            return ContourOperation(cut, note.side)
+            return ContourOperation(cut, note.side, Lead(radius=min(note.leads, LONGEST_LEAD) or None))
         if note.kind == "drill":
             least, most, through = note.holes
             return DrillOperation(cut, None, least or None, most or None, through)

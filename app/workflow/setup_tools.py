@@ -95,9 +95,10 @@ def _cutting(program: NcProgram) -> dict[int, int]:
 
 def _with_name(examined: Examined, told: tuple[ToolsTold, ...], known: dict[int, KnownTool], taken: set[int]) -> Examined:
     """Return a program with a number for the tool that it does not name; the number is taken, the tool known."""
-    own = {note.number for note in examined.program.tools}
-    if len(own) == 1 and NAMELESS not in own and not own & _cutting(examined.program).keys():
-        number = own.pop()
+    own = dict.fromkeys(note.number for note in examined.program.tools)
+    sure = len(own) == 1 or (own and examined.program.header is not None)  # our own header tells first of the tool that cuts
+    if sure and NAMELESS not in own and not own.keys() & _cutting(examined.program).keys():
+        number = next(iter(own))
         known[number] = _known(examined, number, 0, told, [examined.program])
     else:
         found = _only(examined, told)

@@ -12,18 +12,22 @@ from numpy.typing import NDArray
 from app.geometry.near import near
 from app.geometry.primitives import TURN, contour_rows
 from app.model.job import Job
-from app.model.moves import Area, MoveKind, Moves, Program
+from app.model.moves import MoveKind, Moves, Program
 from app.model.part import Region
 from app.model.stock_box import StockBox
+from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
 from app.toolpath.flat import lines, move_rows, region_shapes
-from app.workflow.bounds import bounds_of, cutting_radius, in_dog_bones, off_lines
+from app.workflow.bounds import Bound, bounds_of, cutting_radius, in_dog_bones, off_lines, out_of_holes
 from app.workflow.clearance import curve_distance
 
 Floats = NDArray[np.float64]
 
 _CHORD = 1e-3
 """mm; walls and moves are flattened within this only to find which pairs can be near."""
+
+_PORTION = 4000
+"""Moves that are held against walls between two looks at whether to stop."""
 
 _SURFACE = 1e-9
 """mm below the stock's top at which a move counts as in the stock."""
@@ -78,7 +82,8 @@ class Depths:
     places: Floats
 
 
-def gouge_depths(program: Program, job: Job, stock: StockBox | None = None, by_tool: bool = False) -> Depths:
+def gouge_depths(program: Program, job: Job, stock: StockBox | None = None, by_tool: bool = False,
+                 progress: Progress = NO_PROGRESS) -> Depths:  # fmt: skip
     """Return how deep each move in the stock cuts into walls, by exact distances, or below the floor of its operation.
 
     Args:
@@ -87,6 +92,9 @@ def gouge_depths(program: Program, job: Job, stock: StockBox | None = None, by_t
         stock: moves above it, and those that keep off it by their cutter's radius, cut nothing; straight ones count up to where they
             leave it. None = it is everywhere below Z 0.
         by_tool: True: nobody knows which operation a move belongs to, so it may be wherever one of its tool's may.
+
+    Raises:
+        Cancelled: by progress.
     """
     moves = program.moves
     top = min(0.0, stock.z1) if stock is not None else 0.0
@@ -99,11 +107,12 @@ def gouge_depths(program: Program, job: Job, stock: StockBox | None = None, by_t
     rows = _clipped(rows, stock) if stock is not None else rows
     radius = cutting_radius(moves, job)[chosen]
     exempt = in_dog_bones(rows, program.dog_bones)
-    for bound in bounds_of(program, job):
+    bounds = bounds_of(program, job)
+    for k, bound in enumerate(bounds):
         mine = np.flatnonzero(np.isin(moves.tool[chosen], bound.tools) if by_tool else np.isin(moves.operation[chosen], bound.operations))
         if not len(mine):
             continue
-        deep, where = _beyond_walls(rows[mine], radius[mine] + bound.leave, bound.area)
+        deep, where = _beyond(bound, rows[mine], radius[mine] + bound.leave, progress.part(k / len(bounds), (k + 1) / len(bounds)))
         deep[exempt[mine]] = -np.inf
         too_deep = -low[mine] - bound.floor
         deeper = too_deep > np.maximum(deep, _SURFACE)
@@ -113,10 +122,13 @@ def gouge_depths(program: Program, job: Job, stock: StockBox | None = None, by_t
     return Depths(chosen, depth, np.column_stack([places, low]))
 
 
-def _beyond_walls(rows: Floats, need: Floats, area: Area) -> tuple[Floats, Floats]:
+def _beyond(bound: Bound, rows: Floats, need: Floats, progress: Progress) -> tuple[Floats, Floats]:
     """Return how far moves leave an area, with all the width that they need (<= 0: they do not), mm, and where, (n, 2)."""
+    area = bound.area
+    if bound.holes:
+        return out_of_holes(rows, need, area.regions)
     walls = np.concatenate([contour_rows(contour) for region in area.regions for contour in region.contours])
-    depth, places = _depths(rows, need, walls)
+    depth, places = _depths(rows, need, walls, progress)
     outside, beyond = _outside(rows, area.regions)
     depth[outside], places[outside] = need[outside] + beyond, rows[outside, 2:4]
     if area.lines:
@@ -185,15 +197,18 @@ def deepest_of(depths: Depths) -> Gouge:
     return Gouge(float(depths.depth[worst]), x, y, z, int(depths.move[worst]), int(np.sum(depths.depth > LEVEL)))
 
 
-def _depths(rows: Floats, need: Floats, walls: Floats) -> tuple[Floats, Floats]:
+def _depths(rows: Floats, need: Floats, walls: Floats, progress: Progress = NO_PROGRESS) -> tuple[Floats, Floats]:
     """Return (n,) how far each move comes nearer to a wall than it may (<= 0: it does not), and where, (n, 2)."""
     tree = shapely.STRtree(lines(walls, _CHORD))
-    move, wall = near(tree, lines(rows, _CHORD), need + 4 * _CHORD)
     depth, places = np.full(len(rows), -np.inf), rows[:, 2:4].copy()
-    distance, points = curve_distance(rows[move], walls[wall])
-    short = need[move] - distance
-    for k in np.argsort(short):
-        depth[move[k]], places[move[k]] = short[k], points[k]
+    for first in range(0, len(rows), _PORTION):
+        progress.step(first / len(rows), "Checking clearance")
+        some = slice(first, first + _PORTION)
+        move, wall = near(tree, lines(rows[some], _CHORD), need[some] + 4 * _CHORD)
+        distance, points = curve_distance(rows[some][move], walls[wall])
+        short = need[some][move] - distance
+        for k in np.argsort(short):
+            depth[first + move[k]], places[first + move[k]] = short[k], points[k]
     return depth, places
 
 
@@ -209,18 +224,22 @@ def _outside(rows: Floats, regions: Sequence[Region]) -> tuple[NDArray[np.int64]
     return found, distance[found]
 
 
-def rapids_in_material(program: Program, job: Job) -> tuple[RapidInMaterial, ...]:
+def rapids_in_material(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> tuple[RapidInMaterial, ...]:
     """Return the rapids that go below the stock's top where no earlier cut has made way.
 
     A vertical rapid up is safe: it leaves a hole that the cutter has made. A vertical rapid down is safe where an
     earlier cut as deep covered the whole cutter there. Every other rapid below Z 0 is reported.
+
+    Raises:
+        Cancelled: by progress.
     """
     moves = program.moves
     rapid = np.flatnonzero(in_stock(moves) & (moves.kind == MoveKind.RAPID))
     start, end = moves.start, moves.end
     radius = {tool.number: tool.radius for tool in job.tools}
     found = []
-    for k in rapid:
+    for done, k in enumerate(rapid):
+        progress.step(done / len(rapid), "Checking rapids")
         vertical = bool(np.hypot(*(end[k, :2] - start[k, :2])) < 1e-9)
         if vertical and end[k, 2] >= start[k, 2]:
             continue

@@ -220,7 +220,7 @@ def test_a_list_of_lines_is_a_drawing_and_its_log_replays(document: Document) ->
 
 
 def test_a_wrong_line_of_a_list_is_found(document: Document) -> None:
-    with pytest.raises(InputError, match=r"plate\.draw:3: column 6: 'x' is no point"):
+    with pytest.raises(InputError, match=r"plate\.draw:3: column 6: 'x' has no value"):
         document.run_script("circle 0,0 1\n\nline x\n", "plate.draw")
 
 

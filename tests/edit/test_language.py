@@ -6,19 +6,28 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.edit.command import Context, Delete, Draw, Move
+from app.edit.command import Delete, Draw, Session, Transform
+from app.edit.document import Document
 from app.edit.errors import CommandError
-from app.edit.language import command_word, parse
+from app.edit.grammar import read_script
+from app.edit.language import Command, command_word, read
+from app.edit.syntax import Command as Written
+from app.edit.transform import shift
 from app.edit.words import ids_text
 from app.errors import InputError
 from app.model.curves import Arc, Circle, Line
-from app.model.part import Part
 
 
-def drawn(line: str, context: Context | None = None) -> tuple[object, ...]:
-    command = parse(line, context)
+def parse(line: str, session: Session | None = None) -> Command:
+    (written,) = read_script(line)
+    assert isinstance(written, Written)
+    return read(written, session or Session())
+
+
+def drawn(line: str, session: Session | None = None) -> tuple[object, ...]:
+    command = parse(line, session)
     assert isinstance(command, Draw)
-    return tuple(e.curve for e in command.apply(Part()).entities)
+    return tuple(e.curve for e in command.carried_out(Session()).part.entities)
 
 
 def test_line_joins_its_points_and_closes() -> None:
@@ -33,7 +42,7 @@ def test_relative_and_polar_points_start_from_the_point_before() -> None:
 
 
 def test_a_line_that_begins_relative_starts_from_the_last_point_drawn() -> None:
-    assert drawn("line @1,2 @3,0", Context(last=(10, 10))) == (Line((11, 12), (14, 12)),)
+    assert drawn("line @1,2 @3,0", Session(last=(10, 10))) == (Line((11, 12), (14, 12)),)
 
 
 def test_arc_about_a_centre_turns_left_unless_told() -> None:
@@ -77,10 +86,10 @@ def test_a_polyline_that_ends_where_it_began_closes_by_itself() -> None:
 
 
 @pytest.mark.parametrize(("line", "column", "says"), [
-    ("", 1, "a command"), ("lime 0,0 1,1", 1, "'lime' is no command"), ("line 0,0", 9, "point"), ("line 0,0 x", 10, "no point"),
-    ("circle 0,0 5 7", 14, "not expected"), ("line 1,2 3,4z", 13, "no unit"), ("rect 0,0 5", 10, "no point"),
+    ("lime 0,0 1,1", 1, "'lime' is no command"), ("line 0,0", 9, "point"), ("line 0,0 x", 10, "no value"),
+    ("circle 0,0 5 7", 14, "not expected"), ("line 1,2 3,4z", 13, "no unit"), ("rect 0,0 5", 10, "a point such as"),
     ("arc 0,0 5,5", 12, "end of the arc"),
-    ("move 5,5", 6, "@dx,dy"), ("select", 7, "all, none"), ("delete 3 x", 10, "entity number"), ("line 0,0 @5<zz", 13, "number"),
+    ("move 5,5", 6, "@dx,dy"), ("select", 7, "all, none"), ("delete 3 x", 10, "not expected"), ("line 0,0 @5<zz", 13, "no value"),
     ("polyline 1,1", 13, "two points"), ('layer ""', 9, "empty"),
 ])
 def test_a_wrong_line_names_the_column_and_what_is_expected(line: str, column: int, says: str) -> None:
@@ -102,13 +111,13 @@ def test_a_shape_that_is_none_is_refused_with_its_measures(line: str, says: str)
 
 
 def test_delete_and_move_mean_the_selection_unless_numbers_follow() -> None:
-    context = Context(selection=frozenset({4, 7}))
-    assert parse("delete", context) == Delete(frozenset({4, 7}))
-    assert parse("delete 1 3-5", context) == Delete(frozenset({1, 3, 4, 5}))
-    assert parse("mo @1in,0", context) == Move(frozenset({4, 7}), (25.4, 0.0))
+    session = Session(selection=frozenset({4, 7}))
+    assert parse("delete", session) == Delete(frozenset({4, 7}))
+    assert parse("delete 1 3-5", session) == Delete(frozenset({1, 3, 4, 5}))
+    assert parse("mo @1in,0", session) == Transform(frozenset({4, 7}), (shift((25.4, 0.0)),), "Move")
 
 
-@pytest.mark.parametrize("text", ["5-3", "1-999999999", "1-", "-1", "99999999999"])
+@pytest.mark.parametrize("text", ["5-3", "1-999999999", "-1", "99999999999"])
 def test_a_range_that_is_none_is_refused(text: str) -> None:
     with pytest.raises(CommandError, match="entity number"):
         parse(f"delete {text}")
@@ -133,6 +142,6 @@ WORDS = st.sampled_from(["line", "pl", "arc", "circle", "rect", "select", "move"
 @given(st.lists(WORDS, max_size=7).map(" ".join))
 def test_any_line_is_a_command_or_a_sentence(line: str) -> None:
     try:
-        parse(line)
+        Document().run(line)
     except InputError as error:
         assert str(error).endswith(".")

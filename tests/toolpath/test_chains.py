@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -107,6 +109,35 @@ def test_random_parts(seed: int) -> None:
         return
     found = scattered(chunks, 15, seed)
     check(chains(chunks, found, corridor, 300.0), chunks, found, contours, radius)
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.integers(0, 10**6), st.floats(5.0, 300.0))
+def test_runs_keep_their_sense_and_the_tool_lifts_no_more_often_for_it(seed: int, longest: float) -> None:
+    contours = [square(40), circle(4, 12, 12), circle(4, 28, 28)]
+    chunks, corridor = prepared(contours, 1.5, [])
+    found = scattered(chunks, 25, seed)
+    senses = np.random.default_rng(seed).integers(-1, 2, len(found))
+    sensed = [replace(run, sense=int(sense)) for run, sense in zip(found, senses, strict=True)]
+    strokes = chains(chunks, sensed, corridor, longest)
+    check(strokes, chunks, found, contours, 1.5)
+    assert len(strokes) <= len(chains(chunks, found, corridor, longest))
+    rows = np.concatenate([stroke.rows[stroke.purpose == Purpose.POCKET] for stroke in strokes])
+    for run in sensed:
+        first = chunks.path(run.chunk, run.count, backwards=run.sense < 0)[0]
+        there = (np.abs(rows[:, :4] - first[:4]) < 1e-9).all(axis=1).any()
+        assert there or run.sense == 0
+
+
+def test_a_chain_begins_on_cut_ground_even_against_its_sense() -> None:
+    """A dead end: only its mouth is near what is cut."""
+    slot = [polygon_contour([(0, 0), (60, 0), (60, 3.2), (0, 3.2)])]
+    mouth = np.array([[1.6, 1.6, 5.0, 1.6, 0.0, 0.0, 0.0, 0.0]])
+    chunks, corridor = prepared(slot, 1.5, [(mouth, 3.0)])
+    side = [k for k in range(len(chunks.rows)) if abs(chunks.rows[k, 1] - 1.5) < 1e-9 and 10 < chunks.rows[k, 0] < 55]
+    for sense in (1, -1):
+        (stroke,) = chains(chunks, [Run(side[0], len(side), sense)], corridor, 20.0)
+        assert stroke.start[0] < 7
 
 
 def test_a_straight_way_is_clear_only_beyond_the_radius_of_every_wall() -> None:

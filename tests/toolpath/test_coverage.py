@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import pathlib
+import threading
 from dataclasses import replace
 from itertools import pairwise
 
@@ -11,12 +12,14 @@ import numpy as np
 import pytest
 import shapely
 
+from app.errors import Cancelled
 from app.model.curves import Circle
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.model.part import Contour, Part, Region
 from app.model.tool import Tool
+from app.progress import Progress
 from app.toolpath.coverage import _between_reversals, _solid, _widened, coverage_findings, measure
 from app.toolpath.proven import uncertain
 from tests.nc.programs import Path, square
@@ -190,3 +193,40 @@ def test_the_end_of_a_spur_there_and_back_is_covered() -> None:
     swath = shapely.union_all([shape for part in _between_reversals(spur) for shape in _widened(part, 3.0)])
     assert swath.contains(shapely.Point(11.4, 0.0))
     assert measure(path.out_of_work().program(DISC), one_tool()).reachable_left_mm2 == 0
+
+
+def half_cleared(count: int) -> tuple[Path, list[Region]]:
+    """Round pockets in a row, each cleared but for a band."""
+    path, regions = Path(), []
+    for k in range(count):
+        x = 30.0 * k
+        regions.append(Region(k + 1, Contour((Circle((x, 0.0), 10.0),))))
+        path.into_work(x + 7, 0, -2).arc((x + 7, 0.0, -2.0), (x, 0.0)).out_of_work()
+    return path, regions
+
+
+def test_what_is_left_of_many_is_the_same_of_each() -> None:
+    path, regions = half_cleared(20)
+    found = measure(path.program(*regions), one_tool())
+    assert len(found.places) == 20
+    assert [place.area_mm2 for place in found.places] == pytest.approx([math.pi * 16] * 20, rel=1e-3)
+
+
+def test_measuring_tells_how_far_it_is_and_can_be_stopped_at_every_piece() -> None:
+    path, regions = half_cleared(20)
+    program, told, stop = path.program(*regions), list[float](), threading.Event()
+    measure(program, one_tool(), Progress(lambda fraction, text: told.append(fraction)))
+    assert told == sorted(told)
+    assert len(set(told)) > 20
+    for last in range(0, len(told) - 1, 25):
+        stop.clear()
+        seen = list[float]()
+
+        def listen(fraction: float, text: str, seen: list[float] = seen, last: int = last) -> None:
+            seen.append(fraction)
+            if len(seen) > last:
+                stop.set()
+
+        with pytest.raises(Cancelled):
+            measure(program, one_tool(), Progress(listen, stop))
+        assert len(seen) == last + 1

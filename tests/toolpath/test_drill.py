@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from app.errors import ParameterError
+from app.geometry.region import polygon_contour
 from app.model.curves import Arc
 from app.model.finding import Finding, FindingKind
 from app.model.job import Copies, Job, Stock
 from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import ContourOperation, Cut, DrillOperation, PocketOperation
+from app.model.operation import ContourOperation, Cut, DrillOperation, PocketOperation, Side
 from app.model.part import Contour
 from app.model.tool import Tool, ToolKind
 from app.nc.posts import load_post
@@ -99,6 +100,22 @@ def test_diameters(least: float | None, most: float | None, drilled: int) -> Non
     job = job_of(operation)
     assert len(holes_of(job, drawn(job), operation).drilled) == drilled
     assert bool(texts(compute(job))) == (drilled == 0)
+
+
+@pytest.mark.parametrize("chords", [12, 48])
+def test_circles_in_chords_are_drilled_and_nothing_else_follows_them(chords: int) -> None:
+    turns = np.arange(chords) * math.tau / chords
+    rough = polygon_contour([(round(30 + 2.5 * math.cos(a), 3), round(40 + 2.5 * math.sin(a), 3)) for a in turns.tolist()])
+    nut = polygon_contour([(70 + 2.5 * math.cos(a), 40 + 2.5 * math.sin(a)) for a in np.arange(6) * math.tau / 6])
+    on_line = ContourOperation(Cut(2), side=Side.ON)
+    job = Job(layered_part({"a": [*PLATE, rough, nut]}), (DRILL, Tool(2, 2.0)), (DrillOperation(Cut(1, 4.0)), on_line))
+    program = compute(job)
+    assert (30, 40) in {(round(x, 3), round(y, 3)) for x, y in places(program.moves)}
+    assert (70, 40) not in {(round(x, 3), round(y, 3)) for x, y in places(program.moves)}
+    assert "drills 5 circles" in texts(program, counts=False)
+    begins = np.array([line.primitives[0].start for line in program.areas[1].lines])
+    assert np.hypot(*(begins - (70, 40)).T).min() < 2.6
+    assert np.hypot(*(begins - (30, 40)).T).min() > 2.6
 
 
 def test_nothing_to_drill_counts() -> None:
@@ -188,19 +205,23 @@ def test_deeper_than_the_stock_is_refused_but_going_through_is_not() -> None:
     assert float(through.moves.end[:, 2].min()) == pytest.approx(-11.0 - TIP)
 
 
-def test_a_drilled_circle_is_not_too_small_for_mills() -> None:
-    """Circles that no mill enters count as findings, unless they are drilled."""
+def test_a_circle_that_drills_make_is_neither_wall_nor_region_for_mills() -> None:
+    """Circles that no mill enters count as findings, unless they are drilled as wide as they are drawn."""
     tools = (DRILL, Tool(2, 6.0))
     apart = [square(20, -40, 0), circle(2.5, 10, 10), circle(2.5, 30, 10), circle(2.0, 50, 10)]
     mills = (PocketOperation(Cut(2)), ContourOperation(Cut(2)))
     part = layered_part({"a": apart})
 
-    def too_small(job: Job, counts: bool) -> list[Finding]:
-        return [each for each in compute(job).findings if each.kind is FindingKind.REGION_TOO_SMALL and each.counts is counts]
+    def too_small(job: Job) -> list[Finding]:
+        return [each for each in compute(job).findings if each.kind is FindingKind.REGION_TOO_SMALL and each.counts]
 
-    assert len(too_small(Job(part, tools, mills), True)) == 3
-    drilled = Job(part, tools, (DrillOperation(Cut(1)), *mills))
-    assert len(too_small(drilled, True)) == 1
-    assert sum("It is drilled." in each.text for each in too_small(drilled, False)) == 2
-    off = Job(part, tools, (DrillOperation(Cut(1, enabled=False)), *mills))
-    assert len(too_small(off, True)) == 3
+    assert len(too_small(Job(part, tools, mills))) == 3
+    assert len(too_small(Job(part, tools, (DrillOperation(Cut(1)), *mills)))) == 1
+    assert len(too_small(Job(part, tools, (DrillOperation(Cut(1, enabled=False)), *mills)))) == 3
+    begun = Job(part, (Tool(1, 2.0, ToolKind.DRILL), Tool(2, 6.0)), (DrillOperation(Cut(1), least=1.0, most=9.0), *mills))
+    assert len(too_small(begun)) == 3
+    crossing = [square(20, 0, 0), circle(2.5, 20, 10), circle(2.5, 30, 10), circle(2.5, 32, 10)]
+    across = compute(Job(layered_part({"a": crossing}), tools, (DrillOperation(Cut(1)), *mills)))
+    assert not [each.text for each in across.findings if each.counts]
+    assert [len(area.regions) for area in across.areas] == [3, 1, 1]
+

@@ -14,16 +14,17 @@ from app.geometry.offset import offset_levels
 from app.geometry.primitives import TURN, Rows, lengths, sample
 from app.model.entry import Lead, LeadKind
 from app.model.job import Job
+from app.model.moves import Purpose
 from app.model.operation import Direction, Side
 from app.model.part import Contour
 from app.model.tool import Tool
 from app.toolpath.compute import compute
 from app.toolpath.contour_path import headings_at, keep_clear
-from app.toolpath.lead import Around, Run, about_leads, corners_of, runs
+from app.toolpath.lead import Around, Run, about_leads, about_overlaps, corners_of, runs
 from app.toolpath.side import wall_paths
 from tests import plain_distance
 from tests.part_shapes import circle, fig2, random_part, square
-from tests.toolpath.contour_jobs import about, contour_job, outside, sheet_of
+from tests.toolpath.contour_jobs import about, contour_job, outside, rows_of, sheet_of
 
 
 def runs_of(job: Job, lead: Lead = Lead(), taken: list[tuple[float, float]] | None = None) -> tuple[tuple[Run, ...], Around]:
@@ -117,13 +118,27 @@ def test_what_does_not_fit_is_told_once() -> None:
     assert about_leads(made, replace(around, lead=Lead(LeadKind.NONE))) == []
 
 
-def test_the_edge_of_the_area_outside_is_told_where_it_ends_the_room_for_leads() -> None:
-    operation = outside(lead=Lead(LeadKind.LINE, 10.0))
-    (text,) = about(compute(contour_job([square(40)], operation)), "leads")
-    assert "Of 1 path of" in text and "1 has smaller" in text and "edge of the area 4 tool diameters round the drawing" in text
-    inner = replace(operation, side=Side.INSIDE)
-    (text,) = about(compute(contour_job([circle(4)], inner)), "leads")
-    assert "edge of the area" not in text
+@pytest.mark.parametrize("kind", [LeadKind.ARC, LeadKind.LINE])
+@pytest.mark.parametrize("reach", [10.0, 80.0])
+def test_leads_of_any_length_fit_outside_where_no_wall_or_clamp_is(kind: LeadKind, reach: float) -> None:
+    operation = outside(lead=Lead(kind, reach), finish_width=1.25)
+    operation = replace(operation, cut=replace(operation.cut, stock_to_leave=0.5))
+    program = compute(contour_job([square(40)], operation))
+    assert about(program, "leads") == []
+    leads = rows_of(program.moves, Purpose.LEAD)
+    whole = reach * (math.pi / 2 if kind is LeadKind.ARC else 1.0)
+    assert len(leads) >= 4 and lengths(leads) == pytest.approx(whole)
+    (text,) = about(compute(contour_job([circle(4)], replace(operation, side=Side.INSIDE, finish_width=0.0))), "leads")
+    assert "because walls and clamps leave no room" in text
+
+
+def test_an_overlap_longer_than_half_the_path_is_told() -> None:
+    made, around = runs_of(contour_job([circle(2.5), square(40, 20, 0)]), Lead(overlap=4.0))
+    (finding,) = about_overlaps(made, around)
+    assert "Of 2 paths" in finding.text and "1 goes on over the beginning by half the length" in finding.text and not finding.counts
+    assert about_overlaps(*runs_of(contour_job([circle(2.5)]), Lead(overlap=3.0))) == []
+    inner = replace(outside(lead=Lead(overlap=4.0)), side=Side.INSIDE)
+    assert about(compute(contour_job([circle(2.5)], inner)), "less than the 4 mm asked for")
 
 
 def test_without_leads_there_is_no_overlap() -> None:

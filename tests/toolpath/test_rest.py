@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -12,11 +13,11 @@ from hypothesis import strategies as st
 
 from app import tolerances
 from app.errors import ParameterError
-from app.geometry.primitives import points_at
+from app.geometry.primitives import lengths, points_at
 from app.geometry.region import nest, polygon_contour
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import ContourOperation, Cut, Operation, PocketOperation, RestOperation
+from app.model.operation import ContourOperation, Cut, Direction, Operation, PocketOperation, RestOperation
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
 from app.toolpath.compute import compute
@@ -183,6 +184,42 @@ def test_the_same_paths_are_cut_at_each_depth() -> None:
 def test_the_same_job_gives_the_same_moves() -> None:
     first, second = (compute(job_of(WEDGE, (6.0, 1.5), "pocket 1", "rest 2", "contour 2")).moves for _ in range(2))
     assert np.array_equal(first.end, second.end)
+
+
+def sides(program: Program, job: Job) -> tuple[float, float]:
+    """Metal, mm2, that the rest operation's runs take with it on the right of travel, and on the left; slots are in neither."""
+    moves, radius = program.moves, job.tool(job.operations[1].cut.tool).radius
+    rows, runs = move_rows(moves), cutting(moves, 1)
+    low, high = rows[runs, :4].reshape(-1, 2).min(axis=0) - radius, rows[runs, :4].reshape(-1, 2).max(axis=0) + radius
+    pitch = radius / 10
+    cells = np.stack(np.meshgrid(*(np.arange(a, b, pitch) for a, b in zip(low, high, strict=True))), -1).reshape(-1, 2)
+    cells = cells[~shapely.contains_xy(swept(program, job, 0), cells)]
+    taken = [0, 0]
+    for row, purpose in zip(rows[runs], moves.purpose[runs], strict=True):
+        count = int(np.ceil(float(lengths(row[None])[0]) / (radius / 4))) + 1
+        points = points_at(np.repeat(row[None], count + 1, axis=0), np.linspace(0, 1, count + 1))
+        for a, b in pairwise(points):
+            there = np.hypot(*(cells - (a + b) / 2).T) < radius
+            aside = (b - a)[0] * (cells[there] - a)[:, 1] - (b - a)[1] * (cells[there] - a)[:, 0]
+            share = [np.count_nonzero(aside < 0), np.count_nonzero(aside > 0)]
+            if purpose == Purpose.POCKET and max(share) > 0.65 * sum(share):
+                taken[int(np.argmax(share))] += max(share)
+            cells = cells[~there]
+    return taken[0] * pitch**2, taken[1] * pitch**2
+
+
+@pytest.mark.parametrize("direction", list(Direction))
+@pytest.mark.parametrize(("contours", "tools", "least"), [
+    ([square(40)], (12.0, 3.0), 20.0), (WEDGE, (6.0, 1.5), 3.0), ([square(60), circle(8, 20, 21), circle(8, 38, 39)], (12.0, 2.0), 5.0),
+], ids=["corners", "wedge", "islands"])  # fmt: skip
+def test_runs_keep_the_direction_that_is_asked_for(contours: list[Contour], tools: tuple[float, float], least: float,
+                                                   direction: Direction) -> None:  # fmt: skip
+    job = job_of(contours, tools, "pocket 1", "rest 2")
+    turned = replace(job.operations[1], cut=replace(job.operations[1].cut, direction=direction))
+    job = replace(job, operations=(job.operations[0], turned))
+    right, left = sides(compute(job), job)
+    kept, against = (right, left) if direction is Direction.CLIMB else (left, right)
+    assert kept >= least * against
 
 
 @settings(max_examples=8, deadline=None)

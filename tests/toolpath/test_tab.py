@@ -10,10 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.geometry.primitives import lengths
+from app.geometry.region import polygon_contour
+from app.model.curves import Line, Primitive
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.job import Copies, Job
 from app.model.moves import Program, Purpose
-from app.model.operation import Cut
+from app.model.operation import ContourOperation, Cut, Side
 from app.model.part import Contour
 from app.toolpath.compute import compute
 from tests import plain_distance
@@ -107,6 +109,44 @@ def test_a_part_that_no_piece_of_its_path_holds_is_told() -> None:
     pieces = [square(6, 10, -4), square(6, 20, -4)]  # a short piece between two clamps, and a long one
     program = compute(contour_job([square(40)], outside(tabs=Tabs(4)), clamps=pieces))
     assert program.tabs and not about(program, "no tab")
+
+
+def test_lines_that_clamps_cut_open_are_held_piece_by_piece() -> None:
+    operation = ContourOperation(Cut(2, depth=4.0, stepdown=2.0, entry=PLUNGE), Side.ON, tabs=Tabs(3))
+    clamps = [square(10, 15, -5), square(10, 15, 35)]
+    program = compute(contour_job([square(40)], operation, clamps=clamps))
+    middles = np.array([(tab.x, tab.y) for tab in program.tabs])
+    assert sorted((middles[:, 0] > 20).tolist()) == [False] * 3 + [True] * 3  # three on either piece, as on a closed one
+    assert plain_distance.distance(middles, [square(40)]) == pytest.approx(np.zeros(6), abs=1e-9)
+    assert plain_distance.distance(middles, clamps).min() > 4
+    apart = np.hypot(*(middles[:, None] - middles[None]).transpose(2, 0, 1))
+    assert apart[np.triu_indices(6, 1)].min() >= 5 + 2 * 3 - 1e-6
+    assert lengths(rows_of(program.moves, Purpose.TAB)[top_moves(program)[program.moves.purpose == Purpose.TAB]]).sum() >= 6 * 8 - 1e-6
+    assert not about(program, "tabs") and not about(program, "no tab")
+    lines: list[Primitive] = [Line((60.0, 0.0), (90.0, 0.0))]
+    assert len(compute(contour_job([], operation, lines=lines)).tabs) == 0  # an open line holds nothing
+
+
+def test_each_loop_on_the_line_is_held_by_itself() -> None:
+    """Two alike, clamps over both; nothing of the one under the larger clamp is long enough for a tab."""
+    operation = ContourOperation(Cut(2, depth=4.0, stepdown=4.0, entry=PLUNGE), Side.ON, tabs=Tabs(2))
+    clamps = [square(10, 15, -5), polygon_contour([(98, -5), (145, -5), (145, 45), (104, 45), (104, 38), (98, 38)])]
+    program = compute(contour_job([square(40), square(40, 100, 0)], operation, clamps=clamps))
+    assert len(program.tabs) == 2 and max(tab.x for tab in program.tabs) < 45
+    (told,) = [each for each in program.findings if "no tab" in each.text]
+    assert told.counts and (told.x or 0) > 90
+
+
+@pytest.mark.parametrize("round_a_part", [True, False])
+def test_a_tab_by_hand_on_a_path_too_short_for_it_is_told(round_a_part: bool) -> None:
+    operation = replace(outside(tabs=Tabs(places=((6.0, 0.0), (60.0, -2.0)), width=40.0)), cut=Cut(2, entry=PLUNGE))
+    if not round_a_part:
+        operation = replace(operation, side=Side.INSIDE)
+    program = compute(contour_job([circle(5), square(40, 40, 0)], operation))
+    assert len(program.tabs) == 1 and program.tabs[0].x == pytest.approx(60)
+    (told,) = [each for each in program.findings if "by hand" in each.text]
+    assert "is left out" in told.text and (told.x, told.y) == (6.0, 0.0) and told.counts == round_a_part
+    assert told.amount == pytest.approx(2 * np.pi * (6.5 if round_a_part else 3.5))
 
 
 def test_a_place_far_from_every_contour_is_told() -> None:

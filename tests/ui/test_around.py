@@ -14,6 +14,7 @@ from app.model.part import Entity, Part
 from app.ui.canvas.canvas import Canvas
 from app.ui.canvas.hands import Marking
 from app.ui.panels.changes import Subject, SubjectKind
+from app.ui.panels.operation_groups import BY_HAND
 from app.ui.panels.side_panel import SidePanel
 from app.ui.theme import LIGHT
 
@@ -82,7 +83,9 @@ def test_tabs_are_put_and_taken_away_by_clicks(qtbot, wiring):
     index = next(k for k, each in enumerate(document.job.operations) if isinstance(each, ContourOperation))
     panel.choose(Subject(SubjectKind.OPERATION, index))
     canvas.fit_to((-10.0, -10.0, 60.0, 60.0))
-    panel.operation_form.tabs.emit()
+    hand = panel.operation_form.hand
+    hand.click()
+    assert hand.text() == "Done"
     at = canvas.view.to_screen((20.0, 0.0)).toPoint()
     qtbot.mouseClick(canvas, Qt.MouseButton.LeftButton, pos=at)
     (place,) = document.job.operations[index].tabs.places
@@ -92,6 +95,8 @@ def test_tabs_are_put_and_taken_away_by_clicks(qtbot, wiring):
     assert document.job.operations[index].tabs.places == ()
     document.undo()
     assert document.job.operations[index].tabs == Tabs(places=(place,))
+    qtbot.keyClick(canvas, Qt.Key.Key_Escape)
+    assert hand.text() == BY_HAND
 
 
 def test_the_stock_grows_with_copies_and_not_with_clamps(qtbot, document):

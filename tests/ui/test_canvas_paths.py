@@ -120,6 +120,14 @@ def test_stale_paths_are_faint(canvas: Canvas) -> None:
     assert share(along_circle(canvas, (20, 20), 10), LIGHT.pocket) > 0.9
 
 
+def test_stale_paths_stay_faint_where_they_lie_over_one_another(canvas: Canvas) -> None:
+    down, turn = ring((20, 20), 10, Purpose.PLUNGE, 1)[:2], ring((20, 20), 10, Purpose.PLUNGE, 1)[2:]
+    canvas.set_program(Program(moves_of([*down, *turn * 8])))
+    assert share(along_circle(canvas, (20, 20), 10), LIGHT.plunge) > 0.9
+    canvas.set_stale(True)
+    assert share(along_circle(canvas, (20, 20), 10), LIGHT.plunge) < 0.1
+
+
 def test_draw_mode_shows_no_paths(canvas: Canvas) -> None:
     canvas.set_mode(CanvasMode.DRAW)
     assert share(along_circle(canvas, (20, 20), 10), LIGHT.pocket) == 0

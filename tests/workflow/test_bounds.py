@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from app.geometry.region import polygon_contour
-from app.model.curves import Line
+from app.model.curves import Circle, Line
 from app.model.finding import FindingKind
 from app.model.job import Job, Stock
 from app.model.moves import Area, DogBone, Program, Tab
@@ -99,6 +99,18 @@ def test_floors_at_two_depths_are_each_asked() -> None:
     assert shallow.wanted.area == pytest.approx(400 - corners, rel=1e-3)
     assert deep.wanted.bounds == pytest.approx((30, 0, 50, 20), abs=0.01)
     assert measure(program, task).floor_mm == 5.0
+
+
+def test_holes_that_cross_are_holes_each_and_a_drill_stays_in_its_own() -> None:
+    holes = tuple(Region(k, Contour((Circle((x, 10.0), 3.0),))) for k, x in enumerate((10.0, 14.0), 1))
+    task, area = job(DrillOperation(Cut(1, 2.0))), (Area(holes),)
+
+    def drilled(x: float) -> float:
+        program = Path().into_work(x, 10, -2.0).out_of_work().program()
+        return gouge(replace(program, areas=area, regions=holes), task).max_mm
+
+    assert drilled(10.0) == drilled(14.0) == 0
+    assert drilled(10.5) == pytest.approx(0.5) and drilled(12.0) == pytest.approx(2.0)
 
 
 def test_a_drill_goes_on_by_its_tip_and_what_is_asked_for() -> None:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+import threading
 from dataclasses import replace
 
 import pytest
 
+from app.errors import Cancelled
 from app.model.curves import Circle
 from app.model.part import Contour, Region
-from app.workflow.verdict import gouge, rapids_in_material
+from app.progress import Progress
+from app.workflow.verdict import gouge, gouge_depths, rapids_in_material
 from tests.nc.programs import Path, job, square
 
 ISLAND = Contour((Circle((20.0, 15.0), 4.0, ccw=False),))
@@ -60,6 +63,11 @@ def test_cutting_outside_of_every_region_is_a_gouge() -> None:
     assert gouge(on_the_island.program(region), job()).max_mm == pytest.approx(15, abs=1e-3)
 
 
+def test_a_plunge_too_near_to_a_wall_is_a_gouge_though_it_goes_nowhere_else() -> None:
+    found = gouge(Path().into_work(2.0, 15, -1.0).out_of_work().program(), job())
+    assert found.max_mm == pytest.approx(1.0, abs=1e-9) and found.count == 2
+
+
 def test_above_the_stock_nothing_gouges() -> None:
     path = Path().rapid(100, 100, 5.0).line(120, 100, 0.0).rapid(100, 100, 5.0)
     assert gouge(path.program(), job()).max_mm == 0
@@ -97,3 +105,36 @@ def test_a_rapid_down_where_only_a_smaller_tool_or_a_ramp_has_been_is_found() ->
     assert len(rapids_in_material(path.program(), job())) == 1
     ramp = Path().into_work(10, 10, 0.0).line(20, 10, -1.0).rapid(20, 10, 5).rapid(12, 10, 5).rapid(12, 10, -0.5).out_of_work()
     assert len(rapids_in_material(ramp.program(), job())) == 1
+
+
+def zigzag(count: int) -> Path:
+    """T1 there and back that many times in the middle of the rectangle."""
+    path = Path().into_work(10, 15, -1.0)
+    for _ in range(count):
+        path.line(20, 15, -1.0).line(10, 15, -1.0)
+    return path
+
+
+def test_a_gouge_behind_many_moves_is_found_where_it_is() -> None:
+    found = gouge(zigzag(6000).line(10, 2.5, -1.0).out_of_work().program(), job())
+    assert found.max_mm == pytest.approx(0.5)
+    assert (found.x, found.y) == (10.0, 2.5)
+
+
+def test_looking_for_gouges_tells_how_far_it_is_and_can_be_stopped() -> None:
+    program, told, stop = zigzag(6000).out_of_work().program(), list[float](), threading.Event()
+    gouge_depths(program, job(), progress=Progress(lambda fraction, text: told.append(fraction)))
+    assert len(told) >= 3
+    assert told == sorted(set(told))
+    told.clear()
+    with pytest.raises(Cancelled):
+        gouge_depths(program, job(), progress=Progress(lambda fraction, text: (told.append(fraction), stop.set())[0], stop))
+    assert len(told) == 1
+
+
+def test_looking_at_rapids_can_be_stopped() -> None:
+    stop = threading.Event()
+    stop.set()
+    program = Path().into_work(10, 15, -1.0).rapid(30, 15, -1.0).out_of_work().program()
+    with pytest.raises(Cancelled):
+        rapids_in_material(program, job(), Progress(None, stop))

@@ -183,3 +183,15 @@ def test_a_thousand_passes_can_be_stopped(samples: Path) -> None:
     with pytest.raises(Cancelled):
         make("fig2.dxf", (samples / "fig2.dxf").read_bytes(), MakeOptions(depth=1.0, stepdown=0.001), Progress(listen, stop))
     assert told[-1] == "Depth passes"
+
+
+def test_every_depth_pass_tells_how_far_it_is(samples: Path) -> None:
+    told: list[float] = []
+
+    def listen(fraction: float, text: str) -> None:
+        if text == "Depth passes":
+            told.append(fraction)
+
+    made = make("fig2.dxf", (samples / "fig2.dxf").read_bytes(), MakeOptions(depth=1.0, stepdown=0.1), Progress(listen))
+    assert len(told) >= 10 * len(set(made.program.moves.operation.tolist()))
+    assert told == sorted(set(told))

@@ -124,6 +124,11 @@ def read_kinds(text: str) -> list[int]:
     return kinds
 
 
+def test_the_report_gives_the_stepover_that_was_chosen() -> None:
+    pocket, rest, contour = (each.get("stepover_mm") for each in made("fig2.dxf").report.data["operations"])
+    assert pocket in [pytest.approx(share * 3.0) for share in (1.4, 1.5, 1.6, 1.65, 1.7, 1.75, 1.8)] and (rest, contour) == (3.0, None)
+
+
 def test_fig2_is_clean_and_its_corners_are_told() -> None:
     this = made("fig2.dxf")
     assert this.clean

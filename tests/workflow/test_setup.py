@@ -12,7 +12,7 @@ from app.errors import InputError
 from app.files.job_toml import read_job
 from app.model.finding import FindingKind
 from app.model.job import OriginXY, OriginZ
-from app.model.operation import ContourOperation, PocketOperation
+from app.model.operation import ContourOperation, PocketOperation, RestOperation
 from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
 from app.nc.read.dialect import Dialect
@@ -206,7 +206,7 @@ def test_our_own_header_tells_everything(samples: Path) -> None:
     assert part.origin == (51.0, 51.0, -10.0)
     assert stock.solid == StockBox(-45, -45, 0, 45, 45, 10)
     assert [(type(each), each.cut.tool, each.cut.depth, each.cut.stock_to_leave) for each in part.job.operations] == [
-        (PocketOperation, 1, 3.0, 0.1), (ContourOperation, 2, 3.0, 0.1)]  # fmt: skip
+        (PocketOperation, 1, 3.0, 0.1), (RestOperation, 2, 3.0, 0.1), (ContourOperation, 2, 3.0, 0.1)]  # fmt: skip
     assert len(part.regions) == len(made.program.regions)
     assert 0.001 < part.wall_tolerance < 0.002
     assert not [finding for finding in got.findings if finding.kind is FindingKind.ASSUMED]

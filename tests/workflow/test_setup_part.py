@@ -10,6 +10,7 @@ import shapely
 from ezdxf.document import Drawing
 
 from app.files.drawing import read_drawing
+from app.model.entry import Lead, LeadKind
 from app.model.job import Copies, Job
 from app.model.moves import Area, DogBone, Program, Tab
 from app.model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, Side
@@ -49,6 +50,7 @@ OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "pocket": (PocketOperation(Cut(1, 3.0, floor_to_leave=0.5)),),
     "layers": (PocketOperation(Cut(1, 3.0, layers=("Holes",))), ContourOperation(Cut(1, 5.0, layers=("outline",)), Side.OUTSIDE)),
     "holes": (DrillOperation(Cut(2, 4.0, layers=("Holes",)), through=1.0), ContourOperation(Cut(1, 2.0, layers=("text",)), Side.ON)),
+    "leads": (ContourOperation(Cut(1, 2.0, 1.0, 0.25, layers=("outline",)), Side.OUTSIDE, Lead(LeadKind.LINE, 35.5), finish_width=1.5),),
     "wide holes": (DrillOperation(Cut(2, 4.0), least=4.0, most=20.0),),
 }
 

@@ -92,7 +92,8 @@ def _stock(told: list[Values], origin: tuple[float, float, float]) -> StockNote 
 def _operations(told: dict[str, list[Values]]) -> Iterator[OperationNote]:
     """Yield operations: kind, tool, depth, stock to leave, and the side of contours; with what other comments say of the N-th."""
     layers = [(int(values[0]), _name(values[1:])) for _, values in told.get("operation_layer", []) if values[0].strip().isdecimal()]
-    left = {int(numbers[0]): numbers[1] for _, values in told.get("floor_to_leave_mm", []) if len(numbers := _floats(values)) == 2}
+    left, leads = ({int(numbers[0]): numbers[1] for _, values in told.get(key, []) if len(numbers := _floats(values)) == 2}
+                   for key in ("floor_to_leave_mm", "leads_mm"))  # fmt: skip
     holes = {int(numbers[0]): (numbers[1], numbers[2], numbers[3])
              for _, values in told.get("holes_mm", []) if len(numbers := _floats(values)) == 4}  # fmt: skip
     for number, (_, values) in enumerate(told.get("operation", []), 1):
@@ -100,7 +101,7 @@ def _operations(told: dict[str, list[Values]]) -> Iterator[OperationNote]:
         if kind in OPERATION_KINDS and len(numbers) == 3 and side is not None:
             names = tuple(name for of, name in layers if of == number)
             yield OperationNote(kind, int(numbers[0]), numbers[1], numbers[2], side, names, left.get(number, 0.0),
-                                holes.get(number, (0.0, 0.0, 0.0)))
+                                leads.get(number, 0.0), holes.get(number, (0.0, 0.0, 0.0)))
 
 
 def _side(values: list[str]) -> Side | None:

@@ -167,6 +167,7 @@ class OperationNote:
         side: where a contour runs.
         layers: that it alone machines; empty = all. Controls that write capitals alone write these so too.
         floor_to_leave: mm.
+        leads: of a contour outside: what room they need beside the wall's path, mm; 0 = not told.
         holes: of a drill operation: least and most diameter of its circles, 0 = the drill's own, and how far it goes below the depth, mm.
     """
 
@@ -177,6 +178,7 @@ class OperationNote:
     side: Side = Side.INSIDE
     layers: tuple[str, ...] = ()
     floor_to_leave: float = 0.0
+    leads: float = 0.0
     holes: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 

@@ -34,7 +34,9 @@ _BLEED_PX = 8.0
 _CLOSE_MM = 16.0
 """How much is seen around a place that is looked at closely."""
 
-_STALE_OPACITY = 0.4
+_STALE = 0.4
+"""So much is left of the colours of paths that the job has outgrown."""
+
 _LARGE = 0.35
 """A part that takes up this share of the frame's span is shown together with the frame."""
 
@@ -137,9 +139,7 @@ class Canvas(Hands):
         paint_paper(painter, self.view, area, self.frame, theme)
         program = self._program if self._mode is CanvasMode.PATHS else None
         if program is not None:
-            painter.setOpacity(_STALE_OPACITY if self._look.stale else 1.0)
-            program.paint(painter, self.view, box, self._look)
-            painter.setOpacity(1.0)
+            program.paint(painter, self.view, box, replace(self._look, theme=theme.faint(_STALE)) if self._look.stale else self._look)
         if program is None or PathLayers.CLAMP in self._look.layers:
             self.around.paint_clamps(painter, self.view, box, theme)
         if program is None or PathLayers.PART in self._look.layers:

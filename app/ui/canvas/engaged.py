@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
 from PySide6.QtGui import QColor
 
 from app.ui.theme import Theme
@@ -12,11 +10,6 @@ STEPS = (0.25, 0.5, 0.75, 0.95)
 """Shares of the diameter between the steps."""
 
 
-def step_of(shares: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Return the step (n,) of each share (n,) of the diameter, 0 … 4."""
-    return np.searchsorted(np.array(STEPS), shares, side="left").astype(np.int64)
-
-
 def colours(theme: Theme) -> tuple[QColor, ...]:
     """Return a colour a step, cool to hot, safe for colour-blind eyes."""
-    return (QColor("#56B4E9"), theme.pocket, theme.contour, theme.plunge, theme.gouge)
+    return (theme.regions[4], theme.pocket, theme.contour, theme.plunge, theme.gouge)

@@ -30,9 +30,9 @@ class MoveShapes:
         step: (n,) of engagement, see `engaged`; 0 where it was not measured.
         start: (n, 3) mm. sweep: (n,) radians. length: (n,) mm.
         boxes: (n, 4) x0, y0, x1, y1 of each move, mm.
-        piece: (n,) number of the piece it belongs to: neighbours of one operation, purpose, tool, region and step.
+        piece: (n,) number of the piece it belongs to: neighbours of one operation, purpose, tool and region.
         first, last: (k,) range of moves of each piece, last excluded.
-        run: (m + 1,) first move of each run: at most 96 moves of one piece; the last entry is n.
+        run: (m + 1,) first move of each run: at most 96 moves of one piece and step; the last entry is n.
         elements: painter path elements of all moves, each run begun by a MOVE_TO. offset: (n + 1,) where each move's begin.
     """
 
@@ -58,15 +58,16 @@ class MoveShapes:
 
 
 def shape_moves(moves: Moves, step: Ints | None = None) -> MoveShapes:
-    """Return the moves prepared for painting and picking; `step` (n,) parts them further."""
+    """Return the moves prepared for painting and picking; `step` (n,) parts runs, but not the pieces that dashes run along."""
     step = np.zeros(len(moves), np.int64) if step is None else step
     start, sweep, length = moves.start, moves.sweeps(), moves.lengths()
-    key = np.stack([moves.operation, moves.purpose, moves.tool, moves.region, step]).astype(np.int64)
+    key = np.stack([moves.operation, moves.purpose, moves.tool, moves.region]).astype(np.int64)
     change = np.flatnonzero(np.any(np.diff(key, axis=1) != 0, axis=0)) + 1
     first = np.concatenate([[0], change]).astype(np.int64) if len(moves) else np.zeros(0, np.int64)
     last = np.append(first[1:], len(moves)).astype(np.int64) if len(moves) else first
     piece = np.repeat(np.arange(len(first)), last - first)
     heads = (np.arange(len(moves)) - first[piece]) % RUN == 0 if len(moves) else np.zeros(0, np.bool_)
+    heads[1:] |= step[1:] != step[:-1]
     run = np.append(np.flatnonzero(heads), len(moves)).astype(np.int64)
     elements, offset = _elements(moves, start, sweep, heads)
     boxes = _boxes(moves, start, sweep)

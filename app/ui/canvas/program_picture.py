@@ -13,7 +13,7 @@ from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 from app.edit.sample import Box
 from app.model.moves import Program, Purpose
 from app.ui.canvas.curve_path import MANY, chain_path
-from app.ui.canvas.engaged import colours, step_of
+from app.ui.canvas.engaged import colours
 from app.ui.canvas.left_picture import LeftPicture
 from app.ui.canvas.modes import ColourBy, PathLayers
 from app.ui.canvas.pens import FINE, screen_pen
@@ -24,6 +24,7 @@ from app.ui.theme import Theme
 
 if TYPE_CHECKING:
     from app.toolpath.coverage import Place
+    from app.ui.canvas.stretches import Stretches
 
 CUT_WIDTH, LINK_WIDTH, RAPID_WIDTH, TAB_WIDTH = 1.6, 1.0, 1.0, 5.0
 CONTOUR_DASHES, RAPID_DOTS = (6.0, 3.6), (1.2, 2.6)
@@ -39,7 +40,7 @@ _ORDER = (Purpose.LINK, Purpose.PLUNGE, Purpose.POCKET, Purpose.LEAD, Purpose.CO
 
 @dataclass(frozen=True, slots=True)
 class PathLook:
-    """How paths are shown; `stale` paths, which the job has outgrown, are faint."""
+    """How paths are shown; those that the job has outgrown are `stale`."""
 
     theme: Theme
     layers: PathLayers = PathLayers.ALL
@@ -60,13 +61,14 @@ class ProgramPicture:
         left, unreachable: what a tool could have cut and did not; what no tool reaches.
     """
 
-    def __init__(self, program: Program, places: tuple[Place, ...] = (), shares: NDArray[np.float64] | None = None) -> None:
-        """Build every path once, in mm; `shares` (n,) of the diameter are engaged along the moves, where that was measured."""
-        self.measured = shares is not None
+    def __init__(self, program: Program, places: tuple[Place, ...] = (), engaged: Stretches | None = None) -> None:
+        """Build every path once, in mm; `engaged` are its moves by engagement, where that was measured."""
+        self.measured = engaged is not None
         self.left = LeftPicture([place for place in places if place.reachable])
         self.unreachable = LeftPicture([place for place in places if not place.reachable])
-        self.shapes = shape_moves(program.moves, None if shares is None else step_of(shares))
-        self._chunks = sorted(chunks(self.shapes), key=lambda c: _ORDER.index(c.style.purpose))
+        self.shapes = shape_moves(program.moves)
+        painted = self.shapes if engaged is None else shape_moves(engaged.moves, engaged.step)
+        self._chunks = sorted(chunks(painted), key=lambda c: _ORDER.index(c.style.purpose))
         self._boxes = np.array([c.box for c in self._chunks]).reshape(-1, 4)
         self._sizes = np.array([c.path.elementCount() for c in self._chunks], dtype=np.int64)
         self._rapids, self._plunges = rapids(self.shapes), plunges(self.shapes)

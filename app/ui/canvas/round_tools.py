@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from app.edit.numbers import number_text
 from app.edit.shapes import arc_about, arc_through, circle, on_circle
-from app.edit.words import point_text
+from app.edit.words import number_text, point_text
 from app.model.curves import Arc, Line, Point
 from app.tolerances import WELD
 from app.ui.canvas.drawing_tool import DrawingTool, Preview, arc_label, span_label

@@ -8,8 +8,7 @@ from collections.abc import Callable
 from app.edit.document import Document
 from app.edit.errors import CommandError
 from app.edit.language import command_word
-from app.edit.numbers import length
-from app.edit.words import read_point
+from app.edit.numbers import length, read_point
 from app.errors import InputError
 from app.model.curves import Point
 from app.tolerances import WELD
@@ -132,7 +131,7 @@ class ToolRunner:
 
     def _place(self, tool: DrawingTool, text: str) -> None:
         if "," in text or "<" in text:
-            self.click(read_point(text, tool.base or self._document.last_point))
+            self.click(read_point(text, tool.base or self._document.last_point, self._document.session.scope))
             return
         value = length(text)
         point = tool.number(value, self.cursor)

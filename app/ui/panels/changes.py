@@ -43,6 +43,15 @@ def operation_name(operation: Operation) -> str:
     return name
 
 
+def refusal(job: Job, operation: Operation) -> str:
+    """Return why an operation's tool cannot do it, or ""."""
+    try:
+        job.cutter(operation)
+    except ParameterError as wrong:
+        return str(wrong)
+    return ""
+
+
 def row_for(tool: Tool, material: str) -> FeedRow | None:
     """Return a tool's row of feeds for a material."""
     return next((row for row in tool.feeds if row.material.casefold() == material.casefold()), None)

@@ -61,6 +61,25 @@ def restyle(widget: QWidget) -> None:
     widget.style().polish(widget)
 
 
+def _reason() -> QLabel:
+    """Return a label for what is wrong with a value."""
+    made = QLabel()
+    made.setProperty("role", "error")
+    made.setWordWrap(True)
+    made.setContentsMargins(0, 0, 0, 4)
+    made.hide()
+    return made
+
+
+def _mark(widget: QWidget, label: QLabel, reason: str) -> None:
+    """Mark a widget's value as wrong and say why; "" = it is right."""
+    label.setText(reason)
+    label.setVisible(bool(reason))
+    if bool(reason) != (widget.property("wrong") == "true"):
+        widget.setProperty("wrong", "true" if reason else "false")
+        restyle(widget)
+
+
 _FIRST = 1000  # stretch of a name that takes its full width before anything else grows, and gives way where letters are wide
 _LEAST_LETTERS = 8  # of a drop-down list's text, where room is short
 
@@ -79,16 +98,13 @@ class NumberField(QWidget):
         self.spec = spec
         self._read = read or spec.read
         self._value: float | None = 0.0
-        self.edit, self.note, self.reason = QLineEdit(), Elided(role="muted"), QLabel()
+        self.edit, self.note, self.reason = QLineEdit(), Elided(role="muted"), _reason()
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.edit.setFixedSize(VALUE_WIDTH, ROW_HEIGHT)
         self.edit.setAccessibleName(spec.name)
         self.edit.textEdited.connect(self._check)
         self.edit.editingFinished.connect(self._commit)
         self.edit.installEventFilter(self)
-        self.reason.setProperty("role", "error")
-        self.reason.setWordWrap(True)
-        self.reason.hide()
         self._lay_out()
 
     def _lay_out(self) -> None:
@@ -179,11 +195,7 @@ class NumberField(QWidget):
             self.committed.emit(value)
 
     def _mark(self, reason: str) -> None:
-        self.reason.setText(reason)
-        self.reason.setVisible(bool(reason))
-        if bool(reason) != (self.edit.property("wrong") == "true"):
-            self.edit.setProperty("wrong", "true" if reason else "false")
-            restyle(self.edit)
+        _mark(self.edit, self.reason, reason)
 
 
 class ChoiceField(QWidget):
@@ -226,9 +238,10 @@ class ListField(QWidget):
 
     def __init__(self, name: str, choices: Sequence[tuple[object, str]]) -> None:
         super().__init__()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 1, 0, 1)
-        row.setSpacing(8)
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 1, 0, 1)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(2)
         label = muted(name)
         label.setFixedWidth(LABEL_WIDTH)
         self.box = QComboBox()
@@ -240,8 +253,11 @@ class ListField(QWidget):
         self._values: list[object] = []
         self.set_choices(choices)
         self.box.activated.connect(lambda at: self.chosen.emit(self._values[at]))
-        row.addWidget(label)
-        row.addWidget(self.box, 1)
+        self.reason = _reason()
+        grid.addWidget(label, 0, 0)
+        grid.addWidget(self.box, 0, 1)
+        grid.addWidget(self.reason, 1, 0, 1, 2)
+        grid.setColumnStretch(1, 1)
 
     def set_choices(self, choices: Sequence[tuple[object, str]]) -> None:
         """Offer other values, each with its text."""
@@ -250,6 +266,7 @@ class ListField(QWidget):
             self.box.clear()
             self.box.addItems([text for _, text in choices])
 
-    def show_value(self, value: object) -> None:
-        """Show the job's value."""
+    def show_value(self, value: object, wrong: str = "") -> None:
+        """Show the job's value, and what is wrong with it."""
+        _mark(self.box, self.reason, wrong)
         self.box.setCurrentIndex(self._values.index(value) if value in self._values else -1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
@@ -9,25 +10,26 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QLineEdit, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from app.files.tool_library import ToolLibrary
-from app.model.tool import FeedRow, Tool, ToolKind
+from app.model.tool import FeedRow, Tool
 from app.ui.figures import counted, grouped
 from app.ui.icons import IconButton, IconLabel
 from app.ui.labels import Elided, muted
 from app.ui.panels.changes import for_material, row_for
 from app.ui.panels.fields import ROW_HEIGHT, ListField
 from app.ui.panels.section import Row, Section, theme_children
+from app.ui.panels.tool_kinds import KINDS, icon_of, use_of
 from app.ui.theme import Theme
 
 LEAST_ROWS, MOST_ROWS = 4, 14
 ROW_PX = 28
-CAN_BE_USED = (ToolKind.FLAT,)
-"""Kinds that pocket, rest and contour cut with; a drill is made in the tool's form."""
+NONE_FOUND = "No tool is called that; search for a diameter, such as 6, a kind, such as drill, or import more."
 
 
 def matches(tool: Tool, text: str) -> bool:
-    """Tell whether every word of a search stands in a tool's name, kind or remark, or is its diameter."""
-    about = f"{tool.label} {tool.kind.value} {tool.remark}".casefold()
-    return all(word in about or word in (f"{tool.diameter:g}", f"{tool.diameter:g}mm") for word in text.casefold().split())
+    """Tell whether every word of a search stands in a tool's name, kind or remark, or is its diameter; numbers are whole ones there."""
+    about = f"{tool.label} {KINDS[tool.kind]} {tool.remark}".casefold()
+    size = f"{tool.diameter:g}"
+    return all(word in (size, f"{size}mm") or word in (about.split() if word[0].isdigit() else about) for word in text.casefold().split())
 
 
 def materials(tools: tuple[Tool, ...]) -> tuple[str, ...]:
@@ -37,7 +39,7 @@ def materials(tools: tuple[Tool, ...]) -> tuple[str, ...]:
 
 
 class LibrarySection(Section):
-    """Every tool of the libraries that the engines can use.
+    """Every tool of the libraries, kind by kind, the thinnest first.
 
     Signals:
         added(tool), put(tool): the user wants this tool, with the feeds of the chosen material, in the job as another one, or
@@ -57,7 +59,7 @@ class LibrarySection(Section):
         close.clicked.connect(self.closed)
         self.head.addWidget(close)
         self.search, self.material = QLineEdit(), ListField("Feeds for", [])
-        self.details, self.others = QLabel(), muted()
+        self.details, self.none = QLabel(), muted(NONE_FOUND)
         self.add_button, self.put_button = QPushButton("Add to job"), QPushButton("Replace")
         self._libraries: tuple[ToolLibrary, ...] = ()
         self._rows: list[tuple[Tool, Row]] = []
@@ -68,7 +70,7 @@ class LibrarySection(Section):
         self._connect()
 
     def _lay_out(self) -> None:
-        self.search.setPlaceholderText("Search by name or diameter")
+        self.search.setPlaceholderText("Search by name, kind or diameter")
         self.search.setAccessibleName("Search the tool library")
         self.search.setFixedHeight(ROW_HEIGHT)
         self.search.setClearButtonEnabled(False)
@@ -84,7 +86,7 @@ class LibrarySection(Section):
         self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.details.setWordWrap(True)
-        self.others.setWordWrap(True)
+        self.none.setWordWrap(True)
         self.add_indented(self.search)
         self.add_indented(self.material)
         self.rows.addSpacing(4)
@@ -93,9 +95,8 @@ class LibrarySection(Section):
         self.add_indented(self.details)
         self.rows.addSpacing(4)
         self.add_indented(side_by_side(self.add_button, self.put_button))
+        self.add_indented(self.none)
         self.rows.addSpacing(8)
-        self.add_indented(self.others)
-        self.rows.addSpacing(4)
         self.import_button, self.export_button = _link("Import tools…"), _link("Export job tools…")
         self.add_indented(side_by_side(self.import_button, self.export_button))
 
@@ -167,22 +168,21 @@ class LibrarySection(Section):
             self._column.removeWidget(row)
             row.hide()
             row.deleteLater()
-        everything = [tool for library in self._libraries for tool in library.tools if matches(tool, self.search.text())]
-        usable = [tool for tool in everything if tool.kind in CAN_BE_USED]
-        self._rows = [(tool, self._row(tool)) for tool in usable]
+        found = [tool for library in self._libraries for tool in library.tools if matches(tool, self.search.text())]
+        found.sort(key=lambda tool: (list(KINDS).index(tool.kind), tool.diameter))
+        self._rows = [(tool, self._row(tool)) for tool in found]
         for at, (_, row) in enumerate(self._rows):
             self._column.insertWidget(at, row)
-        self.area.setVisible(bool(usable))
+        self.area.setVisible(bool(found))
         self._set_height()
-        self.others.setText(_left(len(everything) - len(usable), bool(usable)))
-        self.others.setVisible(bool(self.others.text()))
-        kept = next((tool for tool in usable if tool == self._chosen), None)
-        self.choose(kept or (usable[0] if usable else None))
+        self.none.setVisible(not found)
+        kept = next((tool for tool in found if tool == self._chosen), None)
+        self.choose(kept or (found[0] if found else None))
 
     def _row(self, tool: Tool) -> Row:
         shown = for_material(tool, self._material)
-        row = Row(IconLabel("cutter"), Elided(tool.label), muted(f"{grouped(shown.spindle_speed, 0)} rpm"), stretch_after=1)
-        row.setToolTip("Enter: add to the job")
+        row = Row(IconLabel(icon_of(tool.kind)), Elided(tool.label), muted(f"{grouped(shown.spindle_speed, 0)} rpm"), stretch_after=1)
+        row.setToolTip(f"{KINDS[tool.kind]}. Enter: add to the job")
         row.clicked.connect(lambda: self.choose(tool))
         row.stepped.connect(lambda way: self._step(tool, way))
         row.installEventFilter(self)
@@ -222,18 +222,14 @@ class LibrarySection(Section):
 
 
 def _about(tool: Tool, row: FeedRow | None) -> str:
-    """Return what there is to know of a tool, in two lines."""
-    parts = [counted(tool.flutes, "flute"), *(f"{value:g} mm {name}" for name, value in (
-        ("of cut", tool.flute_length), ("overall", tool.overall_length)) if value)]
+    """Return what there is to know of a tool: what it is, how long, how fast; and what for, where that is not everything."""
+    shape = [f"{math.degrees(tool.tip_angle):g}°"] * bool(tool.tip_angle)
+    shape += [f"{name} {value:g} mm" for name, value in (("corner", tool.corner_radius), ("tip", tool.tip_diameter)) if value]
+    lengths = [f"{value:g} mm {name}" for name, value in (("of cut", tool.flute_length), ("overall", tool.overall_length)) if value]
     feeds = f"F {grouped(tool.feed_rate, 0)}, down {grouped(tool.plunge_rate, 0)} mm/min"
-    return f"{', '.join(parts)}\n{feeds}" + (f", {row.feed_per_tooth:g} a tooth" if row is not None else "")
-
-
-def _left(count: int, some: bool) -> str:
-    """Return what to say of tools that are found and cannot be used."""
-    if not count:
-        return "" if some else "No tool is called that; search for a diameter, such as 6, or import more."
-    return f"{counted(count, 'other')} {'matches' if count == 1 else 'match'}: pocket and contour cut with flat end mills."
+    chip = f", {row.feed_per_tooth:g} a tooth" if row is not None else ""
+    lines = [", ".join([KINDS[tool.kind], counted(tool.flutes, "flute"), *shape]), ", ".join(lengths), feeds + chip, use_of(tool.kind)]
+    return "\n".join(line for line in lines if line)
 
 
 def _link(text: str) -> QPushButton:

@@ -12,8 +12,9 @@ from app.model.tool import Tool
 from app.ui.figures import TIMES, clock, grouped
 from app.ui.icons import IconButton, IconLabel
 from app.ui.labels import Elided, muted
-from app.ui.panels.changes import Subject, SubjectKind, operation_name
+from app.ui.panels.changes import Subject, SubjectKind, operation_name, refusal
 from app.ui.panels.section import Row, Section, theme_children
+from app.ui.panels.tool_kinds import KINDS, icon_of
 from app.ui.samples import LineSample, Sample, Switch
 from app.ui.theme import Theme
 
@@ -164,7 +165,9 @@ class ToolSection(ListSection):
         for tool in job.tools:
             number = _bold(f"T{tool.number}")
             number.setMinimumWidth(24)
-            row = Row(IconLabel("cutter"), number, Elided(tool.label), muted(f"{grouped(tool.spindle_speed, 0)} rpm"), stretch_after=2)
+            speed = muted(f"{grouped(tool.spindle_speed, 0)} rpm")
+            row = Row(IconLabel(icon_of(tool.kind)), number, Elided(tool.label), speed, stretch_after=2)
+            row.setToolTip(KINDS[tool.kind])
             self.add_row(Subject(SubjectKind.TOOL, tool.number), row)
 
 
@@ -221,4 +224,4 @@ class OperationSection(ListSection):
         sample.setEnabled(cut.enabled)
         tool = next((t for t in job.tools if t.number == cut.tool), None)
         text = f"T{cut.tool} {tool.label}" if tool is not None else f"T{cut.tool} is missing"
-        return Row(switch, sample, QLabel(name), Elided(text, "muted"), time, stretch_after=3)
+        return Row(switch, sample, QLabel(name), Elided(text, "error" if refusal(job, operation) else "muted"), time, stretch_after=3)

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QLabel, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
 from app.errors import HitofudeError
 from app.model.job import Job
@@ -16,7 +16,7 @@ from app.ui.figures import counted
 from app.ui.icons import IconButton
 from app.ui.labels import muted
 from app.ui.panels import drawings
-from app.ui.panels.changes import operation_name, with_operation
+from app.ui.panels.changes import operation_name, refusal, with_operation
 from app.ui.panels.fields import ChoiceField, ListField, NumberField, Spec
 from app.ui.panels.form import Form
 from app.ui.panels.operation_groups import GROUPS, OperationGroup
@@ -55,6 +55,7 @@ class OperationForm(Form):
         self._add_side()
         self._add_holes()
         self.leave: NumberField
+        self.hand: QPushButton
         self.groups: list[OperationGroup] = [make(self) for make in GROUPS]
 
     @property
@@ -176,7 +177,7 @@ class OperationForm(Form):
     def _show_main(self, job: Job, operation: Operation) -> None:
         cut, thickness = operation.cut, job.stock.thickness
         self.tool.set_choices([(t.number, f"T{t.number}  {t.label}") for t in job.tools])
-        self.tool.show_value(cut.tool)
+        self.tool.show_value(cut.tool, refusal(job, operation))
         self.cut_depth.show_value(cut.depth, "through" if cut.depth == thickness else "")
         if cut.depth > thickness:
             self.cut_depth.refuse(f"Depth is {cut.depth:g} mm, but the stock is {thickness:g} mm thick; reduce it or take thicker stock.")

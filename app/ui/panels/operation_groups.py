@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from app.ui.panels.operation_form import OperationForm
 
 
+BY_HAND = "Put tabs by hand"
+
+
 class OperationGroup(Protocol):
     """A group of fields."""
 
@@ -185,10 +188,10 @@ class TabGroup:
             lambda job, v: self._with(form, job, height=v))
         self.picture, self.words = Picture(drawings.tab, "A tab"), muted()
         form.add_picture(self.picture, self.words)
-        self.hand = QPushButton("Put tabs by hand")
-        self.hand.setToolTip("Click beside a contour to put a tab, on a tab to take it away; Esc ends.")
-        self.hand.clicked.connect(form.tabs)
-        form.add(self.hand)
+        form.hand = QPushButton(BY_HAND)
+        form.hand.setToolTip("Click beside a contour to put a tab, on a tab to take it away; Esc ends.")
+        form.hand.clicked.connect(form.tabs)
+        form.add(form.hand)
 
     def _with(self, form: OperationForm, job: Job, **values: object) -> Job:
         operation = job.operations[form.index]

@@ -1,4 +1,4 @@
-"""The form of a tool: number, kind, diameter, speed and feeds, and the chip load that they make."""
+"""The form of a tool: number, kind, shape, speed and feeds, and the chip load that they make."""
 
 from __future__ import annotations
 
@@ -9,25 +9,28 @@ from dataclasses import replace
 from PySide6.QtWidgets import QLabel
 
 from app.model.job import Job
-from app.model.tool import LEAST_RATE, Tool, ToolKind
+from app.model.tool import LEAST_RATE, Tool, ToolKind, shape_keys
 from app.ui.panels.changes import for_material, material_of, with_tool
 from app.ui.panels.fields import ListField, NumberField, Spec
 from app.ui.panels.form import Form
-
-KINDS: dict[ToolKind, str] = {ToolKind.FLAT: "Flat end mill", ToolKind.DRILL: "Drill"}
-"""That operations cut with."""
+from app.ui.panels.tool_kinds import KINDS, USUAL_ANGLES
 
 
 class ToolForm(Form):
-    """Number, kind, diameter, speed and feeds of one tool."""
+    """Number, kind, shape, speed and feeds of one tool."""
 
     def __init__(self) -> None:
         super().__init__("Tool", removable="tool")
         self._number = 0
         self.number = self._add(Spec("T number", "", 1, 9999, 0, False), lambda tool, v: replace(tool, number=int(v)))
         self.kind = ListField("Kind", list(KINDS.items()))
-        self.add_choice("Kind", self.kind, lambda job, v: self._edit(job, lambda tool: tool.as_kind(ToolKind(v))))
+        self.add_choice("Kind", self.kind, lambda job, v: self._edit(job, lambda tool: _as_kind(tool, ToolKind(v))))
         self.diameter = self._add(Spec("Diameter", low=0.001, high=1000), lambda tool, v: replace(tool, diameter=v))
+        self.corner = self._add(Spec("Corner radius", low=0, high=1000), lambda tool, v: replace(tool, corner_radius=v))
+        self.angle = self._add(Spec("Full angle", "°", 1, 179, 2, False, "Of the point, or of the cone.", "unknown"),
+                               lambda tool, v: replace(tool, tip_angle=math.radians(v or 0.0)))
+        self.tip = self._add(Spec("Tip", low=0, high=1000, tip="Diameter of the flat at the point, or of the ball at the tip."),
+                             lambda tool, v: replace(tool, tip_diameter=v))
         self.flutes = self._add(Spec("Flutes", "", 1, 100, 0, False), lambda tool, v: replace(tool, flutes=int(v)))
         self.material = ListField("Feeds for", [])
         self.add_choice("Feeds", self.material, lambda job, v: self._edit(job, lambda tool: for_material(tool, str(v))))
@@ -36,6 +39,7 @@ class ToolForm(Form):
         self.plunge = self._add(Spec("Plunge", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, plunge_rate=v))
         self.chip = QLabel()
         self.chip.setWordWrap(True)
+        self.chip.setContentsMargins(0, 4, 0, 0)
         self.chip.setProperty("role", "muted")
         self.add(self.chip)
 
@@ -50,10 +54,10 @@ class ToolForm(Form):
         self._number, tool = number, job.tool(number)
         self.title.setText(f"T{number}")
         self.remark.setText(tool.label)
-        self.kind.set_choices(list((KINDS | ({} if tool.kind in KINDS else {tool.kind: tool.kind.value.capitalize()})).items()))
         self.kind.show_value(tool.kind)
         self.number.show_value(tool.number)
         self.diameter.show_value(tool.diameter)
+        self._show_shape(tool)
         self.flutes.show_value(tool.flutes)
         self.material.set_choices([(row.material, row.material.capitalize()) for row in tool.feeds])
         self.material.show_value(material_of(tool))
@@ -62,6 +66,21 @@ class ToolForm(Form):
         self.feed.show_value(tool.feed_rate)
         self.plunge.show_value(tool.plunge_rate)
         self.chip.setText(chip_load_words(tool))
+
+    def _show_shape(self, tool: Tool) -> None:
+        """Show the numbers that tools of its kind have beside the diameter."""
+        keys = shape_keys(tool.kind)
+        for field, key in ((self.corner, "corner_radius"), (self.angle, "tip_angle"), (self.tip, "tip_diameter")):
+            field.setVisible(key in keys)
+        self.corner.show_value(tool.corner_radius)
+        self.angle.show_value(math.degrees(tool.tip_angle) or None)
+        self.tip.show_value(tool.tip_diameter)
+
+
+def _as_kind(tool: Tool, kind: ToolKind) -> Tool:
+    """Return the tool with another end; a point or a cone has the usual angle where the tool had none."""
+    made = tool.as_kind(kind)
+    return replace(made, tip_angle=made.tip_angle or USUAL_ANGLES.get(kind, 0.0))
 
 
 def chip_load_words(tool: Tool) -> str:

@@ -102,7 +102,7 @@ def test_a_tool_with_its_shape(text: str) -> None:
 
 @pytest.mark.parametrize("text", [
     "operation=saw,1,2,0", "operation=contour,1,2,0,beside", "operation=contour,1,2,0,on,on", "operation=pocket,1,2", "operation_layer=1,a",
-    "operation_layer=x,a", "floor_to_leave_mm=1,2", "holes_mm=1,2", "copies=2,2,0,0",
+    "operation_layer=x,a", "floor_to_leave_mm=1,2", "leads_mm=1,2", "holes_mm=1,2", "copies=2,2,0,0",
     "copies=2", "tab=1,2,3", "dog_bone=1,2,3,4,x", "operation=pocket", "origin_mm=1,2", "origin_mm=1,2,x", "drawing_units=yards",
     "join_tolerance_mm=", "path_tolerance_mm=1,2", "nonsense=1", "",
 ])  # fmt: skip

@@ -1,20 +1,26 @@
 """The tool library in the side panel: search, feeds for a material, into the job undoably; files in and out."""
 
 from dataclasses import replace
+from itertools import groupby
 
 import pytest
 from PySide6.QtCore import Qt
 
+from app.dexel.cutter import cutter_of
 from app.edit.document import Document
 from app.files.tool_files import read_tools, write_tools
 from app.files.tool_library import ToolLibrary, load_libraries, own_folder
 from app.model.job import Job
+from app.model.operation import Cut, DrillOperation
 from app.model.part import Part, Units
-from app.model.tool import FeedRow, Tool, ToolKind
+from app.model.tool import FeedRow, Tool, ToolKind, shape_keys
+from app.resources import resource
 from app.settings import Settings
+from app.ui.icons import IconLabel
 from app.ui.main_window import MainWindow
 from app.ui.panels.changes import Subject, SubjectKind, for_material, material_of
 from app.ui.panels.side_panel import SidePanel
+from app.ui.panels.tool_kinds import KINDS, USUAL_ANGLES, icon_of, use_of
 from app.ui.wiring import Wiring
 
 
@@ -49,20 +55,46 @@ def test_it_opens_in_the_place_of_the_properties_and_closes_again(panel):
     assert not panel.tools.library_button.isChecked()
 
 
-def test_the_list_holds_what_pocket_and_contour_can_cut_with(qtbot, panel):
-    assert {tool.kind for tool in panel.library.shown} == {ToolKind.FLAT}
-    assert [tool.diameter for tool in panel.library.shown] == sorted(tool.diameter for tool in panel.library.shown)
-    assert panel.library.others.text().startswith("37 others match")
-    search(qtbot, panel, "drill")
-    assert panel.library.shown == ()
-    assert panel.library.others.text() == "16 others match: pocket and contour cut with flat end mills."
-    assert not panel.library.add_button.isEnabled()
+def test_the_list_holds_every_kind_with_its_icon_and_words(qtbot, panel):
+    library = panel.library
+    assert [kind for kind, _ in groupby(tool.kind for tool in library.shown)] == list(KINDS), "kind by kind"
+    assert set(KINDS) == set(ToolKind)
+    for _, kind in groupby(library.shown, lambda tool: tool.kind):
+        diameters = [tool.diameter for tool in kind]
+        assert diameters == sorted(diameters)
+    for tool, row in library._rows:
+        assert row.toolTip() == f"{KINDS[tool.kind]}. Enter: add to the job"
+        assert row.findChild(IconLabel).name == icon_of(tool.kind)
+        assert resource("icons", f"{icon_of(tool.kind)}.svg").is_file()
     search(qtbot, panel, "no such tool")
-    assert "No tool is called that" in panel.library.others.text()
+    assert library.shown == () and library.none.isVisible() and "No tool is called that" in library.none.text()
+    assert not library.add_button.isEnabled()
+
+
+@pytest.mark.parametrize(("kind", "about"), [
+    (ToolKind.FLAT, "Flat end mill, 2 flutes"), (ToolKind.DRILL, "Drill, 2 flutes, 118°"),
+    (ToolKind.V, "V cutter, 1 flute, 30°, tip 0.1 mm"),
+])
+def test_what_a_tool_is_for_is_said_before_it_is_taken(panel, kind, about):
+    panel.library.choose(next(tool for tool in panel.library.shown if tool.kind is kind and tool.diameter >= 3))
+    lines = panel.library.details.text().splitlines()
+    assert lines[0].startswith(about)
+    assert lines[3:] == [use_of(kind)] * bool(use_of(kind))
+
+
+@pytest.mark.parametrize("words", ["drill 5", "5mm drill"])
+def test_a_drill_is_put_into_the_job_and_drills(qtbot, document, panel, words):
+    search(qtbot, panel, words)
+    assert [tool.name for tool in panel.library.shown] == ["Drill 5 mm, M6 tap"]
+    qtbot.mouseClick(panel.library.add_button, Qt.MouseButton.LeftButton)
+    added = document.job.tools[-1]
+    assert added.kind is ToolKind.DRILL and added.tip_angle > 0
+    document.job.cutter(DrillOperation(Cut(added.number)))
 
 
 @pytest.mark.parametrize(("text", "found"), [
-    ("6", ["Flat 6 mm"]), ("flat 1.5", ["Flat 1.5 mm"]), ("12 mm", ["Flat 12 mm"]), ("FLAT 8MM", ["Flat 8 mm"]),
+    ("flat 1.5", ["Flat 1.5 mm"]), ("end mill flat 12 mm", ["Flat 12 mm"]), ("FLAT 8MM", ["Flat 8 mm"]),
+    ("drill 4.2", ["Drill 4.2 mm, M5 tap"]), ("v cutter 60", ["V 60 deg 6 mm"]),
 ])
 def test_the_search_knows_words_and_diameters(qtbot, panel, text, found):
     search(qtbot, panel, text)
@@ -70,10 +102,10 @@ def test_the_search_knows_words_and_diameters(qtbot, panel, text, found):
 
 
 def test_enter_adds_the_tool_with_the_feeds_of_the_material_undoably(qtbot, document, panel):
-    search(qtbot, panel, "8")
+    search(qtbot, panel, "flat 8")
     panel.library.material.box.setCurrentIndex(1)
     panel.library.material.box.activated.emit(1)
-    assert "3 flutes, 24 mm of cut, 63 mm overall\nF 3\u2009820, down" in panel.library.details.text()
+    assert "Flat end mill, 3 flutes\n24 mm of cut, 63 mm overall\nF 3\u2009820, down" in panel.library.details.text()
     qtbot.keyClick(panel.library.search, Qt.Key.Key_Return)
     added = document.job.tools[-1]
     wood = next(row for row in added.feeds if row.material == "wood")
@@ -94,7 +126,7 @@ def test_a_tool_takes_the_place_of_the_jobs_own(qtbot, document, panel):
     assert not panel.library.put_button.isVisible(), "an operation is chosen, so there is nothing to replace"
     panel.choose(Subject(SubjectKind.TOOL, 2))
     assert panel.library.put_button.text() == "Replace T2"
-    search(qtbot, panel, "2.5")
+    search(qtbot, panel, "flat 2.5")
     qtbot.mouseClick(panel.library.put_button, Qt.MouseButton.LeftButton)
     assert [(tool.number, tool.diameter) for tool in document.job.tools] == [(1, 6.0), (2, 2.5)]
     assert document.undo_name == "Replace T2"
@@ -118,7 +150,7 @@ def test_the_list_has_the_rows_that_there_is_room_for(qtbot, panel):
         panel.resize(328, height)
         qtbot.wait(20)
         heights.append(panel.library.area.height())
-    assert heights == [4 * 28, 11 * 28]
+    assert heights == [4 * 28, 13 * 28]
 
 
 def test_the_chosen_row_is_in_sight_when_the_library_opens_again(qtbot, panel):
@@ -196,3 +228,17 @@ def test_the_jobs_tools_are_exported(tmp_path, wiring, name, units):
     assert [(tool.number, round(tool.diameter, 6)) for tool in library.tools] == [(1, 6.0), (2, 3.0)]
     wiring.tools.write(tmp_path / "t.xls")
     assert "tools are read and written as .toml, .csv, .tbl" in wiring.window_.notice.text.text()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_has_its_fields_and_can_be_cut_with(document, panel, kind):
+    panel.switch_library()
+    panel.choose(Subject(SubjectKind.TOOL, 2))
+    form = panel.tool_form
+    form.kind.box.activated.emit(list(KINDS).index(kind))
+    tool = document.job.tools[1]
+    assert (tool.kind, tool.tip_angle) == (kind, USUAL_ANGLES.get(kind, 0.0))
+    shown = {name for name, field in (("corner_radius", form.corner), ("tip_angle", form.angle), ("tip_diameter", form.tip))
+             if field.isVisible()}
+    assert shown == shape_keys(kind)
+    cutter_of(tool)

@@ -1,0 +1,145 @@
+"""The functions of the shape language: of numbers, of points, of curves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from app.edit import syntax as s
+from app.edit.meet import foot, meets, tangent_points
+from app.edit.shapes import centre_of, curve_length, middle_of, radius_of
+from app.edit.values import Curves, Scope, Value, kind_of, wrong
+from app.errors import InputError
+from app.model.curves import Curve, Point
+
+Given = float | Point | Curve
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """One function.
+
+    Attributes:
+        takes: one letter an argument: n number, p point, c curve; a last "+" repeats the letter before it.
+        shown: how it is written, for errors and help.
+    """
+
+    takes: str
+    shown: str
+    does: Callable[..., Value]
+
+
+def _turned(p: Point, centre: Point, angle: float) -> Point:
+    c, si = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    dx, dy = p[0] - centre[0], p[1] - centre[1]
+    return (centre[0] + c * dx - si * dy, centre[1] + si * dx + c * dy)
+
+
+def _mirrored(p: Point, a: Point, b: Point) -> Point:
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    size = dx * dx + dy * dy
+    if size == 0:
+        raise InputError("A mirror line needs two different points.")
+    along = ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / size
+    x, y = a[0] + along * dx, a[1] + along * dy
+    return (2 * x - p[0], 2 * y - p[1])
+
+
+def _between(a: Point, b: Point, share: float) -> Point:
+    return (a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]))
+
+
+def _nearest(points: list[Point], near: Point, what: str) -> Point:
+    if not points:
+        raise InputError(f"There is no {what}; move one of the curves, or leave this out.")
+    return min(points, key=lambda p: (math.dist(p, near), p))
+
+
+def _polar(centre: Point, radius: float, angle: float) -> Point:
+    return (centre[0] + radius * math.cos(math.radians(angle)), centre[1] + radius * math.sin(math.radians(angle)))
+
+
+def _heading(a: Point, b: Point) -> float:
+    return math.degrees(math.atan2(b[1] - a[1], b[0] - a[0])) % 360
+
+
+FUNCTIONS: Mapping[str, Function] = {
+    "sin": Function("n", "sin(angle)", lambda a: math.sin(math.radians(a))),
+    "cos": Function("n", "cos(angle)", lambda a: math.cos(math.radians(a))),
+    "tan": Function("n", "tan(angle)", lambda a: math.tan(math.radians(a))),
+    "asin": Function("n", "asin(number)", lambda v: math.degrees(math.asin(v))),
+    "acos": Function("n", "acos(number)", lambda v: math.degrees(math.acos(v))),
+    "atan": Function("n", "atan(number)", lambda v: math.degrees(math.atan(v))),
+    "atan2": Function("nn", "atan2(dy, dx)", lambda y, x: math.degrees(math.atan2(y, x))),
+    "sqrt": Function("n", "sqrt(number)", math.sqrt),
+    "abs": Function("n", "abs(number)", abs),
+    "min": Function("n+", "min(a, b, …)", lambda *v: min(v)),
+    "max": Function("n+", "max(a, b, …)", lambda *v: max(v)),
+    "floor": Function("n", "floor(number)", lambda v: float(math.floor(v))),
+    "ceil": Function("n", "ceil(number)", lambda v: float(math.ceil(v))),
+    "round": Function("n", "round(number)", lambda v: float(round(v))),
+    "mod": Function("nn", "mod(number, divisor)", lambda a, b: a % b),
+    "x": Function("p", "x(point)", lambda p: p[0]),
+    "y": Function("p", "y(point)", lambda p: p[1]),
+    "dist": Function("pp", "dist(a, b)", math.dist),
+    "angle": Function("pp", "angle(from, to)", _heading),
+    "mid": Function("pp", "mid(a, b)", lambda a, b: _between(a, b, 0.5)),
+    "between": Function("ppn", "between(a, b, share)", _between),
+    "polar": Function("pnn", "polar(centre, radius, angle)", _polar),
+    "rotate": Function("ppn", "rotate(point, centre, angle)", _turned),
+    "mirror": Function("ppp", "mirror(point, a, b)", _mirrored),
+    "start": Function("c", "start(curve)", lambda c: c.start),
+    "finish": Function("c", "finish(curve)", lambda c: c.end),
+    "middle": Function("c", "middle(curve)", middle_of),
+    "centre": Function("c", "centre(curve)", lambda c: centre_of(c)),
+    "radius": Function("c", "radius(curve)", lambda c: radius_of(c)),
+    "length": Function("c", "length(curve)", curve_length),
+    "foot": Function("pc", "foot(point, curve)", lambda p, c: foot(c, p)),
+    "meet": Function("ccp", "meet(curve, curve, near)", lambda a, b, near: _nearest(meets(a, b), near, "place where both curves meet")),
+    "tangent": Function("pcp", "tangent(from, curve, near)",
+                        lambda p, c, near: _nearest(tangent_points(c, p), near, "tangent from this point")),
+}
+"""Every function by its name; angles in degrees."""
+
+
+def call(written: s.Call, values: Sequence[Value], scope: Scope) -> Value:
+    """Return the value of a function.
+
+    Args:
+        values: one for each argument that is written.
+
+    Raises:
+        CommandError: no such function, other arguments than it takes, or a result that there is not.
+    """
+    function = FUNCTIONS.get(written.function.text)
+    if function is None:
+        raise wrong(f"'{written.function.text}' is no function; use one of {', '.join(FUNCTIONS)}.", written.function.place)
+    given = _taken(function, written, list(values), scope)
+    try:
+        value = function.does(*given)
+    except (ValueError, ZeroDivisionError, OverflowError):
+        raise wrong(f"{function.shown} has no value for these numbers.", written.place) from None
+    except InputError as error:
+        raise wrong(str(error), written.place) from None
+    return float(value) if isinstance(value, int) else value
+
+
+def _taken(function: Function, written: s.Call, values: list[Value], scope: Scope) -> list[Given]:
+    """Return the arguments as the function takes them; two numbers in a row may stand for a point."""
+    places = [argument.place for argument in written.arguments]
+    takes, given = function.takes.rstrip("+"), list[Given]()
+    while values and (len(given) < len(takes) or function.takes.endswith("+")):
+        wanted = takes[min(len(given), len(takes) - 1)]
+        place, value = places[-len(values)], values.pop(0)
+        if wanted == "p" and isinstance(value, float) and values and isinstance(values[0], float):
+            value = (value, values.pop(0))  # type: ignore[assignment]
+        if (wanted == "n" and isinstance(value, float)) or (wanted == "p" and isinstance(value, tuple)):
+            given.append(value)
+        elif wanted == "c" and isinstance(value, Curves):
+            given.append(scope.curve(value, place))
+        else:
+            raise wrong(f"{function.shown}: this is {kind_of(value)}.", place)
+    if values or len(given) < len(takes):
+        raise wrong(f"Write {function.shown}.", written.place)
+    return given

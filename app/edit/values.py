@@ -1,0 +1,62 @@
+"""What expressions of the shape language stand for, and what they may refer to."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from app.edit import syntax as s
+from app.edit.errors import CommandError
+from app.model.curves import Curve, Point
+from app.model.part import Part
+
+
+@dataclass(frozen=True, slots=True)
+class Curves:
+    """Entities of the drawing, by number."""
+
+    ids: tuple[int, ...]
+
+
+Value = float | Point | Curves
+"""What a name can stand for; lengths in mm, angles in degrees."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """What an expression may refer to.
+
+    Attributes:
+        names: what the names stand for.
+        last: the point that relative coordinates start from, mm.
+        part: the drawing that curves are looked up in.
+        units: that may stand behind a number, with their sizes.
+    """
+
+    names: Mapping[str, Value] | None = None
+    last: Point = (0.0, 0.0)
+    part: Part = field(default_factory=Part)
+    units: Mapping[str, float] | None = None
+
+    def curve(self, value: Curves, place: s.Place) -> Curve:
+        """Return the one curve that a value stands for.
+
+        Raises:
+            CommandError: it stands for several, or for one that has been deleted.
+        """
+        if len(value.ids) != 1:
+            raise wrong(f"This stands for {len(value.ids)} curves; one is wanted.", place)
+        found = self.part.curve(value.ids[0])
+        if found is None:
+            raise wrong(f"Curve {value.ids[0]} is no longer in the drawing; draw it again or leave this out.", place)
+        return found
+
+
+def wrong(reason: str, place: s.Place) -> CommandError:
+    """Return the error that something at a place is wrong."""
+    return CommandError(reason, place.column, place.line)
+
+
+def kind_of(value: Value) -> str:
+    """Return what a value is, in words."""
+    return "a number" if isinstance(value, float) else "a point" if isinstance(value, tuple) else "a curve"

@@ -1,0 +1,81 @@
+"""A drawing as a text of the shape language, which draws it again to the last digit."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from app.edit.words import name_text, number_text, point_text
+from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
+from app.model.part import Layer, Part
+from app.tolerances import WELD
+
+
+@dataclass(frozen=True, slots=True)
+class DrawText:
+    """A text of the shape language.
+
+    Attributes:
+        left_out: curves too small for it: shorter than the program welds, or of a smaller radius.
+    """
+
+    text: str
+    left_out: int = 0
+
+
+def draw_text(part: Part) -> DrawText:
+    """Return the text that draws a part: its layers with their looks, then its curves in order."""
+    lines = [f"# {part.name}"]
+    for layer in part.layers:
+        lines += [f"layer {name_text(layer.name)}", *_looks(layer)]
+    current = part.layers[-1].name if part.layers else ""
+    left_out = 0
+    for entity in part.entities:
+        if _is_nothing(entity.curve):
+            left_out += 1
+            continue
+        if entity.layer != current:
+            current = entity.layer
+            lines.append(f"layer {name_text(current)}")
+        lines.append(curve_text(entity.curve))
+    return DrawText("\n".join(lines) + "\n", left_out)
+
+
+def curve_text(curve: Curve) -> str:
+    """Return the line that draws a curve."""
+    if isinstance(curve, Line):
+        return f"line {point_text(curve.start)} {point_text(curve.end)}"
+    if isinstance(curve, Arc):
+        return f"arc {point_text(curve.start)} {point_text(curve.end)} centre {point_text(curve.centre)}" + " cw" * (not curve.ccw)
+    if isinstance(curve, Circle):
+        return f"circle {point_text(curve.centre)} {number_text(curve.radius)}" + " cw" * (not curve.ccw)
+    if isinstance(curve, Ellipse):
+        return _ellipse_text(curve)
+    return _spline_text(curve)
+
+
+def _ellipse_text(curve: Ellipse) -> str:
+    end = (curve.centre[0] + curve.major[0], curve.centre[1] + curve.major[1])
+    words = ["ellipse", point_text(curve.centre), point_text(end), number_text(math.hypot(*curve.major) * curve.ratio)]
+    if (curve.start_parameter, curve.end_parameter) != (0.0, math.tau):
+        words += ["from", number_text(math.degrees(curve.start_parameter)), "to", number_text(math.degrees(curve.end_parameter))]
+    return " ".join(words + ["cw"] * (not curve.ccw))
+
+
+def _spline_text(curve: Spline) -> str:
+    words = ["spline degree", str(curve.degree), *map(point_text, curve.control_points), "knots", *map(number_text, curve.knots)]
+    return " ".join(words + (["weights", *map(number_text, curve.weights)] if curve.weights else []))
+
+
+def _looks(layer: Layer) -> list[str]:
+    name = name_text(layer.name)
+    return ([f"colour {name} {name_text(layer.colour)}"] * bool(layer.colour) + [f"hide {name}"] * (not layer.visible)
+            + [f"lock {name}"] * layer.locked)
+
+
+def _is_nothing(curve: Curve) -> bool:
+    if isinstance(curve, Line | Arc):
+        return math.dist(curve.start, curve.end) < WELD
+    if isinstance(curve, Circle):
+        return curve.radius < WELD
+    return isinstance(curve, Ellipse) and math.hypot(*curve.major) * curve.ratio < WELD

@@ -1,0 +1,87 @@
+"""Every kind of operation with every kind of tool: computed, or refused in one sentence, the same in the panel and by computing."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from app.edit.document import Document
+from app.errors import ParameterError
+from app.model.job import Job
+from app.model.operation import OPERATION_KINDS, Cut, DrillOperation
+from app.model.tool import Tool, ToolKind
+from app.ui.computation import Computation, State
+from app.ui.labels import Elided
+from app.ui.panels.side_panel import SidePanel
+from app.ui.stages.reel import Wish, reel_of
+from app.ui.worker import Worker
+from app.workflow.bitmap_job import drawn_job
+from app.workflow.bitmap_options import BitmapSize
+from tests.part_shapes import circle, layered_part, square
+
+PART = layered_part({"a": [square(40), circle(3, 20, 20)]})
+TOOLS = (
+    Tool(1, 6.0), Tool(1, 6.0, ToolKind.BALL), Tool(1, 6.0, ToolKind.BULL, corner_radius=1.0),
+    Tool(1, 6.0, ToolKind.V, tip_angle=math.radians(90)), Tool(1, 6.0, ToolKind.DRILL, tip_angle=math.radians(118)),
+    Tool(1, 6.0, ToolKind.TAPER, tip_angle=math.radians(10), tip_diameter=2.0),
+)
+NO_MILL = "T1 is a drill, which cannot cut sideways; a {} operation needs a mill: choose another tool, or make it a drill operation."
+ALL_OFF = "every operation of the job is switched off, so nothing is cut; switch one on"
+
+
+def refused(word: str, tool: Tool) -> str:
+    return NO_MILL.format(word) if tool.kind is ToolKind.DRILL and OPERATION_KINDS[word] is not DrillOperation else ""
+
+
+@pytest.mark.parametrize("way", ["exact", "pixels"])
+@pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: tool.kind.value)
+@pytest.mark.parametrize("word", OPERATION_KINDS)
+def test_it_is_computed_or_refused(qtbot, word, tool, way):
+    job = Job(PART, (tool,), (OPERATION_KINDS[word](Cut(1)),))
+    computation = Computation(Document(job), worker := Worker())
+    if way == "pixels":
+        computation.pixels = job.part, drawn_job(job, BitmapSize(100)).part
+    computation.start()
+    qtbot.waitUntil(lambda: computation.state is not State.RUNNING, timeout=20_000)
+    worker.finish()
+    assert computation.error == refused(word, tool)
+    assert computation.state is (State.FAILED if computation.error else State.CURRENT)
+
+
+@pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: tool.kind.value)
+@pytest.mark.parametrize("word", OPERATION_KINDS)
+def test_the_panel_marks_the_tool_at_once(qtbot, word, tool):
+    panel = SidePanel(Document(Job(PART, (tool,), (OPERATION_KINDS[word](Cut(1)),))))
+    qtbot.addWidget(panel)
+    panel.show()
+    reason = panel.operation_form.tool.reason
+    assert (reason.text(), reason.isVisible()) == (refused(word, tool), bool(refused(word, tool)))
+    (in_list,) = [label for label in panel.operations.findChildren(Elided) if label.text() == f"T1 {tool.label}"]
+    assert in_list.property("role") == ("error" if refused(word, tool) else "muted")
+
+
+def test_computing_says_why_not_in_notice_status_and_findings(qtbot, wiring):
+    window, drill = wiring.window_, Tool(1, 6.0, ToolKind.DRILL)
+    wiring.document.load(Job(PART, (drill,), (OPERATION_KINDS["pocket"](Cut(1)),)))
+    wiring.compute()
+    qtbot.waitUntil(lambda: wiring.computation.state is State.FAILED, timeout=20_000)
+    assert window.notice.text.text() == window.status.message.toolTip() == NO_MILL.format("pocket")
+    assert window.status.badge.text() == "Could not be computed"
+    window.canvas.hovered.emit("Part")
+    window.canvas.hovered.emit("")
+    assert window.status.message.toolTip() == NO_MILL.format("pocket"), "it stays when the mouse has passed over something"
+
+
+@pytest.mark.parametrize("pixels", [False, True], ids=["exact", "pixels"])
+def test_all_operations_off_is_said_whichever_way(qtbot, pixels):
+    job = Job(PART)
+    job = replace(job, operations=tuple(replace(each, cut=replace(each.cut, enabled=False)) for each in job.operations))
+    computation = Computation(Document(job), worker := Worker())
+    if pixels:
+        computation.pixels = job.part, drawn_job(job, BitmapSize(100)).part
+    computation.start()
+    qtbot.waitUntil(lambda: computation.state is State.FAILED, timeout=20_000)
+    worker.finish()
+    assert ALL_OFF in computation.error
+    with pytest.raises(ParameterError, match=ALL_OFF):
+        reel_of(Wish(job, BitmapSize(100)))
