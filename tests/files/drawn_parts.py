@@ -50,7 +50,7 @@ def splines(draw: st.DrawFn, degrees: tuple[int, ...], rational: bool = False) -
     return clamped(degree, control, weights, inner)
 
 
-letters = st.characters(max_codepoint=0xFFFF, exclude_categories=["Cc", "Cs"], exclude_characters='<>/\\":;?*|=`,')
+letters = st.characters(max_codepoint=0xFFFF, exclude_categories=["Cc", "Cn", "Cs"], exclude_characters='<>/\\":;?*|=`,')
 names = st.text(letters, min_size=1, max_size=20)
 colours = st.one_of(st.just(""), st.integers(1, 0xFFFFFF).map(lambda value: f"#{value:06x}"))
 
