@@ -11,6 +11,8 @@ from app.model.curves import Arc, Circle, Curve, Ellipse, Point, Spline
 
 _TURN = 1e-9
 """Angles that differ by less are the same, radians."""
+_LEVEL = 1e-9
+"""Ends of an arc as equally far from its centre as this, mm, are left so: to level rounding over a short chord moves the centre more."""
 _CLOSED = 1e-6
 """An arc that lacks less than this of a full turn, radians, is left as its parts, for its chord tells too little."""
 
@@ -61,7 +63,9 @@ def _arcs(a: Arc, b: Arc) -> Arc | Circle | None:
         return Circle(centre, (math.dist(a.start, centre) + math.dist(a.end, centre)) / 2, a.ccw)
     if first + second > math.tau - _CLOSED:
         return None
-    return Arc(a.start, b.end, equally_far(a.start, b.end, centre), a.ccw)
+    if abs(math.dist(a.start, centre) - math.dist(b.end, centre)) > _LEVEL:
+        centre = equally_far(a.start, b.end, centre)
+    return Arc(a.start, b.end, centre, a.ccw)
 
 
 def _ellipses(a: Ellipse, b: Ellipse) -> Ellipse | None:

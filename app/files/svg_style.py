@@ -11,7 +11,8 @@ from app.files.svg_xml import Node
 
 _COMMENT = re.compile(r"/\*.*?(?:\*/|\Z)", re.DOTALL)
 _SELECTOR = re.compile(r"(?:(\*)|([\w-]+)?(?:\.([\w-]+)|#([\w-]+))?)\Z")
-_READ = ("display", "visibility", "fill", "stroke", "color", "clip-path", "mask")
+_READ = ("display", "visibility", "fill", "stroke", "color", "clip-path", "mask", "transform", "transform-origin")
+_UNITS = re.compile(r"(?<=[\d.])(?:px|deg)\b")
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +24,8 @@ class Style:
         visible: False under visibility: hidden or collapse.
         fill, stroke, color: as written.
         clipped: something hides a part of it.
+        transform: the element's own, as the attribute would have it; "" for none.
+        origin: what that is about, if not the origin of coordinates, as written.
     """
 
     shown: bool = True
@@ -31,6 +34,8 @@ class Style:
     stroke: str = "none"
     color: str = ""
     clipped: bool = False
+    transform: str = ""
+    origin: str = ""
 
     @property
     def draws(self) -> bool:
@@ -96,4 +101,5 @@ def _with(outer: Style, declared: dict[str, str]) -> Style:
         visible=outer.visible if visibility is None else visibility == "visible",
         fill=declared.get("fill", outer.fill), stroke=declared.get("stroke", outer.stroke),
         color=declared.get("color", outer.color), clipped=outer.clipped or hides,
+        transform=_UNITS.sub("", declared.get("transform", "")), origin=declared.get("transform-origin", ""),
     )

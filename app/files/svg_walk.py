@@ -12,7 +12,7 @@ from typing import NoReturn
 from app import tolerances
 from app.errors import InputError
 from app.files.drawing_account import MOST_CURVES
-from app.files.dxf_affine import Affine, transformed
+from app.files.dxf_affine import IDENTITY, Affine, transformed
 from app.files.svg_joined import joined
 from app.files.svg_numbers import Box, UnreadableError, fitted, transform, view_box
 from app.files.svg_path import Path
@@ -28,6 +28,7 @@ _LINK = "http://www.w3.org/1999/xlink href"
 _NOT_CURVES = ("text", "image", "foreignObject", "flowRoot", "video", "audio", "iframe", "canvas")
 BLACK = "#000000"
 _TOO_MUCH = f"the drawing unfolds to more than {MOST_CURVES} curves; use fewer copies, or save it in parts"
+_UNITS_OF_ZERO = re.compile("px|%")
 _BREAK = re.compile(r"[\x00-\x1f]+")
 
 
@@ -158,11 +159,8 @@ class Walker:
     def _inside(self, node: Node, outer: State) -> State:
         """Return the state inside an element: its transform, its style, its layer."""
         style, to, layer = self._styles.style(node, outer.style), outer.to, outer.layer
-        if "transform" in node.attributes:
-            try:
-                to = to.after(transform(node.attributes["transform"]))
-            except UnreadableError:
-                self._refuse(node, f"the transform {node.attributes['transform'][:60]!r} cannot be read; ungroup it and save again")
+        if style.transform:
+            to = to.after(self._transform(node, style))
         named = "" if outer.copied else self._layer_name(node, outer.depth)
         if named:
             layer = named
@@ -172,6 +170,15 @@ class Walker:
             note.own = style.ink
             style = replace(style, shown=outer.style.shown)
         return replace(outer, to=to, style=style, layer=layer, depth=outer.depth + 1)
+
+    def _transform(self, node: Node, style: Style) -> Affine:
+        try:
+            made = transform(style.transform)
+        except UnreadableError:
+            self._refuse(node, f"the transform {style.transform[:60]!r} cannot be read; ungroup it and save again")
+        if made != IDENTITY and _UNITS_OF_ZERO.sub("", style.origin).strip("0 "):
+            self._refuse(node, f"a transform about {style.origin[:60]!r} cannot be read; ungroup it and save again")
+        return made
 
     def _layer_name(self, node: Node, depth: int) -> str:
         """Return the name of the layer that a group is; a file without Inkscape's layers has its top groups that are named."""

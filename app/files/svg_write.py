@@ -19,6 +19,8 @@ from app.model.part import Entity, Layer, Part
 
 _WIDEST = math.tau / 3
 """Arcs are drawn in parts no wider than this: from the ends and radii of a wider one its centre comes back less exact."""
+_THIN = 0.01
+"""A part of an ellipse flatter than this is drawn on the unit circle and stretched: its ends alone tell its centre too badly."""
 _MARGIN = 1.0
 """Paper round the part, mm."""
 _EMPTY = (0.0, 0.0, 100.0, 100.0)
@@ -85,17 +87,28 @@ def _held(curve: Curve, conversions: Conversions) -> tuple[Curve, ...]:
 
 def _is_whole(curve: Curve) -> bool:
     """True for what has an element of its own; a clockwise circle is a path, for that alone has a direction."""
-    return (isinstance(curve, Circle) and curve.ccw) or (isinstance(curve, Ellipse) and _turns(curve))
+    return (isinstance(curve, Circle) and curve.ccw) or (isinstance(curve, Ellipse) and (_turns(curve) or curve.ratio < _THIN))
 
 
 def _turns(curve: Ellipse) -> bool:
     return curve.end_parameter - curve.start_parameter >= math.tau - 1e-12
 
 
+def _stretched(curve: Ellipse) -> str:
+    """Return a part of an ellipse as one of the unit circle under a matrix."""
+    (a, b), ratio = curve.major, curve.ratio
+    matrix = " ".join(map(_number, (a, -b, -b * ratio, -a * ratio, curve.centre[0], -curve.centre[1])))
+    unit = Ellipse((0.0, 0.0), (1.0, 0.0), 1.0, -curve.end_parameter, -curve.start_parameter, not curve.ccw)
+    arcs = _arcs(_along_ellipse(unit), (1.0, 1.0, 0.0), unit.ccw)
+    return f'<path transform="matrix({matrix})" d="M {_place(unit.start)} {" ".join(arcs)}" vector-effect="non-scaling-stroke"/>'
+
+
 def _whole(curve: Curve) -> str:
     if isinstance(curve, Circle):
         return f'<circle cx="{_number(curve.centre[0])}" cy="{_number(-curve.centre[1])}" r="{_number(curve.radius)}"/>'
     assert isinstance(curve, Ellipse)
+    if not _turns(curve):
+        return _stretched(curve)
     x, y, long = _number(curve.centre[0]), _number(-curve.centre[1]), math.hypot(*curve.major)
     turn = f' transform="rotate({_number(_degrees(curve))} {x} {y})"' if curve.major[1] else ""
     return f'<ellipse cx="{x}" cy="{y}" rx="{_number(long)}" ry="{_number(long * curve.ratio)}"{turn}/>'

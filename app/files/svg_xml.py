@@ -8,13 +8,13 @@ from typing import NoReturn
 from xml.parsers import expat
 
 from app.errors import InputError
+from app.files.drawing_account import MOST_CURVES
 
 SVG = "http://www.w3.org/2000/svg"
 DEEPEST = 100
 """Elements nested deeper than this are refused."""
 MOST_BYTES = 256 << 20
 """A larger file is no drawing to machine."""
-_MOST_ELEMENTS = 1_000_000
 _MOST_ENTITIES = 100
 _LONGEST_ENTITY = 200
 """Old drawing programs name their namespaces by entities; none is longer, and none holds another."""
@@ -68,7 +68,7 @@ class _Reader:
     def __init__(self, name: str) -> None:
         self._name = name
         self._parser = expat.ParserCreate(namespace_separator=" ")
-        self._parser.buffer_text = True
+        self._parser.buffer_text, self._parser.buffer_size = True, 1 << 20
         self._parser.StartElementHandler = self._start
         self._parser.EndElementHandler = self._end
         self._parser.CharacterDataHandler = self._characters
@@ -91,8 +91,8 @@ class _Reader:
 
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         self._count += 1
-        if self._count > _MOST_ELEMENTS:
-            self._refuse(f"there are more than {_MOST_ELEMENTS} elements; save the drawing in parts.")
+        if self._count > MOST_CURVES:
+            self._refuse(f"there are more than {MOST_CURVES} elements; save the drawing in parts.")
         if len(self._open) >= DEEPEST:
             self._refuse(f"elements are nested deeper than {DEEPEST} levels; ungroup some and save again.")
         node = Node(_plain(tag), {_plain(key): value for key, value in attributes.items()}, self._parser.CurrentLineNumber)

@@ -77,7 +77,10 @@ def test_r12_has_ellipses_and_splines_within_the_tolerance_and_counted(curve: Cu
 
 @every
 def test_every_version_says_what_it_is_and_is_sound(version: DxfVersion) -> None:
-    text = dxf_bytes(drawn(Line((0, 0), (1, 0)), Ellipse((0, 0), (5, 0), 0.5)), version).data.decode("cp1252")
+    spline = clamped(3, [(0, 0), (1, 2), (3, 0), (4, 4), (5, 0)], (1, 2, 1, 1, 1), [0.5])
+    flat = Arc((-500, 0), (500, 0), (0, 1e6))
+    curves = (Line((0, 0), (1, 0)), Ellipse((0, 0), (5, 0), 0.5), spline, flat, Circle((1, 1), 2, False))
+    text = dxf_bytes(drawn(*curves), version).data.decode("cp1252")
     assert version.value in text
     document = ezdxf.read(io.StringIO(text))  # type: ignore[attr-defined]
     assert document.dxfversion == version.value and not document.audit().errors

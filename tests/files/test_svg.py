@@ -198,6 +198,13 @@ def test_transforms(text: str) -> None:
     assert line.end == near((x, 100 - y))
 
 
+@pytest.mark.parametrize("style", ["transform: translate(10px, 20px) rotate(90deg)",
+                                   "transform:matrix(0,1,-1,0,10,20);transform-origin:0 0"])
+def test_transforms_in_a_style(style: str) -> None:
+    assert one(f'<line x2="1" stroke="red" transform="scale(9)" style="{style}"/>') == Line((10, 80), (10, 79))
+    assert one(f'<g style="{style}"><line x2="1" stroke="red"/></g>') == Line((10, 80), (10, 79))
+
+
 def test_groups_nest() -> None:
     inner = '<line x1="1" x2="2" stroke="red" transform="translate(0,5)"/>'
     line = one(f'<g transform="translate(10,0)"><g transform="scale(2)">{inner}</g></g>')
@@ -335,6 +342,11 @@ def test_a_switch_shows_its_first_choice() -> None:
 def test_the_one_door_knows_svg() -> None:
     drawing = read_drawing("some/Part.SVG", f'<svg {NAMESPACES} {PAGE}><circle r="1"/></svg>'.encode())
     assert drawing.part.name == "Part"
+
+
+def test_a_file_in_utf_16_is_read() -> None:
+    text = f'<?xml version="1.0" encoding="UTF-16"?><svg {NAMESPACES} {PAGE}><g id="加工"><circle r="1"/></g></svg>'
+    assert read_svg(text.encode("utf-16")).part.entities[0].layer == "加工"
 
 
 def test_a_file_without_namespaces_is_read() -> None:

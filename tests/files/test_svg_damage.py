@@ -31,6 +31,7 @@ NS = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xli
     (b'<svg width="-5mm"/>', "'-5mm', cannot be read"),
     (b'<svg width="5em"/>', "'5em', cannot be read"),
     (b'<svg>\n\n<g transform="spin(3)"/></svg>', "x.svg:3: the transform 'spin(3)' cannot be read"),
+    (b'<svg>\n<circle r="1" style="transform-origin: 50% 50%; transform: rotate(3deg)"/></svg>', "x.svg:2: a transform about '50% 50%'"),
     (b'<svg>\n<svg viewBox="1 2"><circle r="1"/></svg></svg>', "x.svg:2: the viewBox '1 2'"),
     (b'<svg>\n<use id="a" href="#a"/></svg>', "x.svg:2: #a is used in itself"),
     (b'<svg><g id="a">\n<use href="#a" x="1"/><circle r="1"/></g></svg>', "x.svg:2: #a is used in itself"),

@@ -13,7 +13,7 @@ from app.fit.bezier import pieces_of
 from app.fit.biarc import distances
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from app.model.part import Entity, Layer, Part
-from tests.files.drawn_parts import apart, arcs, circles, clamped, lines, parts, parts_of, splines, wholes
+from tests.files.drawn_parts import apart, arc, arcs, circles, clamped, lines, parts, parts_of, splines, wholes
 
 SAME = 1e-9
 exact = st.one_of(lines, arcs, circles, wholes, parts_of, splines((2, 3)))
@@ -112,6 +112,23 @@ def test_an_empty_part_is_a_page_and_an_orphan_keeps_its_layer() -> None:
     assert b"<svg" in svg_bytes(Part()).data
     orphan = Part((Entity(1, Line((0, 0), (1, 0)), "lost"),), ())
     assert back(orphan).entities[0].layer == "lost"
+
+
+@pytest.mark.parametrize("ratio", [1e-2, 1e-3, 1e-5, 1e-7])
+@pytest.mark.parametrize("ccw", [True, False])
+def test_flat_ellipses_are_as_exact_as_round_ones(ratio: float, ccw: bool) -> None:
+    for first, last in ((0.3, 1.0), (-2.0, 2.5), (0.0, math.tau)):
+        curve = Ellipse((-700.1, 300.3), (-3000.0, 1700.0), ratio, first, last, ccw)
+        (again,) = (e.curve for e in back(drawn(curve)).entities)
+        assert isinstance(again, Ellipse) and apart(curve, again) < SAME
+        assert again.ccw is ccw or last == math.tau
+
+
+@pytest.mark.parametrize("radius", [1.0, 1000.0])
+def test_an_arc_that_is_nearly_a_circle_keeps_its_centre(radius: float) -> None:
+    curve = arc((512.3, -733.1), radius, 0.7, math.tau - 1e-4)
+    (again,) = (e.curve for e in back(drawn(curve)).entities)
+    assert apart(curve, again) < SAME
 
 
 def test_a_half_turn_keeps_its_centre() -> None:
