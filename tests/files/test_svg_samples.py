@@ -9,11 +9,15 @@ from PySide6.QtCore import QByteArray
 from PySide6.QtGui import QImage, QPainter
 from PySide6.QtSvg import QSvgRenderer
 
+from app.errors import GeometryError
 from app.files.drawing import Drawing, read_drawing
+from app.files.svg_write import svg_bytes
 from app.fit.arcs import lines_and_arcs
 from app.geometry.chain import chain
 from app.geometry.primitives import curve_rows, lengths, points_at
 from app.model.curves import Arc, Curve, Ellipse, Line, Spline
+from app.workflow.make import make
+from app.workflow.options import MakeOptions
 
 DOTS = 8
 """Dots to the millimetre."""
@@ -114,3 +118,20 @@ def wider(dots: NDArray[np.bool_]) -> NDArray[np.bool_]:
     import cv2
 
     return cv2.dilate(dots.astype(np.uint8), np.ones((7, 7), np.uint8)).astype(bool)
+
+
+def nc_of(name: str, content: bytes) -> list[str]:
+    """The blocks of the program for a drawing, without comments, which hold its name."""
+    made = make(name, content, MakeOptions(contour_diameter=2.0, pocket_diameter=4.0))
+    return [line for line in made.files[0].nc.text.splitlines() if not line.startswith("(")]
+
+
+def test_a_drawing_makes_the_same_program_from_svg_as_from_dxf(data: Path) -> None:
+    content = (data / "dxf" / "fig2.dxf").read_bytes()
+    blocks = nc_of("fig2.dxf", content)
+    assert len(blocks) > 50 and nc_of("fig2.svg", svg_bytes(read_drawing("fig2.dxf", content).part).data) == blocks
+
+
+def test_open_arcs_alone_are_refused(data: Path) -> None:
+    with pytest.raises(GeometryError, match=r"arc_with_rotate\.svg: nothing can be cut\. Contour 1 is open by 6\.35 mm"):
+        nc_of("arc_with_rotate.svg", (data / "svg" / "arc_with_rotate.svg").read_bytes())
