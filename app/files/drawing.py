@@ -9,7 +9,7 @@ from app.errors import InputError
 from app.model.finding import Finding
 from app.model.part import Part, Units
 
-SUFFIXES = (".dxf", ".draw")
+SUFFIXES = (".dxf", ".svg", ".draw")
 """Suffixes of drawings that can be read, in lower case."""
 
 
@@ -46,6 +46,10 @@ def read_drawing(path_name: str, data: bytes, units: Units | None = None, layers
     suffix = PurePath(path_name).suffix.lower()
     if suffix not in SUFFIXES:
         raise InputError(f"{name}: drawings of type {suffix or 'without a suffix'} cannot be read; supported: {', '.join(SUFFIXES)}.")
+    if suffix == ".svg":
+        from app.files.svg import read_svg
+
+        return read_svg(data, name, units, layers)
     if suffix == ".draw":
         from app.files.draw import read_draw
 

@@ -45,8 +45,10 @@ def entities_of(
 
 def has_length(curve: Curve) -> bool:
     """Return True for a curve that is longer than WELD."""
-    if isinstance(curve, Line | Arc):
+    if isinstance(curve, Line):
         return math.dist(curve.start, curve.end) >= tolerances.WELD
+    if isinstance(curve, Arc):  # one that is nearly a circle has its ends close together
+        return curve.start != curve.end and abs(curve.sweep) * curve.radius >= tolerances.WELD
     if isinstance(curve, Circle):
         return curve.radius >= tolerances.WELD
     if isinstance(curve, Ellipse):

@@ -15,7 +15,7 @@ from app.files.dxf_affine import scaled
 from app.files.dxf_blocks import Sheet, Walker
 from app.files.dxf_load import load
 from app.model.finding import Finding, FindingKind
-from app.model.part import Layer, Part, Units
+from app.model.part import Entity, Layer, Part, Units
 
 _NAMED_UNITS: dict[int, tuple[float, Units]] = {
     1: (25.4, Units.INCH), 2: (304.8, Units.FOOT), 3: (1609344.0, Units.FOOT), 4: (1.0, Units.MM), 5: (10.0, Units.CM),
@@ -52,7 +52,7 @@ def read_dxf(data: bytes, name: str = "drawing.dxf", units: Units | None = None,
     entities, nothing = entities_of(curves, to_mm if factor != 1.0 else None, left_out)
     if not entities:
         raise InputError(f"{name}: the drawing has no lines, arcs or curves to machine{listed(left_out, '; left out: ')}.")
-    part = Part(name=PurePath(name).stem, units=shown, layers=_layers(document)).with_entities(entities)
+    part = Part(name=PurePath(name).stem, units=shown, layers=_layers(document, entities)).with_entities(entities)
     part = on_layers(part, layers, name)
     nothing = [None if p is None else to_mm.point(p) for p in sheet.without_length] + nothing
     findings = [*_unit_findings(units, shown, named), *_damage(repaired), *without_length(nothing), *_heights(sheet, factor),
@@ -86,9 +86,11 @@ def _spelling(document: Any) -> dict[str, str]:
     return {layer.dxf.name.casefold(): layer.dxf.name for layer in document.layers}
 
 
-def _layers(document: Any) -> tuple[Layer, ...]:
+def _layers(document: Any, entities: tuple[Entity, ...]) -> tuple[Layer, ...]:
+    """Return the layers; the one for points of dimensions, which the library adds to every file, only where it has curves."""
+    used = {entity.layer for entity in entities}
     found = [Layer(layer.dxf.name, _colour(layer), not (layer.is_off() or layer.is_frozen()), layer.is_locked())
-             for layer in document.layers]
+             for layer in document.layers if layer.dxf.name in used or layer.dxf.name.casefold() != "defpoints"]
     return tuple(found) or (Layer(),)
 
 

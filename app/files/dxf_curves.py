@@ -72,7 +72,7 @@ def _arc(entity: Any) -> list[Curve]:
     sweep = (entity.dxf.end_angle - entity.dxf.start_angle) % 360.0
     if sweep < 1e-9 or sweep > 360.0 - 1e-9:
         return _placed(entity, centre.z, [Circle(_flat(centre), radius)])
-    start, end = (_polar(_flat(centre), radius, angle) for angle in (entity.dxf.start_angle, entity.dxf.end_angle))
+    start, end = (polar(_flat(centre), radius, angle) for angle in (entity.dxf.start_angle, entity.dxf.end_angle))
     return _placed(entity, centre.z, [Arc(start, end, _flat(centre))])
 
 
@@ -149,7 +149,8 @@ def _flat(v: Any) -> Point:
     return float(v.x), float(v.y)
 
 
-def _polar(centre: Point, radius: float, degrees: float) -> Point:
+def polar(centre: Point, radius: float, degrees: float) -> Point:
+    """Return the point at an angle on a circle."""
     angle = math.radians(degrees)
     return centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)
 

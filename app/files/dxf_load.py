@@ -13,6 +13,7 @@ _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 _SECTION = re.compile(rb"^\s*0[ \t]*\r?[\n\r][ \t]*SECTION", re.MULTILINE)
 _CODEPAGE = re.compile(rb"\$DWGCODEPAGE[ \t]*\r?\n[ \t]*3[ \t]*\r?\n[ \t]*(\S+)")
 _VERSION = re.compile(rb"\$ACADVER[ \t]*\r?\n[ \t]*1[ \t]*\r?\n[ \t]*(AC\d+)")
+logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it has to say is in our own findings
 _HEAD, _TAIL = 1 << 16, 1 << 12
 
 
@@ -26,7 +27,6 @@ def load(data: bytes, name: str) -> tuple[Any, int]:
     Raises:
         InputError: the data is empty, no DXF, cut short, or damaged beyond repair.
     """
-    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
     _refuse_others(data, name)
     try:
         return _load_sound(data), 0
@@ -58,11 +58,15 @@ def _refuse_others(data: bytes, name: str) -> None:
 def _load_sound(data: bytes) -> Any:
     from ezdxf.document import Drawing
     from ezdxf.filemanagement import read
+    from ezdxf.lldxf.encoding import decode_dxf_unicode
     from ezdxf.lldxf.tagger import binary_tags_loader
 
     if data.startswith(_BINARY):
         return Drawing.load(binary_tags_loader(data, errors="surrogateescape"))
-    return read(io.TextIOWrapper(io.BytesIO(data), encoding=_encoding(data[:_HEAD]), errors="surrogateescape"))
+    if b"\\U+" not in data:
+        return read(io.TextIOWrapper(io.BytesIO(data), encoding=_encoding(data[:_HEAD]), errors="surrogateescape"))
+    text = decode_dxf_unicode(data.decode(_encoding(data[:_HEAD]), "surrogateescape"))
+    return read(io.StringIO(text, newline=None))
 
 
 def _encoding(head: bytes) -> str:

@@ -56,6 +56,11 @@ def test_arc_of_a_full_turn_is_a_circle() -> None:
     assert curves(lambda space: space.add_arc((0, 0), 10, 30, 390)) == [Circle((0, 0), 10)]
 
 
+def test_an_arc_whose_ends_all_but_meet_is_no_point() -> None:
+    (arc,) = curves(lambda space: space.add_arc((0, 0), 1, 30, 389.99996))
+    assert isinstance(arc, Arc) and arc.sweep == pytest.approx(math.tau, abs=1e-6) and math.dist(arc.start, arc.end) < 1e-6
+
+
 @pytest.mark.parametrize("version", ["R12", "R2000", "R2018"])
 def test_polyline_with_bulges(version: str) -> None:
     points = [(0, 0, 0), (10, 0, 1), (10, 4, 0), (0, 4, -0.5)]

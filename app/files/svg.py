@@ -1,0 +1,151 @@
+"""SVG in: curves in mm, y upwards from the page's lower edge, layers, units, and an account of what is left out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import PurePath
+
+from app.errors import InputError
+from app.files.drawing import Drawing
+from app.files.drawing_account import all_left_out, entities_of, listed, on_layers, other_units, remark, switched_off, without_length
+from app.files.dxf_affine import Affine
+from app.files.svg_numbers import MM, PIXEL, Box, Length, UnreadableError, fitted, length, numbers, view_box
+from app.files.svg_walk import Sheet, Walker
+from app.files.svg_xml import Node, read_xml
+from app.model.finding import Finding, FindingKind
+from app.model.part import Layer, Part, Units
+
+HITOFUDE = "urn:hitofude:svg"
+"""Namespace of what only this program writes: the attribute `zero`, the part's zero in user units of the page."""
+_SHOWN = {"in": Units.INCH, "cm": Units.CM}
+
+
+@dataclass(frozen=True)
+class _Page:
+    """How the root's user units lie in the part.
+
+    Attributes:
+        to: from user units to mm, y upwards.
+        view: width and height that percentages are of, user units.
+        shown: units to show.
+        named: the file tells a real size.
+    """
+
+    to: Affine
+    view: tuple[float, float]
+    shown: Units
+    named: bool
+
+
+def read_svg(data: bytes, name: str = "drawing.svg", units: Units | None = None, layers: tuple[str, ...] = ()) -> Drawing:
+    """Return the curves of an SVG in mm, and what was left out.
+
+    Zero is the page's lower left corner, as its width, height and viewBox give it; a page without a height has it at
+    the top. Inkscape's layers become layers, hidden ones too; without them the named groups at the top. Text, pictures
+    and what draws nothing are counted, not read; clips and masks are not applied. Without a width or a height in mm,
+    inches or points the file has no real size: it is in `units`, or in CSS pixels, 96 to the inch.
+
+    Args:
+        data: the whole file.
+        name: for messages and titles.
+        units: of a user unit, where the file has no real size.
+        layers: names of layers (in any case) whose curves are kept; empty = all.
+
+    Raises:
+        InputError: the file is no usable SVG, has no curves, or has not one of the layers.
+    """
+    root = read_xml(data, name)
+    if root.tag != "svg":
+        raise InputError(f"{name}:{root.line}: this is not an SVG file, it begins with {root.tag[:60]}; export the drawing as SVG.")
+    try:
+        page = _page(root, units)
+    except UnreadableError as error:
+        raise InputError(f"{name}:{root.line}: the page's width, height or viewBox, {error.args[0][:60]!r}, cannot be read; "
+                         "give it a size above 0 and save it again.") from None
+    sheet = Walker(root, name).sheet(page.to, page.view)
+    entities, nothing = entities_of(sheet.curves, None, sheet.left_out)
+    if not entities:
+        raise InputError(f"{name}: the drawing has no lines, arcs or curves to machine{listed(sheet.left_out, '; left out: ')}.")
+    found = tuple(note.layer(layer) for layer, note in sheet.layers.items())
+    part = on_layers(Part(name=PurePath(name).stem, units=page.shown, layers=found or (Layer(),)).with_entities(entities), layers, name)
+    findings = [*_units(units, page), *_faults(sheet), *without_length(sheet.nothing + nothing), *_clipped(sheet),
+                *switched_off(part, layers), *all_left_out(sheet.left_out)]
+    return Drawing(part, tuple(findings), tuple(sorted(sheet.left_out.items())), page.named)
+
+
+def _page(root: Node, units: Units | None) -> _Page:
+    """Return the page.
+
+    Raises:
+        UnreadableError: a length or the viewBox cannot be read.
+    """
+    width, height = (_given(root, key) for key in ("width", "height"))
+    box = view_box(root.attributes["viewBox"]) if "viewBox" in root.attributes else None
+    physical = next((given for given in (width, height) if given is not None and given.is_physical), None)
+    shown = _SHOWN.get(physical.unit, Units.MM) if physical is not None else units or Units.MM
+    if physical is None and units is not None:
+        unit, width, height = units.value, None if box else width, None if box else height
+    else:
+        unit = PIXEL
+    wide, high = _mm(width, unit), _mm(height, unit)
+    if box is None:
+        to, view = Affine(unit, 0.0, 0.0, unit), ((wide or 0.0) / unit, (high or 0.0) / unit)
+    else:
+        scale = wide / box.width if wide is not None else high / box.height if high is not None else unit
+        wide, high = wide if wide is not None else scale * box.width, high if high is not None else scale * box.height
+        to = fitted(box, Box(0.0, 0.0, wide, high), root.attributes.get("preserveAspectRatio", ""))
+        view = (box.width, box.height)
+    zero = _zero(root)
+    x, y = to.point(zero) if zero is not None else (0.0, high or 0.0)
+    return _Page(Affine(1.0, 0.0, 0.0, -1.0, -x, y).after(to), view, shown, physical is not None)
+
+
+def _given(root: Node, key: str) -> Length | None:
+    """Return the page's width or height; None where it is not given or only a share of a window."""
+    text = root.attributes.get(key, "auto").strip()
+    found = None if text in ("auto", "") else length(text)
+    if found is None or found.unit == "%":
+        return None
+    if not 0 < found.value < math.inf:
+        raise UnreadableError(text)
+    return found
+
+
+def _mm(given: Length | None, unit: float) -> float | None:
+    if given is None:
+        return None
+    return given.value * MM[given.unit] if given.is_physical else given.user(0.0) * unit
+
+
+def _zero(root: Node) -> tuple[float, float] | None:
+    """Return the part's zero where this program has written it."""
+    text = root.attributes.get(f"{HITOFUDE} zero")
+    if text is None:
+        return None
+    given = numbers(text)
+    if len(given) != 2 or not all(map(math.isfinite, given)):
+        raise UnreadableError(text)
+    return given[0], given[1]
+
+
+def _units(given: Units | None, page: _Page) -> Iterator[Finding]:
+    if page.named:
+        yield from other_units(given, page.shown)
+    elif given is None:
+        text = "The drawing has no real size; 96 units to the inch are assumed. If a unit is 1 mm or 1 inch, choose --units, or on opening."
+        yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
+
+
+def _faults(sheet: Sheet) -> Iterator[Finding]:
+    if sheet.faults:
+        what = "1 shape has" if len(sheet.faults) == 1 else f"{len(sheet.faults)} shapes have"
+        text = f"{what} data that cannot be read to the end, the first in line {sheet.faults[0]}; what stands before is drawn. Check it."
+        yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(sheet.faults)))
+
+
+def _clipped(sheet: Sheet) -> Iterator[Finding]:
+    if sheet.clipped:
+        yield remark(f"{sheet.clipped} {'curve is' if sheet.clipped == 1 else 'curves are'} clipped or masked in the drawing; "
+                     "all of it is read.", float(sheet.clipped))
