@@ -159,10 +159,13 @@ class Files(QObject):
         return f"{counted(len(opened.job.part.entities), 'curve')}, {grouped(size[0])} by {grouped(size[1])} mm.{more}"
 
     def _ask_units(self, opened: Opened) -> None:
-        read = opened.units or Units.MM
-        other = Units.INCH if read is Units.MM else Units.MM
+        read = opened.units
+        if read is None and opened.path.suffix.lower() != ".svg":
+            read = Units.MM
+        words = _UNIT_NAMES[read] if read else "pixels, 96 to the inch"
         size = opened.size or (0.0, 0.0)
+        others = [units for units in _UNIT_NAMES if units is not read]
         self._window.notice.ask(
-            f"{opened.path.name} names no units. It was read in {_UNIT_NAMES[read]}, which makes it {size[0]:.3f} by {size[1]:.3f} mm.",
-            [(f"Keep {_UNIT_NAMES[read]}", lambda: None),
-             (f"Read in {_UNIT_NAMES[other]}", lambda: self.open_file(opened.path, other))], stays=True)
+            f"{opened.path.name} names no units. It was read in {words}, which makes it {size[0]:.3f} by {size[1]:.3f} mm.",
+            [(f"Keep {words.split(',')[0]}", lambda: None),
+             *((f"Read in {_UNIT_NAMES[units]}", partial(self.open_file, opened.path, units)) for units in others)], stays=True)

@@ -8,6 +8,7 @@ from PySide6.QtCore import QMimeData, QPoint, QPointF, QRect, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication, QWidget
 
+from app.resources import resource
 from app.settings import ThemeChoice, load_settings
 from app.ui.canvas.modes import CanvasTool, ColourBy
 from app.ui.computation import State
@@ -175,6 +176,25 @@ def test_drawing_without_units_asks_above_the_canvas(qtbot, wiring, tmp_path):
     with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
         qtbot.mouseClick(inch, Qt.MouseButton.LeftButton)
     assert wiring.showing.part_size() == pytest.approx((1016.0, 1016.0))
+
+
+def test_an_svg_in_pixels_can_be_read_in_mm(qtbot, wiring, tmp_path):
+    path = tmp_path / "plate.svg"
+    path.write_text('<svg xmlns="http://www.w3.org/2000/svg"><rect width="40" height="20" stroke="black" fill="none"/></svg>', "ascii")
+    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+        wiring.files.open_file(path)
+    notice = wiring.window_.notice
+    assert "It was read in pixels, 96 to the inch, which makes it 10.583 by 5.292 mm" in notice.text.text()
+    assert [b.text() for b in notice.buttons] == ["Keep pixels", "Read in mm", "Read in inch"]
+    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+        qtbot.mouseClick(notice.buttons[1], Qt.MouseButton.LeftButton)
+    assert wiring.showing.part_size() == pytest.approx((40.0, 20.0))
+
+
+def test_a_drawing_in_words_opens_in_the_window(qtbot, wiring):
+    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+        wiring.files.open_file(resource("samples", "plate.draw"))
+    assert wiring.showing.part_size() == pytest.approx((90.0, 60.0))
 
 
 def test_file_that_is_no_drawing_leaves_the_document(qtbot, computed, tmp_path):
