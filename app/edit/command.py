@@ -109,7 +109,8 @@ class Transform:
     @property
     def reply(self) -> str:
         """A short sentence for the log."""
-        return f"{len(self.ids)} curves, {len(self.maps)} copies." if self.keep else f"{len(self.ids)} curves."
+        curves = _counted(len(self.ids), "curve")
+        return f"{curves}, {_counted(len(self.maps), 'copy', 'copies')}." if self.keep else f"{curves}."
 
     def carried_out(self, session: Session) -> Session:
         """Return the session with the curves at their places.
@@ -244,6 +245,10 @@ class Redo:
 
 Edit = Draw | Delete | Transform | Rework | Reverse | SetLayer | SetLook
 """Commands that change the drawing; each has a name, a reply and `carried_out(session) -> session`."""
+
+
+def _counted(count: int, one: str, many: str = "") -> str:
+    return f"{count} {one if count == 1 else many or one + 's'}"
 
 
 def check_ids(part: Part, ids: frozenset[int]) -> None:

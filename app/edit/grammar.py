@@ -266,7 +266,7 @@ def _explained(wrong: UnexpectedInput, source: str) -> CommandError:
         token = wrong.token
         line, column, found, ends = token.line or 1, token.column or 1, str(token), token.type in ("_END_OF_LINE", "$END")
         if token.type == "$END":
-            return CommandError("The text ends within a block; add end.", column, line)
+            return CommandError("The text ends within a block; add end, in one line after a semicolon: repeat 3 as k; circle 10*k,0 2; end.", column, line)
     else:
         assert isinstance(wrong, UnexpectedCharacters)
         line, column, found, ends = wrong.line, wrong.column, source[wrong.pos_in_stream or 0], False

@@ -120,7 +120,8 @@ class Interpreter:
         self._depth -= 1
         after = replace(inner, names=session.names)
         drawn = len(after.part.entities) - len(session.part.entities)
-        return Outcome(_labelled(written, session, after), own.name.text.capitalize(), f"{drawn} curves.")
+        reply = "1 curve." if drawn == 1 else f"{drawn} curves."
+        return Outcome(_labelled(written, session, after), own.name.text.capitalize(), reply)
 
     def _repeat(self, written: s.Repeat, session: Session) -> Outcome:
         times = number_of(written.times, session.scope)
