@@ -266,10 +266,10 @@ def ellipse(centre: Point, end: Point, half: float, span: tuple[float, float] = 
     first, last = span
     if not 1e-9 < last - first <= math.tau + 1e-9:
         raise InputError("The part of an ellipse spans more than 0\u00b0 and at most 360\u00b0.")
-    if half > size:
+    if half > size * (1 + 1e-12):  # a hair more is the rounding of a text
         turned = (-along[1] * half / size, along[0] * half / size)
         return Ellipse(centre, turned, size / half, first - math.pi / 2, last - math.pi / 2, ccw)
-    return Ellipse(centre, along, half / size, first, last, ccw)
+    return Ellipse(centre, along, min(half / size, 1.0), first, last, ccw)
 
 
 def spline_through(points: list[Point], close: bool = False) -> Spline:
