@@ -73,6 +73,8 @@ _TRAILING: /[ \t\u00a0]+(?=\r?\n|;)/
 """
 
 _DEEPEST = 40
+_MOST_TERMS = 1000
+_OPERATORS = frozenset({"PLUS", "MINUS", "TIMES", "OVER"})
 _LONGEST = 20_000_000
 _LOOSE = frozenset({"LET", "REPEAT", "IF", "DEFINE"})
 _OPENING = frozenset({"REPEAT", "IF", "DEFINE"})
@@ -90,7 +92,7 @@ class _Blanks:
 
     def process(self, stream: Iterator[Token]) -> Iterator[Token]:
         """Yield the tokens that the grammar sees."""
-        brackets = signs = blocks = 0
+        brackets = signs = blocks = terms = 0
         loose, before = False, "_END_OF_LINE"
         for token in stream:
             kind = token.type
@@ -99,6 +101,9 @@ class _Blanks:
             brackets = 0 if kind == "_END_OF_LINE" else brackets + (kind == "LPAR") - (kind == "RPAR")
             if kind in ("_END_OF_LINE", "_BLANK", "COMMA"):
                 signs = 0
+            terms = 0 if kind in ("_END_OF_LINE", "_BLANK", "COMMA") else terms + (kind in _OPERATORS)
+            if terms > _MOST_TERMS:
+                raise _error(f"The expression has more than {_MOST_TERMS} terms; name parts of it with let.", token)
             signs += kind == "POWER" or (kind in ("MINUS", "PLUS") and before not in _VALUE_ENDS)
             blocks += (kind in _OPENING) - (kind == "_END")
             if before == "_END_OF_LINE":
@@ -255,7 +260,7 @@ class _Builder(Transformer[Token, Any]):
 
 _EXPECTED = (
     ("NUMBER", "a number, a point or a name"), ("NAME", "a name"), ("EQUAL", "'='"), ("LPAR", "'('"), ("RPAR", "')'"),
-    ("_AS", "as"), ("_END", "end"),
+    ("_END", "end"),
 )
 
 
@@ -266,10 +271,14 @@ def _explained(wrong: UnexpectedInput, source: str) -> CommandError:
         token = wrong.token
         line, column, found, ends = token.line or 1, token.column or 1, str(token), token.type in ("_END_OF_LINE", "$END")
         if token.type == "$END":
-            return CommandError("The text ends within a block; add end, in one line after a semicolon: repeat 3 as k; circle 10*k,0 2; end.", column, line)
+            example = "repeat 3 as k; circle 10*k,0 2; end"
+            return CommandError(f"The text ends within a block; add end, or write it in one line: {example}.", column, line)
     else:
         assert isinstance(wrong, UnexpectedCharacters)
         line, column, found, ends = wrong.line, wrong.column, source[wrong.pos_in_stream or 0], False
+    before = source.split("\n")[line - 1][:column - 1]
+    if before.count("(") <= before.count(")"):
+        expected.discard("RPAR")  # the parser's tables look no farther than one word
     wanted = next((words for name, words in _EXPECTED if name in expected), "the end of the line")
     if ends and "RPAR" in expected:
         return CommandError("A closing bracket is missing; add ')'.", column, line)

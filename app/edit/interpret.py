@@ -63,16 +63,19 @@ class Interpreter:
         Raises:
             CommandError: it cannot be read or carried out; it tells the place. Cancelled: the user asked to stop.
         """
-        self.done += 1
-        if self.done > MOST_STATEMENTS:
-            raise wrong(f"More than {MOST_STATEMENTS} statements are carried out; repeat fewer times.", statement.place)
-        self._progress.step(self.fraction, "Drawing")
+        self._count(statement.place)
         try:
             return self._one(statement, session)
         except CommandError:
             raise
         except InputError as error:
             raise wrong(str(error), statement.place) from error
+
+    def _count(self, place: s.Place) -> None:
+        self.done += 1
+        if self.done > MOST_STATEMENTS:
+            raise wrong(f"More than {MOST_STATEMENTS} statements are carried out; repeat fewer times.", place)
+        self._progress.step(self.fraction, "Drawing")
 
     def _one(self, statement: s.Statement, session: Session) -> Outcome:
         match statement:
@@ -129,6 +132,7 @@ class Interpreter:
             raise wrong(f"This is {times:g}; repeat wants a whole number from 0 to {MOST_STATEMENTS}.", written.times.place)
         outside = session.names.get(written.index.text) if written.index else None
         for count in range(int(times)):
+            self._count(written.place)  # a body may be empty
             if written.index:
                 session = _with_name(session, written.index, float(count))
             session = self._all(written.body, session)

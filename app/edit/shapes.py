@@ -186,7 +186,7 @@ def arc_along(start: Point, heading: float, end: Point) -> Arc:
     dx, dy = end[0] - start[0], end[1] - start[1]
     cross = ux * dy - uy * dx
     if abs(cross) < WELD:
-        raise InputError(f"{shown(end)} lies straight ahead; draw a line there, or move the end aside.")
+        raise InputError(f"{shown(end)} lies straight ahead or behind; draw a line there, or move the end aside.")
     radius = (dx * dx + dy * dy) / (2 * cross)
     return Arc(start, end, (start[0] - uy * radius, start[1] + ux * radius), ccw=cross > 0)
 

@@ -132,5 +132,5 @@ def test_a_shape_that_is_none_is_refused(line: str, says: str) -> None:
 def test_an_arc_straight_ahead_is_refused() -> None:
     document = Document()
     document.run("line 0,0 10,0")
-    with pytest.raises(CommandError, match="straight ahead"):
+    with pytest.raises(CommandError, match="straight ahead or behind"):
         document.run("arc on 20,0")

@@ -220,7 +220,8 @@ def check_widths(contours: list[Contour], crossing: bool) -> None:
             assert field.nearest(np.array([[spot.x, spot.y]]))[0][0] == pytest.approx(spot.size / 2, rel=5e-3, abs=1e-6)
         assert found.clearing.size <= found.passage.size * (1 + 1e-9) <= found.disc.size * (1 + 2e-9)
         shape = shapely.union_all(region_shapes([region], 1e-3))
-        radius = shapely.maximum_inscribed_circle(shape, tolerance=1e-3).length
+        fine = shapely.union_all(region_shapes([region], 1e-5))  # coarser chords move sharp tips by 30 um
+        radius = shapely.maximum_inscribed_circle(fine, tolerance=1e-3).length
         assert found.disc.size / 2 >= radius - 5e-3  # that it is free is shown above: the library's can be smaller
         assert shape.buffer(1e-3).contains(shapely.Point(found.disc.x, found.disc.y))
         if found.passage.size < 0.2 or not whole(shapely.buffer(shape, -1e-3), len(region.islands)):
@@ -232,6 +233,7 @@ def check_widths(contours: list[Contour], crossing: bool) -> None:
 @settings(max_examples=20, deadline=None)
 @given(st.integers(0, 10**6))
 @example(15)  # whose largest disc touches tips alone
+@example(373)
 def test_random_parts(seed: int) -> None:
     check_widths(*random_part(seed))
 
