@@ -139,7 +139,7 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: 
             skins += _places(skin, True, share.part(0.6, 0.75))
         for place in _places(metal, True, share.part(0.75, 0.9)):
             share.step(0.9, _TEXT)
-            within = reached(_inner(place), each.cutters, fields) or not each.cutters
+            within = reached(_inner(place), each.cutters, fields, place.disc_mm) or not each.cutters
             (left if within else corners).append(place if within else replace(place, reachable=False))
         corners += _places(_solid(shapely.difference(each.floor, each.reach)), False, share.part(0.9, 1.0))
     for places in (left, corners, skins):

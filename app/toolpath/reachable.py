@@ -22,6 +22,9 @@ from app.toolpath.proven import quarters
 _MOST = 200_000
 """Squares in one round; a place that needs more counts as within reach."""
 
+_SLIVER = 0.25
+"""Share of a cutter's radius below which a piece of metal is a sliver."""
+
 _START = 8
 """Squares along a diameter at the beginning."""
 
@@ -40,9 +43,13 @@ class Cutter:
     wall: float
     radius: float
 
-    def reaches(self, x: float, y: float, fields: Fields) -> bool:
-        """Tell whether its centre may be somewhere within its radius of a place; True also where that stays in doubt."""
-        field = fields.of(self.regions)
+    def reaches(self, x: float, y: float, fields: Fields, spare: float = -tolerances.FIT) -> bool:
+        """Tell whether its centre may be somewhere within its radius of a place; True also where that stays in doubt.
+
+        Args:
+            spare: how much farther from the walls than asked it has to stay, mm.
+        """
+        field, wall = fields.of(self.regions), self.wall + spare
         half = self.radius / _START
         axis = np.arange(-_START + 1, _START, 2.0) * half
         centres = np.stack(np.meshgrid(axis, axis), -1).reshape(-1, 2) + (x, y)
@@ -51,8 +58,8 @@ class Cutter:
             near = np.hypot(*(centres - (x, y)).T) <= self.radius + off
             distance = field.nearest(centres)[0]
             inside = field.inside(centres) | (distance <= off)
-            open_ = near & inside & (distance + off >= self.wall - tolerances.FIT)
-            if np.any(open_ & (distance >= self.wall - tolerances.FIT) & (np.hypot(*(centres - (x, y)).T) <= self.radius)):
+            open_ = near & inside & (distance + off >= wall)
+            if np.any(open_ & (distance >= wall) & (np.hypot(*(centres - (x, y)).T) <= self.radius)):
                 return True
             centres = centres[open_]
             if not len(centres):
@@ -78,6 +85,11 @@ class Fields:
         return self._made[id(regions)]
 
 
-def reached(points: NDArray[np.float64], cutters: Sequence[Cutter], fields: Fields) -> bool:
-    """Tell whether some cutter reaches one of some points (n, 2)."""
-    return any(cutter.reaches(x, y, fields) for x, y in points.tolist() for cutter in cutters)
+def reached(points: NDArray[np.float64], cutters: Sequence[Cutter], fields: Fields, size: float) -> bool:
+    """Tell whether some cutter reaches one of some points (n, 2) of a piece of metal whose largest disc has a diameter `size`, mm.
+
+    A sliver counts where a cutter does that stays 1 um farther from the walls, as its paths may: in a neck that grows narrow
+    slowly, a micrometre decides on tenths of a millimetre.
+    """
+    spare = -tolerances.FIT if any(size > _SLIVER * cutter.radius for cutter in cutters) else tolerances.LEVEL
+    return any(cutter.reaches(x, y, fields, spare) for x, y in points.tolist() for cutter in cutters)

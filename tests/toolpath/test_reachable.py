@@ -21,14 +21,20 @@ def slot(width: float) -> tuple[Region, ...]:
 @pytest.mark.parametrize(("width", "fits"), [(6.0, True), (5.9999995, True), (5.99998, False), (5.997, False), (5.5, False), (6.01, True)])
 def test_a_slot_is_reached_only_where_the_cutter_fits(width: float, fits: bool) -> None:
     cutter = Cutter(slot(width), 3.0, 3.0)
-    assert reached(np.array([[15.0, width / 2]]), [cutter], Fields()) is fits
+    assert reached(np.array([[15.0, width / 2]]), [cutter], Fields(), 1.0) is fits
+
+
+@pytest.mark.parametrize(("width", "counts"), [(6.0, False), (6.0015, False), (6.0021, True)])
+def test_a_sliver_counts_where_a_cutter_with_a_micrometre_to_spare_reaches_it(width: float, counts: bool) -> None:
+    cutter = Cutter(slot(width), 3.0, 3.0)
+    assert reached(np.array([[15.0, width / 2]]), [cutter], Fields(), 0.05) is counts
 
 
 def test_a_corner_is_out_of_reach_and_what_lies_beside_it_is_not() -> None:
     cutter, fields = Cutter(slot(20.0), 3.0, 3.0), Fields()
-    assert not reached(np.array([[0.5, 0.5]]), [cutter], fields)
-    assert reached(np.array([[0.5, 0.5], [1.0, 1.0]]), [cutter], fields)
-    assert not reached(np.array([[-1.0, 10.0]]), [cutter], fields)
+    assert not reached(np.array([[0.5, 0.5]]), [cutter], fields, 1.0)
+    assert reached(np.array([[0.5, 0.5], [1.0, 1.0]]), [cutter], fields, 1.0)
+    assert not reached(np.array([[-1.0, 10.0]]), [cutter], fields, 1.0)
 
 
 def two_rooms(width: float) -> list[Point]:
