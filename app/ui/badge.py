@@ -34,6 +34,7 @@ class Badge(QPushButton):
     def show_verdict(self, verdict: Verdict) -> None:
         """Show a verdict that stands."""
         self._timer.stop()
+        self.setToolTip(verdict.tip)
         self._show(verdict.level, verdict.text)
 
     def show_running(self) -> None:

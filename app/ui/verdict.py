@@ -48,10 +48,11 @@ _NAMES = {
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """A level and the line that the badge shows."""
+    """A level, the line that the badge shows, and what the time is made of."""
 
     level: Level
     text: str
+    tip: str = ""
 
 
 def worst_first(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
@@ -107,6 +108,14 @@ def figures(data: Mapping[str, Any]) -> str:
     return " · ".join(parts)
 
 
+def times(data: Mapping[str, Any]) -> str:
+    """Return what the time of a report is made of: the operations' own times do not hold the waiting."""
+    parts = data.get("time_parts_s")
+    if parts is None:
+        return ""
+    return f"Cutting and rapids {clock(parts['cut'] + parts['rapid'])}, tool changes and waiting {clock(parts['wait'])}"
+
+
 def verdict(findings: tuple[Finding, ...], data: Mapping[str, Any]) -> Verdict:
     """Return the verdict on a computed program from its findings and its report."""
     counting = [f for f in worst_first(findings) if f.counts]
@@ -114,5 +123,5 @@ def verdict(findings: tuple[Finding, ...], data: Mapping[str, Any]) -> Verdict:
     if not any(data.get("moves", {}).values()):
         return Verdict(Level.REMARK, _sentence(counting[0]) + more if counting else "No closed contour to machine")
     if not counting:
-        return Verdict(Level.OK, f"✓ {figures(data)}")
-    return Verdict(finding_level(counting[0]), _sentence(counting[0]) + more)
+        return Verdict(Level.OK, f"✓ {figures(data)}", times(data))
+    return Verdict(finding_level(counting[0]), _sentence(counting[0]) + more, times(data))

@@ -52,3 +52,8 @@ def test_figures_for_people():
 def test_every_kind_of_finding_has_its_place_and_its_name(kind):
     finding = Finding(kind, "Something.", 1.0, 2.0, amount=0.5)
     assert worst_first((finding, CORNER)) and len(short(finding)) > 5
+
+
+def test_the_badges_tip_says_what_the_time_is_made_of():
+    data = {"moves": {"cut": 1}, "time_s": 100.0, "time_parts_s": {"cut": 60.0, "rapid": 5.0, "wait": 35.0}}
+    assert verdict((), data).tip == "Cutting and rapids 1:05, tool changes and waiting 0:35"
