@@ -20,7 +20,7 @@ from app.ui.panels.fields import restyle
 from app.ui.panels.section import EDGE, Row, hairline, heading
 from app.ui.panels.side_panel import WIDTH
 from app.ui.theme import LIGHT, Theme
-from app.ui.verdict import Level
+from app.ui.verdict import Level, Verdict
 
 _ROLES = {Level.OK: "ok", Level.BAD: "error", Level.REMARK: "warning", Level.NONE: ""}
 _TEXT_PX, _LEAST_LIST_PX, _ROOM_PX = 100, 112, 700
@@ -53,6 +53,17 @@ def colour_of(colour: EntryColour, theme: Theme) -> QColor:
     """Return an entry's colour by day or by night."""
     ink: QColor = getattr(theme, colour.value)
     return ink
+
+
+class _Title(Elided):
+    """A place's title; where room is short its middle gives way: the figure at its end is what it is read for."""
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Draw as much as fits."""
+        painter = QPainter(self)
+        painter.setPen(self.palette().color(self.foregroundRole()))
+        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideMiddle, self.width())
+        painter.drawText(self.rect(), self.alignment(), text)
 
 
 class CutPanel(QWidget):
@@ -147,13 +158,19 @@ class CutPanel(QWidget):
         grid = shown.cut.cut.before.grid
         self.name.setText(", ".join(shown.names))
         self.foreign.setVisible(shown.given is not None)
-        self.title.setText(title_of(shown))
         self.verdict.setText(sentences_of(shown))
         self.cells.setText(f"{grid.cols} {TIMES} {grid.rows} cells of {pitch_words(grid.pitch)}")
-        self.title.setProperty("role", _ROLES[level_of(shown)])
-        restyle(self.title)
+        self.show_told(None)
         self.counted.setText(f"Places ({len(self.entries)})" if self.entries else "No places to look at")
         self._make_room()
+
+    def show_told(self, told: Verdict | None) -> None:
+        """Head the panel with the badge's verdict; None = there is none on this cut."""
+        if self.shown is None:
+            return
+        self.title.setText(title_of(self.shown, told))
+        self.title.setProperty("role", _ROLES[level_of(self.shown, told)])
+        restyle(self.title)
 
     def show_key(self, key: ColourKey) -> None:
         """Give the histogram the colours of the deviation."""
@@ -211,7 +228,7 @@ class CutPanel(QWidget):
     def _row(self, entry: Entry) -> Row:
         dot = Dot(entry.colour)
         dot.set_theme(self._theme)
-        title = Elided(entry.title)
+        title = _Title(entry.title)
         title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         row = Row(dot, title, muted(entry.words), stretch_after=-1, wide=1)
         row.setToolTip(entry.sentence)

@@ -20,6 +20,7 @@ from app.ui.cut.shown_cut import ProgramFile, ShownCut, shown_cut
 from app.ui.cut.zooming import Zooming
 from app.ui.main_window import MainWindow
 from app.ui.nc.reading import Shown
+from app.ui.verdict import Level, Verdict, verdict
 from app.ui.worker import Answer, Worker
 
 if TYPE_CHECKING:
@@ -78,6 +79,7 @@ class Cutting(QObject):
             window.closed.connect(worker.finish)
         self.zooming.failed.connect(self.failed)
         self._computation.changed.connect(self._follow)
+        self._computation.changed.connect(self._tell)
         self._view.colours.known.connect(self._show_key)
         self._panel.picked.connect(self._go_to)
         self._panel.form_wanted.connect(self._open_form)
@@ -146,8 +148,19 @@ class Cutting(QObject):
         self._view.show_cut(cut.picture if cut is not None else None)
         self.zooming.follow(cut.cut if cut is not None else None)
         self._panel.show_cut(cut)
+        self._tell()
         self._show_key()
         self.shown.emit()
+
+    def _tell(self) -> None:
+        """The job's own cut is headed by the badge's verdict, or by that it is out of date."""
+        made, own = self._computation.made, self.cut is not None and self.cut is self._own
+        if not own or made is None:
+            self._panel.show_told(None)
+        elif self._computation.outdated:
+            self._panel.show_told(Verdict(Level.NONE, "Out of date: compute again"))
+        else:
+            self._panel.show_told(verdict(made.findings, made.report.data))
 
     def _show_key(self) -> None:
         """The histogram has the colours of the deviation, whatever the metal's tell."""

@@ -11,7 +11,7 @@ import numpy as np
 from app.model.finding import Finding, FindingKind
 from app.ui.cut.overlay_words import number
 from app.ui.figures import counted
-from app.ui.verdict import Level, name_of
+from app.ui.verdict import Level, Verdict, name_of
 
 if TYPE_CHECKING:
     from app.ui.cut.shown_cut import ShownCut
@@ -77,15 +77,19 @@ def entries_of(shown: ShownCut) -> tuple[Entry, ...]:
     return tuple(sorted(made, key=lambda entry: not entry.counts)[:MOST])
 
 
-def level_of(shown: ShownCut) -> Level:
-    """Return the colour of the verdict."""
+def level_of(shown: ShownCut, told: Verdict | None = None) -> Level:
+    """Return the colour of the verdict; `told` is the badge's on the same program, if it has one."""
+    if told is not None and told.level is not Level.OK:
+        return told.level
     if any(entry.counts for entry in entries_of(shown)):
         return Level.BAD
     return Level.OK if shown.cut.judgement is not None else Level.NONE
 
 
-def title_of(shown: ShownCut) -> str:
-    """Return the verdict in one line."""
+def title_of(shown: ShownCut, told: Verdict | None = None) -> str:
+    """Return the verdict in one line; `told` is the badge's on the same program, if it has one."""
+    if told is not None and told.level is not Level.OK:
+        return told.text
     counting = sum(entry.counts for entry in entries_of(shown))
     if counting:
         return f"{counted(counting, 'place')} to look at"
@@ -97,7 +101,8 @@ def sentences_of(shown: ShownCut) -> str:
     judgement = shown.cut.judgement
     if judgement is None:
         return "Nobody has said what the part is, so nothing is known of gouges and of metal left."
-    return " ".join(filter(None, (measured(judgement), certified(judgement.certificate) if not judgement.gouge.count else "")))
+    proven = certified(judgement.certificate, _depth(shown)) if not judgement.gouge.count else ""
+    return " ".join(filter(None, (measured(judgement), proven)))
 
 
 def measured(judgement: Judgement) -> str:
@@ -109,10 +114,17 @@ def measured(judgement: Judgement) -> str:
     return f"{how}: {cut}, {left}."
 
 
-def certified(certificate: Certificate | None) -> str:
-    """Return what holds between the cells too."""
+def _depth(shown: ShownCut) -> float:
+    """Return how deep the deepest cell was cut, mm."""
+    return shown.cut.top - float(np.min(shown.cut.cut.heights))
+
+
+def certified(certificate: Certificate | None, depth: float) -> str:
+    """Return what holds between the cells too; a bound as large as the `depth` of the cut, mm, is none."""
     if certificate is None:
         return ""
+    if certificate.gouge_mm >= depth - 1e-6:
+        return "Between the cells nothing is proven; zoom in to look closer."
     near = certificate.left_mm < _NEAR * certificate.pitch_mm
     left = f", and no metal within reach stands more than {number(certificate.left_mm)} mm out of it" if near else ""
     return f"No point is cut deeper than {number(certificate.gouge_mm)} mm into the part{left}; finer when zoomed in."

@@ -100,7 +100,8 @@ class HistogramPlot(QWidget):
 
     def _sums(self, histogram: Histogram) -> str:
         theme = self._theme
-        parts = [(theme.error, histogram.gouge, "too deep"), (theme.muted, histogram.right, f"within ± {histogram.tolerance:.3f}"),
+        deep = theme.error if histogram.gouge >= 5e-3 else theme.muted  # red once the figure shows it
+        parts = [(deep, histogram.gouge, "too deep"), (theme.muted, histogram.right, f"within ± {histogram.tolerance:.3f}"),
                  (theme.left, histogram.left, "left")]
         parts += [(theme.muted, histogram.beyond, "out of reach")] if histogram.beyond else []
         return " · ".join(f"<span style='color:{ink.name()}'>{grouped(area, 2 if area < 100 else 0)} {words}</span>"

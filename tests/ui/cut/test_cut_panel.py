@@ -1,10 +1,13 @@
 """The panel beside the cut, in the real window: a click on a place leads there."""
 
+from dataclasses import replace
+
 import pytest
 from PySide6.QtCore import Qt
 
 from app.ui.cut.colouring import CutColour
 from app.ui.cut.entries import EntryColour
+from app.ui.verdict import Level, Verdict
 from app.ui.views import View
 from tests.ui.cut.real_cut import real_shown
 
@@ -43,6 +46,20 @@ def test_a_place_is_gone_to_and_its_line_is_shown(qtbot, beside):
     view.setFocus()
     qtbot.keyClick(view, Qt.Key.Key_Escape)
     assert view.overlay.pin is None
+
+
+def test_the_heading_tells_what_the_badge_tells(beside):
+    panel = beside.window_.cut_panel
+    panel.show_told(Verdict(Level.NONE, "Out of date: compute again"))
+    assert panel.title.text() == "Out of date: compute again" and panel.title.property("role") == ""
+    panel.show_told(None)
+    assert panel.title.text().endswith("to look at") and panel.title.property("role") == "error"
+
+
+def test_no_area_too_deep_is_not_red(beside):
+    plot = beside.window_.cut_panel.histogram
+    red = plot._theme.error.name()
+    assert red in plot._sums(plot.shown) and red not in plot._sums(replace(plot.shown, gouge=0.0))
 
 
 def _near_the_middle(view, place):

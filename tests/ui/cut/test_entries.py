@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from app.ui.cut.entries import EntryColour, entries_of, level_of, sentences_of, title_of
-from app.ui.verdict import Level
+from app.ui.cut.entries import EntryColour, certified, entries_of, level_of, sentences_of, title_of
+from app.ui.verdict import Level, Verdict
+from app.workflow.judgement import Certificate
 from tests.ui.cut.real_cut import real_shown
 
 
@@ -55,3 +56,14 @@ def test_areas_of_the_histogram_are_those_of_the_cells(shown):
     assert len(made.borders) == len(made.areas) + 1 and np.all(np.diff(made.borders) > 0)
     assert made.right > 50.0
     assert float(made.areas.sum()) == pytest.approx(made.gouge + made.right + made.left)
+
+
+def test_the_heading_is_the_badges_verdict(shown):
+    told = Verdict(Level.REMARK, "Crossing contours")
+    assert (title_of(shown, told), level_of(shown, told)) == ("Crossing contours", Level.REMARK)
+    assert title_of(shown, Verdict(Level.OK, "✓")) == title_of(shown)
+
+
+def test_a_bound_as_large_as_the_depth_is_no_bound():
+    assert "No point" not in certified(Certificate(10.0, 0.1, 0.05), 10.0)
+    assert "No point is cut deeper than 0.100 mm" in certified(Certificate(0.1, 0.1, 0.05), 10.0)
