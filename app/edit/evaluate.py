@@ -67,7 +67,7 @@ def value_of(expression: s.Expression, scope: Scope) -> Value:
 def _checked(value: Value, place: s.Place) -> Value:
     numbers: Sequence[float] = () if isinstance(value, Curves) else (value,) if isinstance(value, float) else value
     if not all(abs(number) <= _LARGEST for number in numbers):
-        raise wrong("The value is too large; lengths go up to 10 000 000 mm.", place)
+        raise wrong("The value is too large; numbers go up to 10 000 000.", place)
     return value
 
 

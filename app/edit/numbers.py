@@ -1,14 +1,11 @@
-"""Numbers and points as people type them: arithmetic and units."""
+"""Numbers as people type them: arithmetic and units."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-
-from app.edit.evaluate import number_of, point_of
+from app.edit.evaluate import number_of
 from app.edit.grammar import read_value
 from app.edit.units import ANGLE_UNITS, LENGTH_UNITS
 from app.edit.values import Scope
-from app.model.curves import Point
 
 
 def length(text: str) -> float:
@@ -29,17 +26,3 @@ def angle(text: str) -> float:
         CommandError: as for `length`.
     """
     return number_of(read_value(text), Scope(units=ANGLE_UNITS))
-
-
-def read_point(text: str, base: Point, scope: Scope | None = None) -> Point:
-    """Return the point that `x,y`, `r<angle`, `@dx,dy` or `@r<angle` (degrees) names, mm.
-
-    Args:
-        base: where relative coordinates start from, mm.
-        scope: names that the text may use.
-
-    Raises:
-        CommandError: the text is no point.
-    """
-    within = scope or Scope(units=LENGTH_UNITS)
-    return point_of(read_value(text), replace(within, last=base))

@@ -175,3 +175,16 @@ def test_what_is_nothing_for_a_tool_is_handed_back(text: str) -> None:
     runner = ToolRunner(Document(), print)
     runner.start(CanvasTool.LINE)
     assert runner.type_text(text) is False
+
+
+def test_names_can_be_typed_into_a_running_tool_and_statements_go_to_the_document() -> None:
+    document = Document()
+    document.run_script("let w = 40\nlet p = 10,20")
+    runner = ToolRunner(document, lambda text: None)
+    runner.start(CanvasTool.CIRCLE)
+    assert runner.type_text("p") and runner.type_text("w/10 + 1")
+    runner.start(CanvasTool.LINE)
+    assert runner.type_text("p + (1,1)") and runner.type_text("@w,0")
+    assert [e.curve for e in document.part.entities] == [Circle((10, 20), 5), Line((11, 21), (51, 21))]
+    for line in ("repeat 3 as k; circle w+k*10,12 3; end", "let a = 3; circle a,a 2", "let b = 4", "if 1 > 0; circle 0,0 1; end"):
+        assert not runner.type_text(line)

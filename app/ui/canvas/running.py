@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
+from dataclasses import replace
 
 from app.edit.document import Document
 from app.edit.errors import CommandError
+from app.edit.evaluate import value_of
+from app.edit.grammar import read_value
 from app.edit.language import command_word
-from app.edit.numbers import length, read_point
+from app.edit.values import Curves
 from app.errors import InputError
 from app.model.curves import Point
 from app.tolerances import WELD
@@ -109,13 +113,18 @@ class ToolRunner:
         command = command_word(text)
         if command is not None:
             return self._begin(command) if " " not in text else False
-        if self.tool is None or (text[0].isalpha() and "," not in text):
+        if self.tool is None or ";" in text or (text[0].isalpha() and "," not in text and not self._is_named(text)):
             return False
         try:
             self._place(self.tool, text)
         except CommandError as error:
             self._say(error.reason)
         return True
+
+    def _is_named(self, text: str) -> bool:
+        """Return whether a text begins with a name that stands for something."""
+        word = re.match(r"\w+", text)
+        return word is not None and word[0] in self._document.session.names
 
     def _word(self, word: str) -> bool:
         line = self.tool.word(word) if self.tool else None
@@ -130,10 +139,13 @@ class ToolRunner:
         return True
 
     def _place(self, tool: DrawingTool, text: str) -> None:
-        if "," in text or "<" in text:
-            self.click(read_point(text, tool.base or self._document.last_point, self._document.session.scope))
+        scope = replace(self._document.session.scope, last=tool.base or self._document.last_point)
+        value = value_of(read_value(text), scope)
+        if isinstance(value, tuple):
+            self.click(value)
             return
-        value = length(text)
+        if isinstance(value, Curves):
+            raise CommandError(f"'{text}' is a curve; a point or a length is wanted.")
         point = tool.number(value, self.cursor)
         if point is None:
             raise CommandError(f"'{text}' is a distance without a direction; write x,y or @dx,dy, or point with the mouse first.")

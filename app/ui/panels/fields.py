@@ -17,6 +17,7 @@ from app.ui.labels import Elided, muted
 LABEL_WIDTH = 92
 VALUE_WIDTH = 84
 ROW_HEIGHT = 24
+_COUNTED = ("", "px")  # units of what comes in whole numbers where no decimals are shown
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,11 +48,15 @@ class Spec:
         Raises:
             HitofudeError: not a number, or out of range; a sentence.
         """
+        if not self.is_length and text[:1].isnumeric() and any(letter.isalpha() or letter in "\"'°%" for letter in text):
+            kind = f"is in {self.unit}" if self.unit else "has no unit"
+            raise HitofudeError(f"{self.name} {kind}; type the number alone.")
         value = length(text)
-        if not self.is_length and any(letter.isalpha() or letter in "\"'" for letter in text):
-            raise HitofudeError(f"{self.name} is in {self.unit}; type the number alone.")
+        if self.decimals == 0 and self.unit in _COUNTED and value != int(value):
+            raise HitofudeError(f"{self.name} is {value:g}; use a whole number.")
         if not self.low <= value <= self.high:
-            raise HitofudeError(f"{self.name} is {value:g} {self.unit}; use {self.low:g} to {self.high:g}.")
+            unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
+            raise HitofudeError(f"{self.name} is {value:g}{unit}; use {self.low:g} to {self.high:g}.")
         return value
 
 

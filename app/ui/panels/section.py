@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
@@ -10,6 +10,10 @@ from app.ui.panels.fields import restyle
 from app.ui.theme import HEADING_PX, Theme, text_font
 
 EDGE = 16
+_OWN_KEYS = frozenset({
+    (Qt.KeyboardModifier.ControlModifier | Qt.Key.Key_D).toCombined(), (Qt.KeyboardModifier.AltModifier | Qt.Key.Key_Up).toCombined(),
+    (Qt.KeyboardModifier.AltModifier | Qt.Key.Key_Down).toCombined(), int(Qt.Key.Key_Delete),
+})
 
 
 def heading(text: str) -> QLabel:
@@ -112,6 +116,14 @@ class Row(QWidget):
             if abs(way) > self.height():
                 self._pressed_at = event.position().y()
                 self.moved.emit(1 if way > 0 else -1)
+
+    def event(self, event: QEvent) -> bool:
+        """Keep the row's own keys from the window's shortcuts."""
+        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and (
+                event.keyCombination().toCombined() in _OWN_KEYS):
+            event.accept()
+            return True
+        return super().event(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
         """Space and Enter choose, Up and Down choose the neighbour, with Alt they move the row, Ctrl+D copies it, Delete removes."""
