@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from app.edit import syntax as s
 from app.edit.meet import foot, meets, tangent_points
 from app.edit.shapes import centre_of, curve_length, middle_of, radius_of
+from app.edit.transform import mirroring, turn
 from app.edit.values import Curves, Scope, Value, kind_of, wrong
 from app.errors import InputError
 from app.model.curves import Curve, Point
@@ -28,22 +29,6 @@ class Function:
     takes: str
     shown: str
     does: Callable[..., Value]
-
-
-def _turned(p: Point, centre: Point, angle: float) -> Point:
-    c, si = math.cos(math.radians(angle)), math.sin(math.radians(angle))
-    dx, dy = p[0] - centre[0], p[1] - centre[1]
-    return (centre[0] + c * dx - si * dy, centre[1] + si * dx + c * dy)
-
-
-def _mirrored(p: Point, a: Point, b: Point) -> Point:
-    dx, dy = b[0] - a[0], b[1] - a[1]
-    size = dx * dx + dy * dy
-    if size == 0:
-        raise InputError("A mirror line needs two different points.")
-    along = ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / size
-    x, y = a[0] + along * dx, a[1] + along * dy
-    return (2 * x - p[0], 2 * y - p[1])
 
 
 def _between(a: Point, b: Point, share: float) -> Point:
@@ -87,13 +72,13 @@ FUNCTIONS: Mapping[str, Function] = {
     "mid": Function("pp", "mid(a, b)", lambda a, b: _between(a, b, 0.5)),
     "between": Function("ppn", "between(a, b, share)", _between),
     "polar": Function("pnn", "polar(centre, radius, angle)", _polar),
-    "rotate": Function("ppn", "rotate(point, centre, angle)", _turned),
-    "mirror": Function("ppp", "mirror(point, a, b)", _mirrored),
+    "rotate": Function("ppn", "rotate(point, centre, angle)", lambda p, centre, angle: turn(centre, angle)(p)),
+    "mirror": Function("ppp", "mirror(point, a, b)", lambda p, a, b: mirroring(a, b)(p)),
     "start": Function("c", "start(curve)", lambda c: c.start),
     "finish": Function("c", "finish(curve)", lambda c: c.end),
     "middle": Function("c", "middle(curve)", middle_of),
-    "centre": Function("c", "centre(curve)", lambda c: centre_of(c)),
-    "radius": Function("c", "radius(curve)", lambda c: radius_of(c)),
+    "centre": Function("c", "centre(curve)", centre_of),
+    "radius": Function("c", "radius(curve)", radius_of),
     "length": Function("c", "length(curve)", curve_length),
     "foot": Function("pc", "foot(point, curve)", lambda p, c: foot(c, p)),
     "meet": Function("ccp", "meet(curve, curve, near)", lambda a, b, near: _nearest(meets(a, b), near, "place where both curves meet")),
@@ -132,8 +117,10 @@ def _taken(function: Function, written: s.Call, values: list[Value], scope: Scop
     while values and (len(given) < len(takes) or function.takes.endswith("+")):
         wanted = takes[min(len(given), len(takes) - 1)]
         place, value = places[-len(values)], values.pop(0)
-        if wanted == "p" and isinstance(value, float) and values and isinstance(values[0], float):
-            value = (value, values.pop(0))  # type: ignore[assignment]
+        following = values[0] if values else None
+        if wanted == "p" and isinstance(value, float) and isinstance(following, float):
+            value = (value, following)
+            del values[0]
         if (wanted == "n" and isinstance(value, float)) or (wanted == "p" and isinstance(value, tuple)):
             given.append(value)
         elif wanted == "c" and isinstance(value, Curves):
