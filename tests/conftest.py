@@ -4,8 +4,13 @@ import os
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+settings.register_profile("same", derandomize=True)
+settings.load_profile(os.environ.get("HITOFUDE_HYPOTHESIS", "same"))
+"""What a plain run tries is the same each time, so that it fails for a change and not by chance; `default` searches anew."""
 
 ROOT = Path(__file__).resolve().parent.parent
 
