@@ -136,6 +136,14 @@ class Document:
         self._tell(change | Change.LOG)
         return reply
 
+    def tried(self, text: str, progress: Progress = NO_PROGRESS) -> Session:
+        """Return what a text of the shape language would make of the drawing; nothing changes, nothing is logged.
+
+        Raises:
+            InputError: the text cannot be read or carried out, or undoes. Cancelled: `progress` says so.
+        """
+        return tried(text, self.session, progress)
+
     def run_script(self, text: str, name: str = "script", progress: Progress = NO_PROGRESS) -> None:
         """Carry out a whole text of the shape language, statement by statement, each undone by itself.
 
@@ -236,6 +244,20 @@ class Document:
     def _tell(self, change: Change) -> None:
         for listener in tuple(self._listeners):
             listener(change)
+
+
+def tried(text: str, session: Session, progress: Progress = NO_PROGRESS) -> Session:
+    """Return what a text of the shape language makes of a session; `Document.tried` on a thread of one's own.
+
+    Raises:
+        InputError: the text cannot be read or carried out, or undoes. Cancelled: `progress` says so.
+    """
+    interpreter = Interpreter(progress)
+    statements = read_script(text)
+    for number, statement in enumerate(statements):
+        interpreter.fraction = number / len(statements)
+        session = interpreter.carry_out(statement, session).session
+    return session
 
 
 def _step_word(statement: Statement) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from enum import Enum
 
 from app.model.curves import Curve, Primitive
+from app.model.notes import Note, Shape
 
 
 class Units(Enum):
@@ -59,6 +60,7 @@ class Part:
         units: the units in which the drawing was made or is shown.
         name: shown in titles and NC headers.
         used_id: the highest entity id that was ever given, where it is known; 0: the highest there is.
+        notes: points, construction lines and dimensions, in the order of drawing; their ids are of the same count.
     """
 
     entities: tuple[Entity, ...] = ()
@@ -66,10 +68,11 @@ class Part:
     units: Units = Units.MM
     name: str = "untitled"
     used_id: int = field(default=0, compare=False)
+    notes: tuple[Note, ...] = ()
 
     def next_id(self) -> int:
         """Return an entity id that was never given."""
-        return (self.used_id or max((e.id for e in self.entities), default=0)) + 1
+        return (self.used_id or _highest(self.entities, self.notes)) + 1
 
     def curve(self, entity_id: int) -> Curve | None:
         """Return an entity's curve, or None when the part does not have it."""
@@ -82,12 +85,22 @@ class Part:
         layers = self.layers if any(known.name == layer for known in self.layers) else (*self.layers, Layer(layer))
         return replace(self, entities=self.entities + new, layers=layers, used_id=first + len(new) - 1)
 
+    def with_note(self, shape: Shape, layer: str) -> Part:
+        """Return the part with a note added on a fresh id; the layer is added where it is new."""
+        note = Note(self.next_id(), shape, layer)
+        layers = self.layers if any(known.name == layer for known in self.layers) else (*self.layers, Layer(layer))
+        return replace(self, notes=(*self.notes, note), layers=layers, used_id=note.id)
+
     def with_entities(self, entities: tuple[Entity, ...]) -> Part:
         """Return the part with other entities; layers they name are added."""
         known = {layer.name for layer in self.layers}
         new = tuple(Layer(name) for name in dict.fromkeys(e.layer for e in entities) if name not in known)
-        used = max((e.id for e in entities), default=0)
+        used = _highest(entities, self.notes)
         return replace(self, entities=entities, layers=self.layers + new, used_id=max(self.used_id, used))
+
+
+def _highest(entities: tuple[Entity, ...], notes: tuple[Note, ...]) -> int:
+    return max(max((e.id for e in entities), default=0), max((n.id for n in notes), default=0))
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ from app.ui.cut.setup_form import SetupForm
 from app.ui.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
 from app.ui.notice import Notice
 from app.ui.panels.side_panel import SidePanel
+from app.ui.panels.side_tabs import SideTabs
 from app.ui.stages.import_panel import ImportPanel
 from app.ui.stages.stages_panel import StagesPanel
 from app.ui.status_bar import StatusBar
@@ -56,6 +57,8 @@ class MainWindow(QMainWindow):
         self.actions_ = Actions(self)
         self.canvas = Canvas(document, self.theme)
         self.views, self.panel, self.cut_panel = Views(self.canvas), SidePanel(document), CutPanel()
+        self.side = SideTabs()
+        self.side.add_page("Job", self.panel, "stock, tools and operations")
         self.cut_form = SetupForm()
         self.stages_panel, self.import_panel = StagesPanel(), ImportPanel()
         self.notice, self.command_line, self.status = Notice(), CommandLine(), StatusBar()
@@ -79,7 +82,7 @@ class MainWindow(QMainWindow):
         middle.setSpacing(0)
         middle.addWidget(self.tool_strip)
         middle.addLayout(centre, 1)
-        middle.addWidget(self.panel)
+        middle.addWidget(self.side)
         for widget in (self.import_panel, self.stages_panel, self.cut_panel, self.cut_form):
             middle.addWidget(widget)
             widget.hide()

@@ -159,7 +159,7 @@ class Showing(QObject):
         window.cut_form.setVisible(asks)
         window.cut_panel.setVisible(tells and not asks)
         window.stages_panel.setVisible(stages)
-        window.panel.setVisible(not (asks or tells or stages or picture))
+        window.side.setVisible(not (asks or tells or stages or picture))
 
     def _missing(self) -> Missing:
         if self._has_something():

@@ -25,7 +25,7 @@ QToolTip { background: $ink; color: $paper; border: 0; padding: 4px 8px; }
 QWidget#topBar, QWidget#statusBar, QWidget#toolStrip, QWidget#sidePanel, QWidget#logArea, QWidget#commandRow { background: $paper; }
 QWidget#topBar { border-bottom: 1px solid $hairline; }
 QWidget#toolStrip { border-right: 1px solid $hairline; }
-QWidget#sidePanel { border-left: 1px solid $hairline; }
+QWidget#sideTabs { background: $paper; border-left: 1px solid $hairline; }
 QWidget#logArea, QWidget#commandRow, QWidget#statusBar { border-top: 1px solid $hairline; }
 QFrame#hairline { background: $hairline; border: 0; }
 QWidget#ncBar { background: $paper; border-bottom: 1px solid $hairline; }

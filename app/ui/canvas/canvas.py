@@ -9,6 +9,7 @@ from PySide6.QtGui import QPainter, QPainterPath, QShowEvent
 from PySide6.QtWidgets import QWidget
 
 from app.bitmap.frame import Frame
+from app.edit.difference import Difference
 from app.edit.document import Change, Document
 from app.edit.sample import Box, union
 from app.model.curves import Point
@@ -46,6 +47,7 @@ class Canvas(Hands):
 
     Attributes:
         frame: the display of 400 x 400 cells, or another.
+        around: clamps and copies round the part.
     """
 
     def __init__(self, document: Document, theme: Theme, parent: QWidget | None = None) -> None:
@@ -55,6 +57,7 @@ class Canvas(Hands):
         self._look, self._mode = PathLook(theme), CanvasMode.DRAW
         self._program: ProgramPicture | None = None
         self.around = AroundPicture()
+        self._trial = Difference()
         self._findings: tuple[Finding, ...] = ()
         self._lit: int | Entity | None = None
         self._lit_path = QPainterPath()
@@ -99,6 +102,11 @@ class Canvas(Hands):
         self.look_at(None)
         self._program = ProgramPicture(program) if isinstance(program, Program) else program
         self.repaint_scene()
+
+    def show_trial(self, trial: Difference) -> None:
+        """Show what a command would make of the drawing before it is carried out; an empty difference shows nothing."""
+        self._trial = trial
+        self.update()
 
     def set_findings(self, findings: tuple[Finding, ...]) -> None:
         """Mark the places of these findings."""
@@ -158,6 +166,7 @@ class Canvas(Hands):
         if self._lit is not None:
             overlay.paint_highlight(painter, self.view, self._lit_path, (theme.accent, theme.accent_text))
         overlay.paint_findings(painter, self.view, self._findings, theme)
+        overlay.paint_trial(painter, self.view, self._trial, theme)
         if self.runner.tool is not None:
             self._paint_tool(painter)
         self._paint_marks(painter)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPen, QPolygonF
 
+from app.edit.difference import Difference
 from app.model.finding import Finding
 from app.ui.canvas.curve_path import curve_path
 from app.ui.canvas.drawing_tool import Preview
@@ -30,6 +31,20 @@ def paint_preview(painter: QPainter, view: View, preview: Preview, theme: Theme)
     if preview.curves:
         painter.setPen(screen_pen(painter, theme.accent, 1.8))
         painter.drawPath(curve_path(*preview.curves))
+    painter.restore()
+
+
+def paint_trial(painter: QPainter, view: View, trial: Difference, theme: Theme) -> None:
+    """Paint what a command would make: what comes in the accent, what goes dashed over it in the colour of errors."""
+    if not (trial.added or trial.gone):
+        return
+    painter.save()
+    painter.setTransform(view.transform(), True)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for entities, pen in ((trial.gone, screen_pen(painter, theme.error, 1.4, (3.0, 3.0))),
+                          (trial.added, screen_pen(painter, theme.accent, 1.8))):
+        painter.setPen(pen)
+        painter.drawPath(curve_path(*(entity.curve for entity in entities)))
     painter.restore()
 
 

@@ -57,7 +57,7 @@ class SidePanel(QScrollArea):
         inner = self._inner = QWidget()
         inner.setObjectName("sidePanel")
         column = QVBoxLayout(inner)
-        column.setContentsMargins(1, 4, 0, 8)
+        column.setContentsMargins(0, 4, 0, 8)
         column.setSpacing(0)
         for section in (self.job, self.tools, self.operations):
             column.addWidget(section)

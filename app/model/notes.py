@@ -1,0 +1,72 @@
+"""What is drawn to help and to tell, and never machined: points, construction lines, dimensions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from app.model.curves import Point
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A point, mm."""
+
+    at: Point
+
+
+@dataclass(frozen=True, slots=True)
+class Guide:
+    """A construction line: without end in both directions.
+
+    Attributes:
+        through: a point of it, mm.
+        angle: its direction from +X, rad, in [0, pi).
+    """
+
+    through: Point
+    angle: float
+
+
+class Measure(Enum):
+    """What a dimension measures."""
+
+    ALIGNED = "aligned"
+    ACROSS = "across"
+    UP = "up"
+    RADIUS = "radius"
+    DIAMETER = "diameter"
+    ANGLE = "angle"
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """A measure that is shown in the drawing.
+
+    Attributes:
+        measure: ALIGNED, ACROSS (along X) and UP (along Y) measure between two points; RADIUS and DIAMETER from a centre
+            to a point on the curve; ANGLE at the first point between the directions to the second and the third, ccw.
+        points: those points, mm: two, or three for ANGLE.
+        place: where the figure stands, mm; the dimension line goes through it.
+    """
+
+    measure: Measure
+    points: tuple[Point, ...]
+    place: Point
+
+
+Shape = Mark | Guide | Dimension
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """One of them in a drawing.
+
+    Attributes:
+        id: shares the numbers of the part's entities, > 0.
+        layer: name of its layer.
+    """
+
+    id: int
+    shape: Shape
+    layer: str = "0"
