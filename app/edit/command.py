@@ -23,6 +23,7 @@ class Session:
         layer: where new curves go.
         selection: ids that `delete` and `move` mean when none are written.
         names: what `let` and `as` have named. commands: what `define` has made.
+        renamed: layers that have another name since (old, new), for whoever else calls them by it.
     """
 
     part: Part = field(default_factory=Part)
@@ -31,6 +32,7 @@ class Session:
     selection: frozenset[int] = frozenset()
     names: Mapping[str, Value] = field(default_factory=dict)
     commands: Mapping[str, Define] = field(default_factory=dict)
+    renamed: tuple[tuple[str, str], ...] = ()
 
     @property
     def scope(self) -> Scope:
@@ -234,6 +236,18 @@ class SetLook:
 
 
 @dataclass(frozen=True, slots=True)
+class Clear:
+    """Begin anew with nothing drawn, nothing named and numbers from 1."""
+
+    name: str = "Clear"
+    reply: str = "The drawing is empty."
+
+    def carried_out(self, session: Session) -> Session:
+        """Return the session of an empty drawing of the same name and units."""
+        return Session(Part(units=session.part.units, name=session.part.name))
+
+
+@dataclass(frozen=True, slots=True)
 class Undo:
     """Take the last change back."""
 
@@ -243,7 +257,7 @@ class Redo:
     """Do again what was taken back."""
 
 
-Edit = Draw | Delete | Transform | Rework | Reverse | SetLayer | SetLook
+Edit = Clear | Draw | Delete | Transform | Rework | Reverse | SetLayer | SetLook
 """Commands that change the drawing; each has a name, a reply and `carried_out(session) -> session`."""
 
 

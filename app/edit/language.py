@@ -15,8 +15,10 @@
     spline degree n P P … [knots k …] [weights w …]    by control points
 
     select all | none | CURVES | window P P | crossing P P | layer NAME     (before it: add, remove)
-    delete [CURVES]     reverse [CURVES]     layer NAME [CURVES]     undo     redo
+    delete [CURVES]     reverse [CURVES]     layer NAME [CURVES]     undo     redo     clear
     hide NAME     show NAME     lock NAME     unlock NAME     colour NAME "#rrggbb" | none     (of layers)
+    set [CURVES] start P     also: end, middle, centre, place P; length, radius, diameter, major, minor; angle, sweep; layer NAME
+    rename layer NAME to NAME     remove layer NAME
     move @dx,dy [CURVES]     copy @dx,dy [times n] [CURVES]
     rotate P angle [copy] [CURVES]     scale P factor [copy] [CURVES]     mirror P P [copy] [CURVES]
     array n n @dx,dy [CURVES]     array polar P n [over angle] [CURVES]
@@ -36,16 +38,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from app.edit import layers
 from app.edit import read_draw as draw
 from app.edit import read_edit as edit
 from app.edit import read_rework as rework
 from app.edit import syntax
 from app.edit.arguments import Arguments
-from app.edit.command import Edit, Redo, Session, Undo
+from app.edit.command import Clear, Edit, Redo, Session, Undo
+from app.edit.read_set import SetProperty, set_property
 from app.edit.select import Select
 from app.edit.values import wrong
 
-Command = Edit | Select | Undo | Redo
+Command = Edit | SetProperty | layers.RenameLayer | layers.RemoveLayer | Select | Undo | Redo
 
 ALIASES = {
     "li": "line", "l": "line", "pl": "polyline", "ar": "arc", "a": "arc", "ci": "circle", "c": "circle", "re": "rect",
@@ -87,7 +91,8 @@ _READERS: dict[str, Callable[[Arguments, Session], Command]] = {
     "hide": edit.hide, "show": edit.show, "lock": edit.lock, "unlock": edit.unlock, "colour": edit.colour,
     "trim": rework.trim, "extend": rework.extend, "break": rework.break_at, "fillet": rework.fillet_of, "chamfer": rework.chamfer_of,
     "offset": rework.offset,
-    "undo": lambda words, session: Undo(), "redo": lambda words, session: Redo(),
+    "set": set_property, "rename": layers.rename, "remove": layers.remove,
+    "clear": lambda words, session: Clear(), "undo": lambda words, session: Undo(), "redo": lambda words, session: Redo(),
 }
 
 COMMANDS = tuple(_READERS)
