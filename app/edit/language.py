@@ -38,11 +38,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.edit import layers
+from app.edit import layers, syntax
 from app.edit import read_draw as draw
 from app.edit import read_edit as edit
 from app.edit import read_rework as rework
-from app.edit import syntax
 from app.edit.arguments import Arguments
 from app.edit.command import Clear, Edit, Redo, Session, Undo
 from app.edit.read_set import SetProperty, set_property

@@ -131,6 +131,10 @@ def _arc_length(arc: Arc, length: float) -> Arc:
     return _swept(arc, math.degrees(length / arc.radius))
 
 
+def _sized(round_: Circle, radius: float) -> Circle:
+    return replace(round_, radius=circle(round_.centre, radius).radius)
+
+
 def _half_axes(curve: Ellipse) -> tuple[float, float]:
     major = math.hypot(*curve.major)
     return major, major * curve.ratio
@@ -171,10 +175,9 @@ _PROPERTIES: Mapping[type, Mapping[str, Property]] = {
     },
     Circle: {
         "centre": Property(_P, lambda c: c.centre, lambda c, p: replace(c, centre=p), "The radius stays."),
-        "radius": Property(_L, lambda c: c.radius, lambda c, r: replace(c, radius=circle(c.centre, r).radius), "The centre stays."),
-        "diameter": Property(_L, lambda c: 2 * c.radius, lambda c, d: replace(c, radius=circle(c.centre, d / 2).radius), "The centre stays."),
-        "length": Property(_L, lambda c: math.tau * c.radius, lambda c, v: replace(c, radius=circle(c.centre, v / math.tau).radius),
-                           "The centre stays."),
+        "radius": Property(_L, lambda c: c.radius, _sized, "The centre stays."),
+        "diameter": Property(_L, lambda c: 2 * c.radius, lambda c, d: _sized(c, d / 2), "The centre stays."),
+        "length": Property(_L, lambda c: math.tau * c.radius, lambda c, v: _sized(c, v / math.tau), "The centre stays."),
     },
     Ellipse: {
         "centre": Property(_P, lambda c: c.centre, lambda c, p: _moved(c, c.centre, p), "The whole ellipse moves."),

@@ -54,8 +54,9 @@ def test_a_removed_layer_takes_its_curves_along(document: Document) -> None:
 
 
 @pytest.mark.parametrize(("line", "says"), [
-    ("rename layer nothing to x", "no layer nothing"), ("rename layer holes to 0", "a layer 0 already"), ("rename holes to x", "Write rename layer"),
-    ("rename layer holes x", "Write to"), ('rename layer holes to " "', "empty"), ("remove layer nothing", "no layer nothing"), ("remove 1", "with delete"),
+    ("rename layer nothing to x", "no layer nothing"), ("rename layer holes to 0", "a layer 0 already"),
+    ("rename holes to x", "Write rename layer"), ("rename layer holes x", "Write to"), ('rename layer holes to " "', "empty"),
+    ("remove layer nothing", "no layer nothing"), ("remove 1", "with delete"),
 ])
 def test_what_cannot_be_is_told(document: Document, line: str, says: str) -> None:
     with pytest.raises(InputError, match=says):

@@ -93,7 +93,8 @@ def test_notes_have_properties_too() -> None:
 @pytest.mark.parametrize(("sets", "says"), [
     ("9 radius 3", "no entity 9"), ("1 radius 0", "greater than 0"), ("1 sweep 20", "A circle has no sweep"), ("1", "Write what to set"),
     ("1 radius", "ends too early"), ("1 centre 5", "point"), ("radius 5", "Nothing is selected"), ("1 radius 5 6", "not expected"),
-    ("2 end 0,0", "same as point"), ("3 sweep 360", "less than 360"), ("3 length 1000", "less than 62.832 mm"), ("2 length -1", "greater than 0"),
+    ("2 end 0,0", "same as point"), ("3 sweep 360", "less than 360"), ("3 length 1000", "less than 62.832 mm"),
+    ("2 length -1", "greater than 0"),
 ])
 def test_what_cannot_be_is_told_and_nothing_changes(sets: str, says: str) -> None:
     document = drawn("circle 0,0 1; line 0,0 5,0; arc 10,0 0,10 centre 0,0")
