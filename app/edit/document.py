@@ -13,7 +13,10 @@ from app.edit.grammar import read_script
 from app.edit.history import History, State
 from app.edit.interpret import Interpreter, Outcome
 from app.edit.language import command_word
-from app.edit.syntax import Command, Statement
+from app.edit.layers import with_layer_renamed
+from app.edit.recorded import Recorded
+from app.edit.syntax import Command, Quantity, Statement
+from app.edit.values import wrong
 from app.errors import InputError
 from app.model.job import Job
 from app.model.part import Part
@@ -61,7 +64,7 @@ class Document:
     def __init__(self, job: Job | None = None) -> None:
         """Open a job, or an empty drawing."""
         self._history = History(_first_state(job or Job(Part())))
-        self._saved = self._history.state.job
+        self._saved: State | None = self._history.state
         self._listeners: list[Listener] = []
         self.revision = 0
         self.selection: frozenset[int] = frozenset()
@@ -90,8 +93,18 @@ class Document:
 
     @property
     def modified(self) -> bool:
-        """True when the job differs from what was loaded or saved."""
-        return self.job is not self._saved
+        """True when the job, or a name in its drawing, differs from what was loaded or saved."""
+        return self._history.state is not self._saved
+
+    @property
+    def state(self) -> State:
+        """Everything that a project file holds of the document."""
+        return self._history.state
+
+    @property
+    def history_names(self) -> tuple[tuple[str, ...], int]:
+        """Names of all changes, the oldest first, and how many of them are done; the rest is what redo brings."""
+        return self._history.names
 
     @property
     def undo_name(self) -> str | None:
@@ -114,27 +127,46 @@ class Document:
         state = self._history.state
         return Session(state.job.part, state.last, state.layer, self.selection, state.names, state.commands)
 
-    def run(self, line: str) -> str:
+    @property
+    def recorded(self) -> Recorded:
+        """The lines that drew the part as it is now."""
+        return self._history.state.recorded
+
+    def run(self, line: str, progress: Progress = NO_PROGRESS) -> str:
         """Carry out a line of the shape language, or a block of lines, and return the reply; both go to the log.
 
         What it changes is undone together.
 
         Raises:
             InputError: the line cannot be read or carried out; nothing has changed.
+            Cancelled: `progress` says so; nothing has changed, and nothing is logged.
         """
         line = line.strip()
         try:
-            statements = read_script(line)
-            if not statements:
-                raise CommandError("The line ends too early; a command such as line, arc, circle or rect is expected.")
-            reply, change = self._carry_out(statements, Interpreter())
+            statements = _statements(line)
+            reply, change = self._step(*step) if (step := _step_of(statements)) else self._take(
+                _evaluated(statements, self.session, Interpreter(progress)), line)
         except InputError as error:
-            self.log.append(LogLine(line, str(error), error=True))
-            self._tell(Change.LOG)
+            self.refuse(line, str(error))
             raise
         self.log.append(LogLine(line, reply))
         self._tell(change | Change.LOG)
         return reply
+
+    def accept(self, line: str, outcome: Outcome) -> str:
+        """Let the drawing become what `evaluated` has made of this document's session; logged and undone as `run` does.
+
+        The caller has seen to it that the revision is still the one of that session.
+        """
+        reply, change = self._take(outcome, line.strip())
+        self.log.append(LogLine(line.strip(), reply))
+        self._tell(change | Change.LOG)
+        return reply
+
+    def refuse(self, line: str, reason: str) -> None:
+        """Log that a line could not be carried out, and why."""
+        self.log.append(LogLine(line, reason, error=True))
+        self._tell(Change.LOG)
 
     def tried(self, text: str, progress: Progress = NO_PROGRESS) -> Session:
         """Return what a text of the shape language would make of the drawing; nothing changes, nothing is logged.
@@ -156,9 +188,11 @@ class Document:
             statements = read_script(text)
             for number, statement in enumerate(statements):
                 interpreter.fraction = number / len(statements)
-                reply, change = self._carry_out((statement,), interpreter)
-                place = statement.place
-                self.log.append(LogLine(text[place.start:place.end], reply))
+                line = text[statement.place.start:statement.place.end]
+                step = _step_of((statement,))
+                reply, change = self._step(*step) if step else self._take(
+                    _evaluated((statement,), self.session, interpreter), line)
+                self.log.append(LogLine(line, reply))
                 self._tell(change | Change.LOG)
         except CommandError as error:
             raise InputError(f"{name}:{error.line}: column {error.column}: {error.reason}") from error
@@ -172,21 +206,33 @@ class Document:
         """
         if job == self.job:
             return
-        part_changed = job.part is not self.part
-        self._history.change(name, replace(self._history.state, job=job), merge)
+        part_changed, state = job.part is not self.part, self._history.state
+        recorded = Recorded(job.part) if part_changed else state.recorded
+        self._history.change(name, replace(state, job=job, recorded=recorded), merge)
         self._tell(self._after(part_changed) | Change.JOB)
 
     def load(self, job: Job, path: Path | None = None) -> None:
         """Begin a new document with this job; history, log and selection start afresh."""
-        self._history = History(_first_state(job))
-        self._saved, self.path = job, path
+        self.load_state(_first_state(job), path)
+
+    def load_state(self, state: State, path: Path | None = None, saved: bool = True) -> None:
+        """Begin a new document as `load` does, with the names and commands of its drawing.
+
+        Args:
+            state: what the document holds.
+            path: where it was loaded from.
+            saved: False: what it holds lies in no file that the user knows.
+        """
+        state = replace(state, recorded=Recorded(state.job.part))
+        self._history = History(state)
+        self._saved, self.path = state if saved else None, path
         self.selection, self.log = frozenset(), []
         self.revision += 1
         self._tell(Change.ALL)
 
-    def mark_saved(self, path: Path) -> None:
-        """Remember that the job as it is now lies in this file."""
-        self._saved, self.path = self.job, path
+    def mark_saved(self, path: Path, state: State | None = None) -> None:
+        """Remember that a state, by default that of now, lies in this file."""
+        self._saved, self.path = state or self._history.state, path
         self._tell(Change.HISTORY)
 
     def undo(self) -> None:
@@ -197,6 +243,13 @@ class Document:
         """Do again what was taken back; logged as the line `redo`."""
         self.run("redo")
 
+    def go_to(self, done: int) -> None:
+        """Undo or redo until so many of the changes of `history_names` are done; logged as one line, such as `undo 3`."""
+        names, now = self._history.names
+        steps = min(max(done, 0), len(names)) - now
+        if steps:
+            self.run(f"{'redo' if steps > 0 else 'undo'} {abs(steps)}")
+
     def select(self, ids: Iterable[int]) -> None:
         """Select these entities; ids that the part does not have are passed over. Not logged."""
         chosen = frozenset(ids) & {e.id for e in self.part.entities}
@@ -204,32 +257,31 @@ class Document:
             self.selection = chosen
             self._tell(Change.SELECTION)
 
-    def _carry_out(self, statements: tuple[Statement, ...], interpreter: Interpreter) -> tuple[str, Change]:
-        if len(statements) == 1 and (step := _step_word(statements[0])):
-            return self._step(back=step == "undo")
-        before = self.session
-        outcome = Outcome(before, "", "")
-        for statement in statements:
-            outcome = interpreter.carry_out(statement, outcome.session)
-        after = outcome.session
-        name = outcome.name if len(statements) == 1 else f"{len(statements)} statements"
+    def _take(self, outcome: Outcome, line: str) -> tuple[str, Change]:
+        before, after, state = self.session, outcome.session, self._history.state
         if after == replace(before, selection=after.selection):
             self.selection = after.selection
             return outcome.reply, Change.SELECTION
         part_changed = after.part is not before.part
         job = replace(self.job, part=after.part) if part_changed else self.job
-        self._history.change(name, State(job, after.layer, after.last, after.names, after.commands))
+        for old, new in after.renamed:
+            job = with_layer_renamed(job, old, new)
+        recorded = state.recorded.then(line, before.selection, after.selection)
+        self._history.change(outcome.name, State(job, after.layer, after.last, after.names, after.commands, recorded))
         selected, self.selection = self.selection, after.selection
         change = self._after(part_changed)
         return outcome.reply, change | (Change.SELECTION if selected != self.selection else Change(0))
 
-    def _step(self, back: bool) -> tuple[str, Change]:
+    def _step(self, back: bool, times: int) -> tuple[str, Change]:
         before = self.job
-        name = self._history.undo() if back else self._history.redo()
-        if name is None:
+        names: list[str] = []
+        while len(names) < times and (name := self._history.undo() if back else self._history.redo()) is not None:
+            names.append(name)
+        if not names:
             return ("Nothing to undo." if back else "Nothing to redo."), Change.HISTORY
         change = self._after(part_changed=self.part is not before.part)
-        return f"{name} {'undone' if back else 'done again'}.", change | Change.JOB
+        what = names[0] if len(names) == 1 else f"{len(names)} steps"
+        return f"{what} {'undone' if back else 'done again'}.", change | Change.JOB
 
     def _after(self, part_changed: bool) -> Change:
         """Bring revision and selection in step with a new state; return what changed."""
@@ -246,25 +298,53 @@ class Document:
             listener(change)
 
 
-def tried(text: str, session: Session, progress: Progress = NO_PROGRESS) -> Session:
-    """Return what a text of the shape language makes of a session; `Document.tried` on a thread of one's own.
+def evaluated(text: str, session: Session, progress: Progress = NO_PROGRESS) -> Outcome:
+    """Return what a text of the shape language makes of a session, on whatever thread; `Document.accept` takes it.
 
     Raises:
         InputError: the text cannot be read or carried out, or undoes. Cancelled: `progress` says so.
     """
-    interpreter = Interpreter(progress)
-    statements = read_script(text)
+    return _evaluated(_statements(text.strip()), session, Interpreter(progress))
+
+
+def tried(text: str, session: Session, progress: Progress = NO_PROGRESS) -> Session:
+    """Return what a text of the shape language makes of a session; a text without a statement makes nothing of it.
+
+    Raises:
+        InputError: the text cannot be read or carried out, or undoes. Cancelled: `progress` says so.
+    """
+    return _evaluated(read_script(text), session, Interpreter(progress)).session
+
+
+def _statements(line: str) -> tuple[Statement, ...]:
+    statements = read_script(line)
+    if not statements:
+        raise CommandError("The line ends too early; a command such as line, arc, circle or rect is expected.")
+    return statements
+
+
+def _evaluated(statements: tuple[Statement, ...], session: Session, interpreter: Interpreter) -> Outcome:
+    outcome, alone = Outcome(session, "", ""), len(statements) == 1
     for number, statement in enumerate(statements):
-        interpreter.fraction = number / len(statements)
-        session = interpreter.carry_out(statement, session).session
-    return session
+        interpreter.fraction = interpreter.fraction if alone else number / len(statements)
+        outcome = interpreter.carry_out(statement, outcome.session)
+    return outcome if alone else replace(outcome, name=f"{len(statements)} statements")
 
 
-def _step_word(statement: Statement) -> str:
-    """Return undo or redo when a statement is that, else ""."""
-    word = command_word(statement.word.text) if isinstance(statement, Command) and not statement.arguments else None
-    return word if word in ("undo", "redo") else ""
+def _step_of(statements: tuple[Statement, ...]) -> tuple[bool, int] | None:
+    """Return whether to go back, and how many steps, where undo or redo is the only statement; else None."""
+    if len(statements) != 1 or not isinstance(statement := statements[0], Command):
+        return None
+    word = command_word(statement.word.text)
+    if word not in ("undo", "redo"):
+        return None
+    match statement.arguments:
+        case ():
+            return word == "undo", 1
+        case (Quantity(value=value, unit=""),) if value == int(value) and value >= 1:
+            return word == "undo", int(value)
+    raise wrong(f"Write {word}, or {word} 3 for three steps.", statement.place)
 
 
 def _first_state(job: Job) -> State:
-    return State(job, layer=job.part.layers[0].name if job.part.layers else "0")
+    return State(job, layer=job.part.layers[0].name if job.part.layers else "0", recorded=Recorded(job.part))

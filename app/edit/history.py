@@ -5,12 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from app.edit.recorded import Recorded
 from app.edit.syntax import Define
 from app.edit.values import Value
-from app.model.curves import Point
+from app.model.curves import Curve, Point, Spline
 from app.model.job import Job
+from app.model.part import Part
 
-_LONGEST = 500
+MOST_BYTES = 256 * 2**20
+"""What steps may hold together; beyond that the oldest go."""
+
+_STEP_BYTES, _ENTITY_BYTES, _POINT_BYTES, _POINTER_BYTES = 2000, 400, 160, 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +26,7 @@ class State:
         layer: where new curves go.
         last: the point given last, mm.
         names: what the shape language has named. commands: what it has defined.
+        recorded: the lines that drew the part.
     """
 
     job: Job
@@ -28,27 +34,32 @@ class State:
     last: Point = (0.0, 0.0)
     names: Mapping[str, Value] = field(default_factory=dict)
     commands: Mapping[str, Define] = field(default_factory=dict)
+    recorded: Recorded = field(default_factory=lambda: Recorded(Part()))
 
 
 @dataclass(frozen=True, slots=True)
 class _Step:
+    """A change: its name, the state at its other end, and about how many bytes the two states do not share."""
+
     name: str
-    before: State
+    other: State
+    size: int
 
 
 class History:
-    """The last 500 changes and those taken back, each by name.
+    """Changes done and those taken back, each by name, as many as `most_bytes` hold; the latest one always.
 
     Attributes:
         state: what is now.
     """
 
-    def __init__(self, state: State) -> None:
+    def __init__(self, state: State, most_bytes: int = MOST_BYTES) -> None:
         """Begin with a state that cannot be undone."""
         self.state = state
         self._undo: list[_Step] = []
         self._redo: list[_Step] = []
         self._open = False
+        self._most, self._bytes = most_bytes, 0
 
     @property
     def undo_name(self) -> str | None:
@@ -60,6 +71,11 @@ class History:
         """Name of the change that redo does again."""
         return self._redo[-1].name if self._redo else None
 
+    @property
+    def names(self) -> tuple[tuple[str, ...], int]:
+        """Names of all changes, the oldest first, and how many of them are done; the rest is what redo brings."""
+        return tuple(step.name for step in (*self._undo, *reversed(self._redo))), len(self._undo)
+
     def change(self, name: str, state: State, merge: bool = False) -> None:
         """Go to a new state.
 
@@ -67,12 +83,17 @@ class History:
             name: shown in the Edit menu.
             merge: part of one longer edit: joined with the step before when that has the same name and was merged too.
         """
-        if not (merge and self._open and self.undo_name == name):
-            self._undo.append(_Step(name, self.state))
-            del self._undo[:-_LONGEST]
+        before = self.state
+        if merge and self._open and self.undo_name == name:
+            step = self._undo.pop()
+            before, self._bytes = step.other, self._bytes - step.size
+        self._bytes -= sum(step.size for step in self._redo)
         self._redo.clear()
+        self._undo.append(_Step(name, before, _unshared(before, state)))
+        self._bytes += self._undo[-1].size
         self._open = merge
         self.state = state
+        self._forget_oldest()
 
     def undo(self) -> str | None:
         """Go back one step and return its name, or None when there is none."""
@@ -86,7 +107,28 @@ class History:
         if not source:
             return None
         step = source.pop()
-        target.append(_Step(step.name, self.state))
-        self.state = step.before
+        target.append(_Step(step.name, self.state, step.size))
+        self.state = step.other
         self._open = False
         return step.name
+
+    def _forget_oldest(self) -> None:
+        gone = 0
+        while self._bytes > self._most and gone < len(self._undo) - 1:
+            self._bytes -= self._undo[gone].size
+            gone += 1
+        del self._undo[:gone]
+
+
+def _unshared(one: State, other: State) -> int:
+    """Return about how many bytes the first state holds beside what it shares with the other."""
+    mine, theirs = one.job.part.entities, other.job.part.entities
+    if mine is theirs:
+        return _STEP_BYTES
+    shared = set(map(id, theirs))
+    own = sum(_ENTITY_BYTES + _points(entity.curve) * _POINT_BYTES for entity in mine if id(entity) not in shared)
+    return _STEP_BYTES + _POINTER_BYTES * len(mine) + own
+
+
+def _points(curve: Curve) -> int:
+    return len(curve.control_points) + len(curve.knots) if isinstance(curve, Spline) else 0
