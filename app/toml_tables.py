@@ -213,19 +213,19 @@ def _lines(value: Any, table: str) -> list[str]:
             path = f"{table}.{each.name}" if table else each.name
             tables += [line for one in item for line in ("", f"[[{path}]]", *_lines(one, path))]
         elif item is not None and not item == () == each.default:
-            plain.append(f"{each.name} = {_spelled(item)}")
+            plain.append(f"{each.name} = {spelled(item)}")
     return plain + tables
 
 
-def _spelled(item: Any) -> str:
-    """Return a value as TOML spells it."""
+def spelled(item: Any) -> str:
+    """Return a number, a flag, a text, an Enum by its value or a tuple of such as TOML spells it."""
     if isinstance(item, Enum):
-        return _spelled(item.value)
+        return spelled(item.value)
     if isinstance(item, bool):
         return "true" if item else "false"
     if isinstance(item, str):
         escaped = "".join(f"\\u{ord(c):04X}" if ord(c) < 32 or ord(c) == 127 or c in '"\\' else c for c in item)
         return f'"{escaped}"'
     if isinstance(item, tuple):
-        return f"[{', '.join(_spelled(part) for part in item)}]"
-    return repr(item)
+        return f"[{', '.join(spelled(part) for part in item)}]"
+    return repr(float(item)) if isinstance(item, float) else repr(item)

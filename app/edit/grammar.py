@@ -208,7 +208,9 @@ class _Builder(Transformer[Token, Any]):
         return str(parts[0])
 
     def define(self, meta: Any, parts: list[Any]) -> s.Define:
-        return s.Define(self._named(parts[1]), tuple(map(self._named, parts[2:-1])), parts[-1], self._place(meta))
+        place = self._place(meta)
+        source = self._source[place.start:place.end]
+        return s.Define(self._named(parts[1]), tuple(map(self._named, parts[2:-1])), parts[-1], place, source)
 
     def command(self, meta: Any, parts: list[Any]) -> s.Command:
         named = len(parts) > 2 and isinstance(parts[-1], _Label)

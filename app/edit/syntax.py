@@ -147,12 +147,17 @@ class Choose:
 
 @dataclass(frozen=True, slots=True)
 class Define:
-    """A command of the user's own."""
+    """A command of the user's own.
+
+    Attributes:
+        source: as it was written.
+    """
 
     name: Name
     parameters: tuple[Name, ...]
     body: tuple[Statement, ...] = field(repr=False)
     place: Place
+    source: str = field(repr=False)
 
 
 Statement = Command | Let | Repeat | Choose | Define

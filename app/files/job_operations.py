@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from app.files.job_tables import Table, read_flag, read_number, read_points, read_share, read_texts, read_whole, word
+from app.files.job_tables import Table, read_angle, read_flag, read_number, read_points, read_share, read_texts, read_whole, word
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.operation import OPERATION_KINDS, ContourOperation, Cut, Direction, Operation, Side
 
 _MILLS = ("pocket", "rest", "contour")
-
-
-def _radians(value: Any) -> float:
-    return math.radians(read_number(value))
 
 
 KEYS: dict[str, tuple[Callable[[Any], Any], str, tuple[str, ...]]] = {
@@ -30,7 +25,7 @@ KEYS: dict[str, tuple[Callable[[Any], Any], str, tuple[str, ...]]] = {
     "finish_depth": (read_number, "cut.finish_depth", _MILLS),
     "floor_to_leave": (read_number, "cut.floor_to_leave", _MILLS),
     "entry": (word({each.value: each for each in EntryKind}, "way into the metal"), "entry.kind", _MILLS),
-    "entry_angle": (_radians, "entry.angle", _MILLS),
+    "entry_angle": (read_angle, "entry.angle", _MILLS),
     "most_engaged": (read_share, "most_engaged", _MILLS),
     "outside_in": (read_flag, "outside_in", ("pocket",)),
     "side": (word({each.value: each for each in Side}, "side"), "side", ("contour",)),
@@ -67,11 +62,15 @@ _NEEDS: dict[str, tuple[object, Callable[[Any], bool], str]] = {
 """By key: its default, which may stand anywhere; when another value has an effect; and what to do where it has none."""
 
 
-def operations_of(tables: list[Table]) -> Iterator[Operation]:
+def operations_of(tables: list[Table], kept: bool = False) -> Iterator[Operation]:
     """Yield the operations that tables [[operation]] describe.
 
+    Args:
+        tables: one each.
+        kept: a key may be there that has no effect on an operation of this kind.
+
     Raises:
-        InputError: a key is missing, unknown, out of its range, or has no effect on an operation of this kind.
+        InputError: a key is missing, unknown, out of its range, or has no effect.
     """
     for table in tables:
         given = tuple(table.values)
@@ -83,10 +82,11 @@ def operations_of(tables: list[Table]) -> Iterator[Operation]:
                 raise table.error(key, f"is missing in this [[operation]]; add {key} = …")
         kind = next(name for name, each in OPERATION_KINDS.items() if each is table.taken["kind"])
         for key in given:
-            if kind not in (kinds := KEYS[key][2]):
+            kept_anyway = kept and KEYS[key][1].startswith(("cut.", "entry."))
+            if kind not in (kinds := KEYS[key][2]) and not kept_anyway:
                 raise table.error(key, f"belongs to {_listed(kinds)} operations; remove it from this {kind} operation")
         operation = table.text.built("operation", table.index, lambda taken=table.taken: _operation(taken))  # type: ignore[misc]
-        for key in given:
+        for key in given if not kept else ():
             default, has_effect, remedy = _NEEDS.get(key, (None, bool, ""))
             if remedy and table.taken[KEYS[key][1]] != default and not has_effect(operation):
                 raise table.error(key, f"has no effect {remedy}, or take it out")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from app.errors import HitofudeError, InputError
+from app.model.tool import FeedRow
 
 Value = TypeVar("Value")
 _MISSING = object()
@@ -178,6 +180,35 @@ def read_points(value: Any) -> tuple[tuple[float, float], ...]:
     if not isinstance(value, list) or not all(isinstance(each, list) and len(each) == 2 for each in value):
         raise InputError("it must be a list of points, such as [[10, 0], [50, 0]]")
     return tuple((read_number(x), read_number(y)) for x, y in value)
+
+
+def read_feeds(value: Any) -> tuple[FeedRow, ...]:
+    """Return rows of feeds, tables with material, surface_speed, feed_per_tooth and plunge_share.
+
+    Raises:
+        InputError: they are none. ParameterError: a value is out of its range.
+    """
+    known: dict[str, Callable[[Any], Any]] = {
+        "material": read_text, "surface_speed": read_number, "feed_per_tooth": read_number, "plunge_share": read_number,
+    }
+    if not isinstance(value, list) or not all(isinstance(row, dict) and {*tuple(known)[:3]} <= row.keys() <= known.keys() for row in value):
+        raise InputError(f"write [[tool.feeds]] before each row, and below it {', '.join(known)}")
+    return tuple(FeedRow(**{key: known[key](item) for key, item in row.items()}) for row in value)
+
+
+def read_angle(value: Any) -> float:
+    """Return an angle in radians: of a number, degrees; of a text such as "0.5 rad", that.
+
+    Raises:
+        InputError: it is neither.
+    """
+    if isinstance(value, str):
+        match = re.fullmatch(r"(\d\S{0,30}) rad", value)
+        try:
+            return float(match[1] if match else "none")
+        except ValueError as error:
+            raise InputError('it must be a number of degrees, or a text such as "0.5 rad"') from error
+    return math.radians(read_number(value))
 
 
 def word(choices: Mapping[str, Value], what: str) -> Callable[[Any], Value]:

@@ -2,15 +2,28 @@
 
 from __future__ import annotations
 
-import math
 import re
 import tomllib
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
 from app.errors import InputError
 from app.files.job_operations import operations_of
-from app.files.job_tables import JobText, Table, one_of, read_flag, read_number, read_text, read_texts, read_whole, word
+from app.files.job_tables import (
+    JobText,
+    Table,
+    one_of,
+    read_angle,
+    read_feeds,
+    read_flag,
+    read_number,
+    read_points,
+    read_text,
+    read_texts,
+    read_whole,
+    word,
+)
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
 from app.model.operation import Order
 from app.model.part import Part, Units
@@ -21,6 +34,15 @@ OUT_UNITS = {"mm": Units.MM, "in": Units.INCH, "inch": Units.INCH}
 ORIGIN_XY = {"drawing": OriginXY.DRAWING, "lower-left": OriginXY.LOWER_LEFT, "centre": OriginXY.CENTRE, "center": OriginXY.CENTRE}
 ORIGIN_Z = {"top": OriginZ.TOP, "bottom": OriginZ.BOTTOM}
 TABLES = ("stock", "origin", "heights", "drawing", "output", "copies", "keep_out", "tool", "operation")
+_LENGTHS = ("flute_length", "overall_length", "stick_out", "shank_diameter", "length_offset")
+TOOL_KEYS: dict[str, Callable[[Any], Any]] = {
+    "number": read_whole, "diameter": read_number, "kind": word({kind.value: kind for kind in ToolKind}, "kind of tool"),
+    "name": read_text, "flutes": read_whole,
+    **dict.fromkeys(("spindle_speed", "feed_rate", "plunge_rate", "corner_radius", "tip_diameter"), read_number),
+    "tip_angle": read_angle, **dict.fromkeys(_LENGTHS, read_number), "holder": read_points, "remark": read_text, "feeds": read_feeds,
+}
+"""Keys of a [[tool]], and how each is read."""
+
 ORIGIN_HELP = ("work origin: drawing (its own zero, default), lower-left or centre (of the stock); "
                "add ,bottom for Z 0 at the stock's underside rather than its top, such as centre,bottom")
 
@@ -84,11 +106,20 @@ def read_job(name: str, data: bytes) -> JobFile:
     except UnicodeDecodeError as error:
         raise InputError(f"{name}: byte {error.start} is no UTF-8; save the job file as UTF-8 text") from error
     except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InputError(f"{name}:{_with_line(str(error), text)}; correct it as resources/samples/job.toml shows") from error
-    return _Reader(name, text, tree).job_file()
+        raise InputError(f"{name}:{with_line(str(error), text)}; correct it as resources/samples/job.toml shows") from error
+    return _Reader(JobText(name, tuple(text.splitlines())), tree).job_file()
 
 
-def _with_line(message: str, text: str) -> str:
+def read_kept_job(text: JobText, tree: dict[str, Any]) -> Job:
+    """Return the job of tables that `job_write` has written, with an empty part; it may not be fit to be computed yet.
+
+    Raises:
+        InputError: as `read_job`.
+    """
+    return _Reader(text, tree, kept=True).job_file().job
+
+
+def with_line(message: str, text: str) -> str:
     """Turn tomllib's `… (at line 3, column 4)` into `3: …, column 4`."""
     match = re.fullmatch(r"(.*) \(at line (\d+), (column \d+)\)", message)
     if match:
@@ -99,8 +130,9 @@ def _with_line(message: str, text: str) -> str:
 class _Reader:
     """Reads the tables of one file; every error names the line."""
 
-    def __init__(self, name: str, text: str, tree: dict[str, Any]) -> None:
-        self._text, self._tree = JobText(name, tuple(text.splitlines())), tree
+    def __init__(self, text: JobText, tree: dict[str, Any], kept: bool = False) -> None:
+        """Begin with a file's tables; `kept`: as the program keeps them, also where they have no effect or lack something."""
+        self._text, self._tree, self._kept = text, tree, kept
 
     def _wrong(self, table: str, text: str) -> InputError:
         return InputError(f"{self._text.name}:{self._text.line('', 0, table)}: {table} {text}")
@@ -126,10 +158,12 @@ class _Reader:
         drawing = self._drawing()
         units = drawing.pop("units", None)
         job = self._text.built("stock", 0, lambda: replace(Job(Part()), **values, **drawing, **self._stock(), **self._keep_out()))
-        tools, operations = self._tool_list(job), tuple(operations_of(self._tables("operation"))) or job.operations
+        tools, operations = self._tool_list(), tuple(operations_of(self._tables("operation"), self._kept))
+        tools = tools if "tool" in self._tree and (tools or self._kept) else job.tools
+        operations = operations if "operation" in self._tree and (operations or self._kept) else job.operations
         copies = self._text.built("copies", 0, self._copies)
         job = replace(job, tools=tools, operations=operations, copies=copies)
-        for index, operation in enumerate(operations if "operation" in self._tree else ()):
+        for index, operation in enumerate(operations if "operation" in self._tree and not self._kept else ()):
             self._text.built("operation", index, lambda each=operation: job.cutter(each))  # type: ignore[misc]
         return JobFile(job, units, frozenset(self._tree))
 
@@ -172,7 +206,7 @@ class _Reader:
         table.take("dy", read_number)
         table.done("columns, rows, dx, dy")
         for key, count in (("dx", "columns"), ("dy", "rows")):
-            if table.taken.get(key) and table.taken.get(count, 1) == 1:
+            if table.taken.get(key) and table.taken.get(count, 1) == 1 and not self._kept:
                 raise table.error(key, f"has no effect without {count}; add {count} = 2, or take it out")
         return Copies(**table.taken)
 
@@ -181,7 +215,7 @@ class _Reader:
         table.take("layers", read_texts, "keep_out_layers")
         table.take("height", read_number, "keep_out_height")
         table.done("layers, height")
-        if table.taken.get("keep_out_height") and not table.taken.get("keep_out_layers"):
+        if table.taken.get("keep_out_height") and not table.taken.get("keep_out_layers") and not self._kept:
             raise table.error("height", "has no effect without layers; add layers = ['clamps'], or take it out")
         if not 0 <= table.taken.get("keep_out_height", 0.0) < 1e5:
             raise table.error("height", "must be 0 or more and less than 100000, in mm above the stock's top")
@@ -196,23 +230,17 @@ class _Reader:
         table.done("post, units, order, exact_path")
         return table.taken
 
-    def _tool_list(self, job: Job) -> tuple[Tool, ...]:
+    def _tool_list(self) -> tuple[Tool, ...]:
         tools: list[Tool] = []
         for index, table in enumerate(self._tables("tool")):
-            table.take("number", read_whole)
-            for key in ("diameter", "spindle_speed", "feed_rate", "plunge_rate", "corner_radius", "tip_diameter"):
-                table.take(key, read_number)
-            table.take("tip_angle", lambda value: math.radians(read_number(value)))
-            table.take("kind", word({kind.value: kind for kind in ToolKind}, "kind of tool"))
-            table.take("name", read_text)
-            table.take("flutes", read_whole)
-            table.done("number, diameter, kind, name, flutes, spindle_speed, feed_rate, plunge_rate, "
-                       "corner_radius, tip_diameter, tip_angle")
+            for key, read in TOOL_KEYS.items():
+                table.take(key, read)
+            table.done(", ".join(TOOL_KEYS))
             for key in ("number", "diameter"):
                 if key not in table.taken:
                     raise table.error(key, f"is missing in this [[tool]]; add {key} = …")
             tool = self._text.built("tool", index, lambda taken=table.taken: Tool(**taken))  # type: ignore[misc]
-            if any(other.number == tool.number for other in tools):
+            if any(other.number == tool.number for other in tools) and not self._kept:
                 raise table.error("number", f"{tool.number} is taken by another tool; give each its own")
             tools.append(tool)
-        return tuple(tools) or job.tools
+        return tuple(tools)

@@ -186,17 +186,6 @@ def test_load_begins_afresh(document: Document) -> None:
     assert document.revision == 2
 
 
-def test_history_is_bounded() -> None:
-    document = Document()
-    for n in range(520):
-        document.run(f"circle {n},0 1")
-    count = 0
-    while document.undo_name is not None:
-        document.undo()
-        count += 1
-    assert count == 500
-
-
 SCRIPT = """
 # a plate with a hole
 rect 0,0 60,40

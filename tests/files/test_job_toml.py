@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from app.errors import InputError
 from app.files.job_operations import KEYS
-from app.files.job_toml import parse_origin, read_job
+from app.files.job_toml import TOOL_KEYS, parse_origin, read_job
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
 from app.model.operation import (
@@ -41,14 +41,14 @@ def test_the_sample_says_the_defaults(samples: Path) -> None:
 
 def test_the_sample_names_every_key_of_every_kind(samples: Path) -> None:
     """Those that have no value by default stand behind a # and are read when that is taken away."""
-    text = re.sub(r"(?m)^# (\[\[operation|\w+ = )", r"\1", (samples / "job.toml").read_text("utf-8"))
+    text = re.sub(r"(?m)^# (\[\[operation|\[\[tool|\w+ = )", r"\1", (samples / "job.toml").read_text("utf-8"))
     pocket, rest, contour, drill = read_job("job.toml", text.encode()).job.operations
     assert isinstance(pocket, PocketOperation) and pocket.stepover == 3.0
     assert isinstance(rest, RestOperation) and rest.stepover == 1.5
     assert isinstance(contour, ContourOperation) and contour.lead.radius == 1.5
     assert drill == DrillOperation(Cut(1), 1.0, 5.9, 6.1, 0.0)
     named = set(re.findall(r"(?m)^(\w+) = ", text))
-    assert set(KEYS) <= named
+    assert set(KEYS) | set(TOOL_KEYS) - {"feeds"} <= named
 
 
 def test_an_empty_file_is_the_default_job() -> None:
