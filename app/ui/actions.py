@@ -40,6 +40,7 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         SEPARATOR,
         Spec("export", "&Export NC…", "Ctrl+E", "export"),
         Spec("frame", "Export &frame of the job…"),
+        Spec("plot", "&Print or plot…", "Ctrl+P"),
         SEPARATOR,
         Spec("quit", "&Quit", "Ctrl+Q"),
     )),

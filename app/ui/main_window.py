@@ -23,6 +23,7 @@ from app.ui.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
 from app.ui.notice import Notice
 from app.ui.panels.side_panel import SidePanel
 from app.ui.panels.side_tabs import SideTabs
+from app.ui.plot.panel import PlotPanel
 from app.ui.stages.import_panel import ImportPanel
 from app.ui.stages.stages_panel import StagesPanel
 from app.ui.status_bar import StatusBar
@@ -60,7 +61,7 @@ class MainWindow(QMainWindow):
         self.side = SideTabs()
         self.side.add_page("Job", self.panel, "stock, tools and operations")
         self.cut_form = SetupForm()
-        self.stages_panel, self.import_panel = StagesPanel(), ImportPanel()
+        self.stages_panel, self.import_panel, self.plot_panel = StagesPanel(), ImportPanel(), PlotPanel()
         self.notice, self.command_line, self.status = Notice(), CommandLine(), StatusBar()
         self.top_bar, self.tool_strip = TopBar(self.actions_), ToolStrip(self.actions_)
         self.findings_list = FindingsList(self)
@@ -83,7 +84,7 @@ class MainWindow(QMainWindow):
         middle.addWidget(self.tool_strip)
         middle.addLayout(centre, 1)
         middle.addWidget(self.side)
-        for widget in (self.import_panel, self.stages_panel, self.cut_panel, self.cut_form):
+        for widget in (self.import_panel, self.stages_panel, self.cut_panel, self.cut_form, self.plot_panel):
             middle.addWidget(widget)
             widget.hide()
         root = QWidget()

@@ -104,7 +104,6 @@ class Showing(QObject):
         self.view = view
         self._window.actions_[view.value].setChecked(True)
         self._window.views.show_view(view)
-        self._window.tool_strip.setVisible(view in (View.DRAW, View.PATHS))
         self.show_prompt()
         self._show_standing()
         self.view_changed.emit(view)
@@ -151,15 +150,18 @@ class Showing(QObject):
 
     def _show_side(self) -> None:
         """Have what belongs to the view at its right: the job, or what is known of the cut, or what is asked of it."""
-        window, beside_cut = self._window, self.view is View.CUT
-        picture = self.view is View.STAGES and window.import_panel.reading is not None
-        stages = self.view is View.STAGES and bool(self._document.part.entities) and not picture
+        window, plotting = self._window, self._window.views.plotting
+        beside_cut = self.view is View.CUT and not plotting
+        picture = self.view is View.STAGES and window.import_panel.reading is not None and not plotting
+        stages = self.view is View.STAGES and bool(self._document.part.entities) and not picture and not plotting
+        window.plot_panel.setVisible(plotting)
+        window.tool_strip.setVisible(self.view in (View.DRAW, View.PATHS) and not plotting)
         window.import_panel.setVisible(picture)
         asks, tells = beside_cut and window.cut_form.asked is not None, beside_cut and window.cut_panel.shown is not None
         window.cut_form.setVisible(asks)
         window.cut_panel.setVisible(tells and not asks)
         window.stages_panel.setVisible(stages)
-        window.side.setVisible(not (asks or tells or stages or picture))
+        window.side.setVisible(not (asks or tells or stages or picture or plotting))
 
     def _missing(self) -> Missing:
         if self._has_something():

@@ -15,6 +15,7 @@ from app.ui.fade import Fade
 from app.ui.legend import Legend
 from app.ui.nc.nc_view import NcView
 from app.ui.nc.path_view import PathView
+from app.ui.plot.preview import PlotPreview
 from app.ui.stages.stages_view import StagesView
 from app.ui.theme import LIGHT, Theme
 
@@ -77,11 +78,12 @@ class Views(QStackedWidget):
         super().__init__()
         self.canvas, self.stages, self.cut, self.nc = canvas, StagesView(), CutView(), NcView()
         self._own: dict[View, QWidget] = {View.STAGES: self.stages, View.CUT: self.cut, View.NC: self.nc}
-        self.view = View.DRAW
+        self.view, self.plot = View.DRAW, PlotPreview()
         self.addWidget(canvas)
         self.addWidget(self.stages)
         self.addWidget(self.cut)
         self.addWidget(self.nc)
+        self.addWidget(self.plot)
         self.legend, self.empty, self.fade = Legend(self), EmptyState(self), Fade(self)
         self.legend.hide()
         canvas.covered_right = self.legend.width() + _MARGIN_PX
@@ -101,13 +103,25 @@ class Views(QStackedWidget):
             self.setCurrentWidget(self.canvas)
             self.canvas.set_mode(CanvasMode.PATHS if view is View.PATHS else CanvasMode.DRAW)
 
-    def take_focus(self) -> None:
-        """Have the keys go to the view at the front."""
-        self._own.get(self.view, self.canvas).setFocus()
+    def show_plot(self) -> None:
+        """Bring the sheets of paper to the front, until a view is shown again."""
+        self.setCurrentWidget(self.plot)
+        self.take_focus()
 
     @property
-    def viewport(self) -> Canvas | StagesView | CutView | PathView:
-        """What zooms and fits in the view at the front."""
+    def plotting(self) -> bool:
+        """Whether sheets of paper are in front of the view."""
+        return self.currentWidget() is self.plot
+
+    def take_focus(self) -> None:
+        """Have the keys go to what is at the front."""
+        (self.plot if self.plotting else self._own.get(self.view, self.canvas)).setFocus()
+
+    @property
+    def viewport(self) -> Canvas | StagesView | CutView | PathView | PlotPreview:
+        """What zooms and fits at the front."""
+        if self.plotting:
+            return self.plot
         if self.view is View.CUT:
             return self.cut
         if self.view is View.STAGES:
@@ -121,11 +135,11 @@ class Views(QStackedWidget):
             sentence, button: of the empty state.
             shows_paths: there are paths, so the legend belongs beside them.
         """
-        self.empty.setVisible(bool(sentence))
-        if sentence:
+        self.empty.setVisible(bool(sentence) and not self.plotting)
+        if sentence and not self.plotting:
             self.empty.say(sentence, button)
             self.empty.raise_()
-        self.legend.setVisible(self.view is View.PATHS and shows_paths)
+        self.legend.setVisible(self.view is View.PATHS and shows_paths and not self.plotting)
         self.legend.raise_()
         self.fade.raise_()
         self.place()

@@ -29,6 +29,7 @@ from app.ui.nc.reading import Shown
 from app.ui.nc.wiring import NcWiring
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.tool_exchange import ToolExchange
+from app.ui.plot.plotting import Plotting
 from app.ui.session1986.opening import SessionOpening
 from app.ui.showing import Showing
 from app.ui.stages.picturing import Picturing
@@ -72,6 +73,8 @@ class Wiring(QObject):
         self.advising = Advising(window)
         self.engaging = Engaging(window)
         self.cut_saving = CutSaving(window, self.log)
+        self.plotting = Plotting(window, self.showing, self.log)
+        self.plotting.failed.connect(self._say_error)
         self.session_1986 = SessionOpening(window, self.showing, self.log)
         self._connect_stages()
         self._connect_files()
