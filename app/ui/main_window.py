@@ -21,6 +21,7 @@ from app.ui.cut.cut_panel import CutPanel
 from app.ui.cut.setup_form import SetupForm
 from app.ui.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
 from app.ui.notice import Notice
+from app.ui.panels.drawing_page import DrawingPage
 from app.ui.panels.side_panel import SidePanel
 from app.ui.panels.side_tabs import SideTabs
 from app.ui.plot.panel import PlotPanel
@@ -60,6 +61,8 @@ class MainWindow(QMainWindow):
         self.views, self.panel, self.cut_panel = Views(self.canvas), SidePanel(document), CutPanel()
         self.side = SideTabs()
         self.side.add_page("Job", self.panel, "stock, tools and operations")
+        self.drawing_page = DrawingPage(document, lambda: self.canvas.picture.lookup.box)
+        self.side.add_page("Drawing", self.drawing_page, "properties, layers and history of what is drawn")
         self.cut_form = SetupForm()
         self.stages_panel, self.import_panel, self.plot_panel = StagesPanel(), ImportPanel(), PlotPanel()
         self.notice, self.command_line, self.status = Notice(), CommandLine(), StatusBar()

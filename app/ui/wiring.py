@@ -21,6 +21,7 @@ from app.ui.engaging import Engaging
 from app.ui.figures import counted
 from app.ui.files import Files, Openers
 from app.ui.help import show_about, show_keys
+from app.ui.inspecting import Inspecting
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
 from app.ui.memory import choose_theme
@@ -72,6 +73,7 @@ class Wiring(QObject):
         self.tabbing = Tabbing(window)
         self.advising = Advising(window)
         self.engaging = Engaging(window)
+        self.inspecting = Inspecting(window, self.showing)
         self.cut_saving = CutSaving(window, self.log)
         self.plotting = Plotting(window, self.showing, self.log)
         self.plotting.failed.connect(self._say_error)

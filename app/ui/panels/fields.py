@@ -66,7 +66,7 @@ def restyle(widget: QWidget) -> None:
     widget.style().polish(widget)
 
 
-def _reason() -> QLabel:
+def reason_label() -> QLabel:
     """Return a label for what is wrong with a value."""
     made = QLabel()
     made.setProperty("role", "error")
@@ -98,25 +98,38 @@ class NumberField(QWidget):
 
     committed = Signal(object)
 
-    def __init__(self, spec: Spec, read: Callable[[str], float] | None = None) -> None:
+    def __init__(self, spec: Spec, read: Callable[[str], float] | None = None, reason: QLabel | None = None) -> None:
+        """Make a field.
+
+        Args:
+            spec: what is asked for.
+            read: gives the value of a text in the place of the spec.
+            reason: where to say what is wrong; the field is then the value alone, and who has it says the rest.
+        """
         super().__init__()
         self.spec = spec
         self._read = read or spec.read
         self._value: float | None = 0.0
-        self.edit, self.note, self.reason = QLineEdit(), Elided(role="muted"), _reason()
+        self._before: float | None = 0.0
+        self.edit, self.note, self.reason = QLineEdit(), Elided(role="muted"), reason or reason_label()
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.edit.setFixedSize(VALUE_WIDTH, ROW_HEIGHT)
         self.edit.setAccessibleName(spec.name)
         self.edit.textEdited.connect(self._check)
         self.edit.editingFinished.connect(self._commit)
         self.edit.installEventFilter(self)
-        self._lay_out()
+        self.setToolTip(spec.tip)
+        if reason is None:
+            self._lay_out()
+        else:
+            alone = QHBoxLayout(self)
+            alone.setContentsMargins(0, 0, 0, 0)
+            alone.addWidget(self.edit)
 
     def _lay_out(self) -> None:
         name = muted(self.spec.name)
         name.setFixedWidth(LABEL_WIDTH)
         name.setBuddy(self.edit)
-        self.setToolTip(self.spec.tip)
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 1, 0, 1)
         grid.setHorizontalSpacing(8)
@@ -153,7 +166,8 @@ class NumberField(QWidget):
         self.edit.setModified(False)
 
     def refuse(self, reason: str) -> None:
-        """Mark what was typed as wrong, for a reason that only the job knows."""
+        """Mark what was typed as wrong, for a reason that only the job knows; Escape brings back what was there."""
+        self._value = self._before
         self._mark(reason)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
@@ -196,6 +210,7 @@ class NumberField(QWidget):
         text = self.edit.text()
         value = self._check(text)
         if value is not None or self._is_auto(text):
+            self._before = self._value
             self._take(value)
             self.committed.emit(value)
 
@@ -258,7 +273,7 @@ class ListField(QWidget):
         self._values: list[object] = []
         self.set_choices(choices)
         self.box.activated.connect(lambda at: self.chosen.emit(self._values[at]))
-        self.reason = _reason()
+        self.reason = reason_label()
         grid.addWidget(label, 0, 0)
         grid.addWidget(self.box, 0, 1)
         grid.addWidget(self.reason, 1, 0, 1, 2)

@@ -1,0 +1,77 @@
+"""Rows of the drawing's page: a point as two numbers side by side, and figures that are only read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QWidget
+
+from app.model.curves import Point
+from app.ui.labels import Elided, muted
+from app.ui.panels.fields import LABEL_WIDTH, NumberField, Spec, reason_label
+
+COORDINATE_WIDTH = 72
+
+
+class PointField(QWidget):
+    """A point: x and y, each by arithmetic and units; what is wrong stands under both.
+
+    Signals:
+        committed(point): x and y, mm, of which one has just been typed.
+    """
+
+    committed = Signal(object)
+
+    def __init__(self, spec: Spec, read: Callable[[str], float]) -> None:
+        super().__init__()
+        self.reason = reason_label()
+        self.across, self.up = (NumberField(replace(spec, name=f"{spec.name} {axis}"), read, self.reason) for axis in "XY")
+        self.setToolTip(spec.tip)
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 1, 0, 1)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(2)
+        name = muted(spec.name)
+        name.setFixedWidth(LABEL_WIDTH)
+        grid.addWidget(name, 0, 0)
+        for column, field in enumerate((self.across, self.up), start=1):
+            field.edit.setFixedWidth(COORDINATE_WIDTH)
+            field.committed.connect(lambda _: self.committed.emit((self.across.number, self.up.number)))
+            grid.addWidget(field, 0, column)
+        grid.addWidget(muted(spec.unit), 0, 3)
+        grid.addWidget(self.reason, 1, 0, 1, 4)
+        grid.setColumnStretch(3, 1)
+
+    def show_value(self, value: Point) -> None:
+        """Show a point, unless the user is in the middle of typing another one."""
+        self.across.show_value(value[0])
+        self.up.show_value(value[1])
+
+    def refuse(self, reason: str) -> None:
+        """Mark what was typed as wrong, for a reason that only the drawing knows; Escape brings back what was there."""
+        typed = self.across if self.across.edit.hasFocus() else self.up
+        typed.refuse(reason)
+
+
+class Figure(QWidget):
+    """A measure that is only read, and can be copied."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__()
+        self.value = Elided()
+        self.value.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 3, 0, 3)
+        row.setSpacing(8)
+        label = muted(name)
+        label.setFixedWidth(LABEL_WIDTH)
+        row.addWidget(label)
+        row.addWidget(self.value, 1)
+        self.setAccessibleName(name)
+
+    def show_value(self, text: str) -> None:
+        """Show a measure."""
+        self.value.setText(text)
+        self.value.setToolTip(text)
