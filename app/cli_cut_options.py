@@ -165,7 +165,7 @@ def _look_options(group: argparse._ArgumentGroup) -> None:
 
 
 def _part_options(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--against", metavar="PART", type=Path, help="a drawing (.dxf .svg .draw), or a closed solid (.stl)")
+    group.add_argument("--against", metavar="PART", type=Path, help="a drawing (.hito .dxf .svg .draw), or a closed solid (.stl)")
     group.add_argument("--depth", metavar="Z", type=number("depth", least=LEAST_LENGTH),
                        help="of a drawing: from the top of the stock down to the floor (default: as the header of make tells)")
     group.add_argument("--stock-to-leave", metavar="MM", type=number("stock to leave", least=0.0), help="metal that stays on purpose")

@@ -62,7 +62,7 @@ def tools_command(argv: Sequence[str], stopped: threading.Event) -> int:
 def _parser() -> OptionParser:
     about = "Tell which tools a drawing wants."
     parser = OptionParser("tools", ("drawing", "the drawing"), about, EPILOG)
-    parser.add_argument("drawing", metavar="DRAWING", type=Path, help="the drawing, .dxf .svg .draw")
+    parser.add_argument("drawing", metavar="DRAWING", type=Path, help="the drawing or project, .hito .dxf .svg .draw")
     parser.add_argument("--tools", metavar="FILE", type=Path,
                         help="tools to choose from, .toml, .csv or .tbl (default: end mills from 1 to 25 mm as they are sold)")
     parser.add_argument("--depth", metavar="Z", type=number("depth", least=LEAST_LENGTH), default=2.0, help="of the floor (default 2)")

@@ -9,7 +9,7 @@ from app.errors import InputError
 from app.model.finding import Finding
 from app.model.part import Part, Units
 
-SUFFIXES = (".dxf", ".svg", ".draw")
+SUFFIXES = (".hito", ".dxf", ".svg", ".draw")
 """Suffixes of drawings that can be read, in lower case."""
 
 
@@ -54,6 +54,10 @@ def read_drawing(path_name: str, data: bytes, units: Units | None = None, layers
         from app.files.draw import read_draw
 
         return read_draw(data, name, units, layers)
+    if suffix == ".hito":
+        from app.files.project import project_drawing
+
+        return project_drawing(data, name, units, layers)
     from app.files.dxf import read_dxf
 
     return read_dxf(data, name, units, layers)

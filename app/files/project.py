@@ -10,6 +10,7 @@ import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from pathlib import PurePath
 from typing import Any
 
 from app.edit.grammar import read_script
@@ -18,6 +19,8 @@ from app.edit.recorded import Recorded
 from app.edit.syntax import Define
 from app.edit.values import Curves, Value
 from app.errors import InputError
+from app.files.drawing import Drawing
+from app.files.drawing_account import on_layers, other_units, switched_off
 from app.files.job_tables import JobText, Table, one_of, read_flag, read_number, read_points, read_text, read_texts, read_whole
 from app.files.job_toml import TABLES, UNITS, read_kept_job, with_line
 from app.files.job_write import empty_lists, job_lines, word_of
@@ -88,6 +91,13 @@ def read_project(name: str, data: bytes) -> Project:
     names = {key: _value(name, key, value) for key, value in _table(tree, lines, "names").items()}
     commands = {key: _command(name, key, value) for key, value in _table(tree, lines, "commands").items()}
     return Project(State(replace(job, part=part), layer, last, names, commands, Recorded(part)), _look(tree, lines))
+
+
+def project_drawing(data: bytes, name: str, units: Units | None = None, layers: tuple[str, ...] = ()) -> Drawing:
+    """Return the drawing of a project file; arguments and errors as for `read_drawing`."""
+    part = replace(read_project(name, data).state.job.part, name=PurePath(name).stem)
+    chosen = on_layers(part, layers, name)
+    return Drawing(chosen, (*other_units(units, part.units), *switched_off(chosen, layers)))
 
 
 def _tree(name: str, data: bytes) -> tuple[str, dict[str, Any]]:

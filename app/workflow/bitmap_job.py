@@ -23,6 +23,7 @@ from app.toolpath.compute import regions_of
 from app.workflow.bitmap_options import BitmapOptions, BitmapSize, is_picture
 from app.workflow.bitmap_part import BitmapPart, part_of_mask, part_of_regions
 from app.workflow.options import MakeOptions, job_with_options, layers_of_drawing
+from app.workflow.own_job import with_own_job
 
 _TOLD = 20
 """Doubtful places of one kind that are findings of their own."""
@@ -61,6 +62,7 @@ def bitmap_job(name: str, data: bytes, options: MakeOptions) -> BitmapJob:
     bitmap = options.bitmap or BitmapOptions()
     if is_picture(name):
         return picture_job(read_picture(name, data, bitmap.picture), options, bitmap.picture, PurePath(name).stem)
+    options = with_own_job(name, data, options)
     drawing = read_drawing(name, data, options.units, layers_of_drawing(options))
     job = job_with_options(drawing.part, options)
     return drawn_job(job, bitmap.size, drawing.findings)

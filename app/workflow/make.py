@@ -30,6 +30,7 @@ from app.workflow.cut import CutProgram
 from app.workflow.cut_job import cut_job, news
 from app.workflow.machining import check_order
 from app.workflow.options import MakeOptions, job_with_options, layers_of_drawing
+from app.workflow.own_job import with_own_job
 from app.workflow.report import Measured, Report, make_report, rings_in_words
 from app.workflow.verdict import Gouge, RapidInMaterial, clamps_met, deepest_of, gouge_depths, rapids_in_material
 from app.workflow.written import write_and_check
@@ -113,6 +114,7 @@ def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_P
         Cancelled: the job was asked to stop.
     """
     progress.step(0.0, f"Reading {name}")
+    options = with_own_job(name, data, options)
     if options.bitmap is not None or is_picture(name):
         return _make_on_bitmap(name, data, options, progress)
     drawing = read_drawing(name, data, options.units, layers_of_drawing(options))

@@ -108,6 +108,13 @@ def jobs(draw: st.DrawFn, part: Part | None = None) -> Job:
     )  # fmt: skip
 
 
+def plate() -> Part:
+    """Return a rectangle with a hole."""
+    corners = [(0.0, 0.0), (60.0, 0.0), (60.0, 40.0), (0.0, 40.0)]
+    sides = [Line(corners[k], corners[(k + 1) % 4]) for k in range(4)]
+    return Part(name="plate").with_curves([*sides, Circle((30.0, 20.0), 8.0)], "0")
+
+
 BOLT = 'define Bolt(c, r)\n  circle c r # "hole"\n  if r > 2\n    layer "deep"\n  end\nend'
 
 
