@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import stat
 import tempfile
 from collections.abc import Iterator, Mapping
@@ -22,6 +23,37 @@ def write_atomically(path: Path, data: bytes) -> None:
         InputError: the file cannot be written; what was there before is untouched.
     """
     write_together({path: data})
+
+
+def keep_copy(path: Path, copy: Path) -> None:
+    """Let a file's content stand under a second name too, in the place of what stood there; the file itself stays untouched.
+
+    Raises:
+        InputError: it cannot be; what was under the second name is untouched.
+    """
+    with _told(copy):
+        handle, waiting = tempfile.mkstemp(prefix=f".{copy.name[:32]}.", suffix=".part", dir=copy.parent)
+        os.close(handle)
+        try:
+            os.unlink(waiting)
+            try:
+                os.link(os.path.realpath(path), waiting)
+            except OSError:  # not every file system has two names for one file
+                shutil.copy2(path, waiting)
+            os.replace(waiting, copy)
+        finally:
+            with suppress(OSError):
+                os.unlink(waiting)
+
+
+def _flush(folder: Path) -> None:
+    """Force a folder's names to the disk, where the system lets one do that."""
+    with suppress(OSError):
+        handle = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
 
 
 def write_together(files: Mapping[Path, bytes]) -> None:
@@ -47,6 +79,8 @@ def write_together(files: Mapping[Path, bytes]) -> None:
         for each in staged:
             with _told(each.path):
                 each.take_place()
+        for folder in {each.folder for each in staged}:
+            _flush(folder)
     except BaseException:
         for each in reversed(staged):
             each.put_back()
@@ -74,7 +108,7 @@ class _Staged:
         Raises:
             OSError: it cannot be written; nothing is left behind.
         """
-        self.path, self._target = path, target
+        self.path, self._target, self.folder = path, target, target.parent
         self._old = ""
         self._placed, self._existed = False, target.exists()
         mode = stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask()
