@@ -15,7 +15,7 @@ from app.edit.document import Document
 from app.edit.evaluate import number_of
 from app.edit.grammar import read_value
 from app.edit.properties import Kind, Property, Value, kind_name, properties_of
-from app.edit.sample import Box, bounds, union
+from app.edit.sample import Box
 from app.edit.shapes import curve_length
 from app.edit.units import ANGLE_UNITS, LENGTH_UNITS
 from app.edit.words import ids_text, name_text, number_text, point_text
@@ -24,6 +24,7 @@ from app.model.notes import Dimension, Shape
 from app.model.part import Units
 from app.ui.figures import TIMES, counted, grouped
 from app.ui.labels import muted
+from app.ui.panels.adding_up import AddingUp
 from app.ui.panels.drawing_fields import COORDINATE_WIDTH, Figure, PointField
 from app.ui.panels.fields import ListField, NumberField, Spec
 from app.ui.panels.section import EDGE, Section
@@ -31,6 +32,7 @@ from app.ui.panels.section import EDGE, Section
 VARIOUS = "various"
 """What a field shows while what is selected differs in it."""
 
+TOTAL, EXTENT = "Total length", "Extent"
 _NOT_SHOWN = ("middle",)
 _FIRST_KINDS = 3
 _FARTHEST = 1e7
@@ -95,6 +97,8 @@ class PropertiesSection(Section):
         self.figures: dict[str, Figure] = {}
         self._shown: object = None
         self._selected = Selected((), (), ())
+        self._adding = AddingUp()
+        self._adding.done.connect(self._show_sum)
         self.add_indented(self.layer)
         self._body = QWidget()
         self._column = QVBoxLayout(self._body)
@@ -118,7 +122,14 @@ class PropertiesSection(Section):
         for word, field in self.fields.items():
             field.show_value(selected.value(word))  # type: ignore[arg-type]
         for name, text in figures.items():
-            self.figures[name].show_value(text)
+            if text:
+                self.figures[name].show_value(text)
+        several = len(selected.ids) > 1
+        self._adding.start({n: s for n, s in zip(selected.ids, selected.shapes, strict=True) if isinstance(s, Curve)} if several else {})
+
+    def _show_sum(self, length: float, box: Box) -> None:
+        self.figures[TOTAL].show_value(f"{grouped(length)} mm")
+        self.figures[EXTENT].show_value(_size(box))
 
     def _build(self, properties: Mapping[str, Property], figures: tuple[str, ...]) -> None:
         for old in (*self.fields.values(), *self.figures.values()):
@@ -180,11 +191,7 @@ def _figures(selected: Selected) -> dict[str, str]:
     curves = [shape for shape in selected.shapes if isinstance(shape, Curve)]
     if len(selected.ids) == 1:
         return _of_curve(curves[0]) if curves else _of_note(selected.shapes[0])
-    found = {"Kinds": _kinds(selected)}
-    box = union([bounds(curve) for curve in curves])
-    if box is not None:
-        found |= {"Total length": f"{grouped(sum(map(curve_length, curves)))} mm", "Extent": _size(box)}
-    return found
+    return {"Kinds": _kinds(selected)} | ({TOTAL: "", EXTENT: ""} if curves else {})
 
 
 def _of_curve(curve: Curve) -> dict[str, str]:
@@ -208,5 +215,5 @@ def _whole(document: Document, extent: Box | None) -> dict[str, str]:
     if part.notes:
         found["Notes"] = grouped(len(part.notes), 0)
     if extent is not None:
-        found |= {"Extent": _size(extent), "Lower left": f"{grouped(extent[0])}, {grouped(extent[1])}"}
+        found |= {EXTENT: _size(extent), "Lower left": f"{grouped(extent[0])}, {grouped(extent[1])}"}
     return found | {"Units": _UNITS[part.units]}

@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QApplication, QLabel
 
 from app.edit.document import Document
 from app.edit.sample import bounds, union
+from app.edit.shapes import curve_length
 from app.model.curves import Arc, Circle, Line
 from app.model.notes import Dimension, Measure
 from app.model.part import Part
@@ -126,6 +127,20 @@ def test_different_kinds_share_their_layer_and_their_length(page, document, qtbo
     assert page.properties.figures["Kinds"].value.text() == "1 line, 1 arc, 1 circle"
     page.properties.layer.box.activated.emit(1)
     assert last(document) == 'set layer "holes"' and {e.layer for e in document.part.entities} == {"holes"}
+
+
+def test_many_curves_are_added_up_while_the_window_lives(qtbot, page, document):
+    document.run("spline 0,100 3,104 5,106 7,102; array 40 40 @20,20 5")
+    select(page, document, *(e.id for e in document.part.entities if e.id >= 5))
+    figures = page.properties.figures
+    qtbot.waitUntil(lambda: figures["Extent"].value.text() != "")
+    one = curve_length(document.part.curve(5))
+    assert float(figures["Total length"].value.text().replace("\u2009", "").removesuffix(" mm")) == pytest.approx(1600 * one, abs=1e-2)
+    document.run("move @100,0 5")
+    page.refresh()
+    qtbot.waitUntil(lambda: figures["Extent"].value.text() != "")
+    select(page, document, 1, 2)
+    assert page.properties.figures["Extent"].value.text() == f"60.000 {TIMES} 10.000 mm"
 
 
 def test_a_dimension_tells_what_it_measures(page, document):
