@@ -33,6 +33,14 @@ class Phosphor(Enum):
     AMBER = "amber"
 
 
+class Language(Enum):
+    """Which language the window speaks."""
+
+    SYSTEM = "system"
+    ENGLISH = "en"
+    JAPANESE = "ja"
+
+
 @dataclass(frozen=True)
 class Settings:
     """Remembered choices of one user.
@@ -43,6 +51,9 @@ class Settings:
         window_geometry, window_state: opaque text of the window tool-kit, or "".
         last_folder: folder of the last file dialog, or "".
         phosphor: of the 1986 session's tube.
+        language: "system" follows the desktop.
+        shortcuts: keys that the user changed, each as "action=key". recent_commands: names of the palette, the latest first.
+        tour: "" until the tour was seen or skipped.
     """
 
     theme: ThemeChoice = ThemeChoice.SYSTEM
@@ -51,6 +62,10 @@ class Settings:
     window_state: str = ""
     last_folder: str = ""
     phosphor: Phosphor = Phosphor.GREEN
+    language: Language = Language.SYSTEM
+    shortcuts: tuple[str, ...] = ()
+    recent_commands: tuple[str, ...] = ()
+    tour: str = ""
 
     def with_recent_file(self, path: Path) -> Settings:
         """Return the settings with this file as the latest one."""
@@ -95,5 +110,5 @@ def save_settings(settings: Settings) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"Cannot make the settings folder {folder}: {error.strerror}.") from error
-    text = json.dumps(asdict(settings) | {"theme": settings.theme.value, "phosphor": settings.phosphor.value}, indent=1, ensure_ascii=False)
+    text = json.dumps(asdict(settings), default=lambda choice: choice.value, indent=1, ensure_ascii=False)
     write_atomically(folder / "settings.json", text.encode() + b"\n")

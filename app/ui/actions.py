@@ -73,6 +73,7 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         SEPARATOR,
         Spec("log", "L&og", "F2", checkable=True),
         Spec("command", "&Command line", "Ctrl+L"),
+        Spec("palette", "Command palette…", "Ctrl+Shift+Space"),
         SEPARATOR,
         Spec("theme_system", "Colours of the s&ystem", group="theme", checkable=True),
         Spec("theme_light", "&Light", group="theme", checkable=True),
@@ -148,16 +149,20 @@ class Actions:
 
     Attributes:
         recent: the menu of files that were opened lately; whoever opens files fills it.
+        specs, menu_of: row of the table and title of the menu of each action, by name.
     """
 
     def __init__(self, window: QWidget) -> None:
         self.recent = QMenu("Open &recent", window)
         self.by_name: dict[str, QAction] = {}
+        self.specs: dict[str, Spec] = {}
+        self.menu_of: dict[str, str] = {}
         self._icons: dict[str, str] = {}
         self._groups: dict[str, QActionGroup] = {}
-        for _, specs in MENUS:
+        for title, specs in MENUS:
             for spec in specs:
                 if spec is not SEPARATOR:
+                    self.specs[spec.name], self.menu_of[spec.name] = spec, title
                     self._add(spec, window)
 
     def __getitem__(self, name: str) -> QAction:
@@ -186,34 +191,27 @@ class Actions:
         action = QAction(spec.text + hint, window)
         action.setCheckable(spec.checkable)
         action.setIconVisibleInMenu(False)
-        if spec.key:
-            action.setShortcut(QKeySequence(spec.key))
-        plain = spec.text.replace("&", "").rstrip("…")
-        action.setToolTip(f"{plain} ({spec.key or spec.key_hint})" if spec.key or spec.key_hint else plain)
         if spec.icon:
             self._icons[spec.name] = spec.icon
         if spec.group:
             self._groups.setdefault(spec.group, QActionGroup(window)).addAction(action)
         window.addAction(action)
         self.by_name[spec.name] = action
+        self.set_key(spec.name, spec.key)
+
+    def key(self, name: str) -> str:
+        """Return an action's key as text, or ""."""
+        return self.by_name[name].shortcut().toString()
+
+    def set_key(self, name: str, key: str) -> None:
+        """Give an action a key, "" = none, and say so in its tip."""
+        spec, action = self.specs[name], self.by_name[name]
+        action.setShortcut(QKeySequence(key))
+        shown = key or spec.key_hint
+        action.setToolTip(f"{plain(spec.text)} ({shown})" if shown else plain(spec.text))
 
 
-def keys_text() -> str:
-    """Return the list of keys as rich text, made from the table and the canvas' own keys."""
-    rows = [(s.text.replace("&", "").rstrip("…"), s.key or s.key_hint) for _, specs in MENUS for s in specs if s.key or s.key_hint]
-    rows += [
-        ("Zoom at the mouse", "wheel"), ("Pan", "middle button, Space + drag"), ("Leave a tool, clear the selection", "Esc"),
-        ("Repeat the last tool, end a chain", "Enter"), ("Straight up or across while drawing", "Shift"),
-        ("Turn the cut; from above, front, right, isometric", "drag; 1, 2, 3, 4"),
-        ("Profile along a line over the cut", "Ctrl + drag"),
-        ("Stages: play, step, first and last", "Space; Left, Right; Home, End"), ("Stages: another region or phase", "Page up, Page down"),
-        ("Cut an operation earlier, later", "Alt+Up, Alt+Down"), ("Place by number", "x,y   @dx,dy   @length<angle"),
-    ]
-    half = (len(rows) + 1) // 2
-    rows += [("", "")] * (2 * half - len(rows))
-    lines = "".join(f"<tr>{_key_cells(*left)}{_key_cells(*right)}</tr>" for left, right in zip(rows[:half], rows[half:], strict=True))
-    return f"<table cellspacing='5'>{lines}</table>"
+def plain(text: str) -> str:
+    """Return a menu's text without the letter to press and without dots."""
+    return text.replace("&", "").rstrip("…")
 
-
-def _key_cells(name: str, key: str) -> str:
-    return f"<td style='white-space:pre'>{name}</td><td style='white-space:pre'><b>{key.replace('<', '&lt;')}</b>        </td>"

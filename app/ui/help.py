@@ -1,21 +1,15 @@
-"""Help: the keys, and what this program is."""
+"""Help: what this program is."""
 
 from __future__ import annotations
 
 from PySide6.QtWidgets import QMessageBox, QWidget
 
 from app import __version__
-from app.ui.actions import keys_text
 
 _ABOUT = (
     f"<h3>Hitofude {__version__}</h3><p>From a line drawing to tool paths that can be trusted on a real machine.</p>"
     "<p>Contour and pocket paths after JP H07-107645 (1986), with exact lines and arcs.</p><p>MIT licence.</p>"
 )
-
-
-def show_keys(window: QWidget) -> None:
-    """List every key."""
-    _show(window, "Keys", keys_text())
 
 
 def show_about(window: QWidget) -> None:

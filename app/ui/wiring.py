@@ -20,18 +20,21 @@ from app.ui.cut.saving import CutSaving
 from app.ui.engaging import Engaging
 from app.ui.figures import counted
 from app.ui.files import Files, Openers
-from app.ui.help import show_about, show_keys
+from app.ui.help import show_about
 from app.ui.inspecting import Inspecting
+from app.ui.keys_window import KeysWindow
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
 from app.ui.memory import choose_theme
 from app.ui.nc.control import NcControl
 from app.ui.nc.reading import Shown
 from app.ui.nc.wiring import NcWiring
+from app.ui.palette import Palette
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.tool_exchange import ToolExchange
 from app.ui.plot.plotting import Plotting
 from app.ui.session1986.opening import SessionOpening
+from app.ui.shortcuts import Shortcuts
 from app.ui.showing import Showing
 from app.ui.stages.picturing import Picturing
 from app.ui.stages.staging import Staging
@@ -75,6 +78,7 @@ class Wiring(QObject):
         self.engaging = Engaging(window)
         self.inspecting = Inspecting(window, self.showing)
         self.cut_saving = CutSaving(window, self.log)
+        self.shortcuts, self.palette = Shortcuts(window), Palette(window, self.files.open_file)
         self.plotting = Plotting(window, self.showing, self.log)
         self.plotting.failed.connect(self._say_error)
         self.session_1986 = SessionOpening(window, self.showing, self.log)
@@ -166,7 +170,7 @@ class Wiring(QObject):
         self._on("command", self.window_.command_line.edit.setFocus)
         for choice in ThemeChoice:
             self._on(f"theme_{choice.value}", partial(choose_theme, self.window_, choice))
-        self._on("keys", lambda: show_keys(self.window_))
+        self._on("keys", lambda: KeysWindow(self.window_, self.shortcuts).show())
         self._on("session_1986", self.session_1986.open)
         self._on("about", lambda: show_about(self.window_))
 

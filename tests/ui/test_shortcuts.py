@@ -1,0 +1,96 @@
+"""Keys: each action's own, no two alike, changed and taken back by the keyboard, and remembered."""
+
+import pytest
+from PySide6.QtCore import Qt
+
+from app.settings import Settings, load_settings
+from app.ui.actions import MENUS
+from app.ui.keys_window import FIXED, KeysWindow
+from app.ui.shortcuts import Shortcuts
+
+
+@pytest.fixture
+def keys(qtbot, wiring) -> KeysWindow:
+    made = KeysWindow(wiring.window_, wiring.shortcuts)
+    qtbot.addWidget(made)
+    made.show()
+    return made
+
+
+def row_of(keys: KeysWindow, name: str):
+    return next(item for item in keys._items() if item.data(0, Qt.ItemDataRole.UserRole) == name)
+
+
+def press(qtbot, keys: KeysWindow, key: Qt.Key, modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:
+    qtbot.keyClick(keys.list, key, modifiers)
+
+
+def test_no_two_actions_have_one_key() -> None:
+    used = [spec.key for _, specs in MENUS for spec in specs if spec.key]
+    assert sorted(used) == sorted(set(used))
+
+
+def test_the_list_has_every_action_and_the_keys_of_the_views(keys: KeysWindow, wiring) -> None:
+    assert len(keys._items()) == len(wiring.window_.actions_.specs) + len(FIXED)
+    assert row_of(keys, "compute").text(2) == "F5"
+
+
+def test_the_search_finds_by_name_and_by_key(keys: KeysWindow) -> None:
+    keys.search.setText("Ctrl+P")
+    assert not row_of(keys, "plot").isHidden()
+    keys.search.setText("zoom in")
+    assert [item.text(0) for item in keys._items() if not item.isHidden()] == ["Zoom in"]
+
+
+def test_a_new_key_is_recorded_works_and_is_remembered(qtbot, keys: KeysWindow, wiring) -> None:
+    keys.record("fit")
+    press(qtbot, keys, Qt.Key.Key_M, Qt.KeyboardModifier.ControlModifier)
+    assert row_of(keys, "fit").text(2) == "Ctrl+M"
+    assert wiring.window_.actions_["fit"].toolTip() == "Fit (Ctrl+M)"
+    assert load_settings().shortcuts == ("fit=Ctrl+M",)
+    again = Shortcuts(wiring.window_)
+    assert again.is_own("fit")
+    assert not again.is_own("new")
+
+
+def test_a_key_in_use_is_told_and_taken_only_when_pressed_again(qtbot, keys: KeysWindow, wiring) -> None:
+    keys.record("fit")
+    press(qtbot, keys, Qt.Key.Key_N, Qt.KeyboardModifier.ControlModifier)
+    assert "Ctrl+N belongs to New" in keys.told.text()
+    assert wiring.window_.actions_.key("new") == "Ctrl+N"
+    press(qtbot, keys, Qt.Key.Key_N, Qt.KeyboardModifier.ControlModifier)
+    assert (wiring.window_.actions_.key("fit"), wiring.window_.actions_.key("new")) == ("Ctrl+N", "")
+
+
+def test_a_letter_alone_is_no_key_and_escape_leaves(qtbot, keys: KeysWindow, wiring) -> None:
+    keys.record("fit")
+    press(qtbot, keys, Qt.Key.Key_M)
+    assert "begins a command" in keys.told.text()
+    press(qtbot, keys, Qt.Key.Key_Escape)
+    assert keys.recording == "" and keys.isVisible()
+    assert wiring.window_.actions_.key("fit") == "Ctrl+0"
+
+
+def test_backspace_takes_a_key_away_and_reset_brings_it_back(qtbot, keys: KeysWindow, wiring) -> None:
+    keys.record("compute")
+    press(qtbot, keys, Qt.Key.Key_Backspace)
+    assert wiring.window_.actions_.key("compute") == ""
+    keys.list.setCurrentItem(row_of(keys, "compute"))
+    keys.reset.click()
+    assert wiring.window_.actions_.key("compute") == "F5"
+    assert wiring.window_.settings.shortcuts == ()
+
+
+def test_all_keys_go_back_at_once(qtbot, keys: KeysWindow, wiring) -> None:
+    wiring.shortcuts.change("fit", "Ctrl+N")
+    keys.reset_all.click()
+    assert (wiring.window_.actions_.key("fit"), wiring.window_.actions_.key("new")) == ("Ctrl+0", "Ctrl+N")
+    assert wiring.window_.settings.shortcuts == Settings().shortcuts
+
+
+def test_damaged_settings_change_no_key(wiring) -> None:
+    from dataclasses import replace
+
+    wiring.window_.settings = replace(wiring.window_.settings, shortcuts=("nonsense", "gone=Ctrl+M", "fit=Ctrl+M"))
+    Shortcuts(wiring.window_)
+    assert wiring.window_.actions_.key("fit") == "Ctrl+M"
