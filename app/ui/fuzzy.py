@@ -5,14 +5,17 @@ from __future__ import annotations
 _START, _RUN, _WHOLE = 8.0, 5.0, 20.0
 
 
-def fit(typed: str, text: str) -> float | None:
-    """Return how well `typed` fits: the letters come in this order; starts of words, runs and short texts count more.
+def fit(typed: str, text: str, beside: str = "") -> float | None:
+    """Return how well `typed` fits a text: the letters come in this order; starts of words, runs and short texts count more.
 
-    Blanks part words each of which must fit anywhere. None = it does not fit; 0 for nothing typed.
+    Blanks part words each of which must fit, or stand whole in what is written beside the text. None = it does not fit;
+    0 for nothing typed.
     """
     total = 0.0
     for word in typed.lower().split():
         found = _word(word, text.lower())
+        if found is None and word in beside.lower():
+            found = 0.0
         if found is None:
             return None
         total += found

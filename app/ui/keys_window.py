@@ -111,7 +111,7 @@ class KeysWindow(QDialog):
 
     def _filter(self) -> None:
         for item in self._items():
-            item.setHidden(fit(self.search.text(), " ".join(item.text(column) for column in range(3))) is None)
+            item.setHidden(fit(self.search.text(), item.text(0), f"{item.text(1)} {item.text(2)}") is None)
 
     def _say(self, text: str) -> None:
         self.told.setText(text)

@@ -138,7 +138,7 @@ class Palette(QFrame):
     def _show_fitting(self, typed: str) -> None:
         recent = {name: at for at, name in enumerate(self._window.settings.recent_commands)}
         found = [(score, entry) for entry in self._entries
-                 if (score := fit(typed, f"{entry.text} {entry.where} {entry.also}")) is not None]
+                 if (score := fit(typed, entry.text, f"{entry.where} {entry.also}")) is not None]
         found.sort(key=lambda pair: (-pair[0] - (10 if pair[1].name in recent else 0), recent.get(pair[1].name, len(recent))))
         self.list.clear()
         for _, entry in found:

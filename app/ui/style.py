@@ -91,6 +91,11 @@ QListWidget { background: transparent; border: 0; outline: 0; padding: 0 4px; }
 QListWidget::item { padding: 3px 8px; border-radius: 4px; }
 QListWidget::item:hover { background: $hover; }
 QListWidget::item:selected { background: $chosen; color: $ink; }
+QTreeWidget { background: transparent; border: 0; outline: 0; }
+QTreeWidget::item { padding: 4px 8px; }
+QTreeWidget::item:hover { background: $hover; }
+QTreeWidget::item:selected { background: $chosen; color: $ink; }
+QHeaderView::section { background: $paper; color: $muted; border: 0; border-bottom: 1px solid $hairline; padding: 4px 8px; }
 QScrollArea, QScrollArea > QWidget > QWidget { background: transparent; border: 0; }
 QScrollBar:vertical { background: transparent; width: 8px; margin: 0; }
 QScrollBar:horizontal { background: transparent; height: 8px; margin: 0; }
