@@ -1,0 +1,124 @@
+"""A hand on the real mouse and keyboard of a (virtual) display: the X server's own events, as a person's would come."""
+
+from __future__ import annotations
+
+import queue
+import subprocess
+import threading
+import time
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from PySide6.QtCore import QObject, QPoint, QPointF, Qt, Signal
+from PySide6.QtWidgets import QApplication, QToolButton, QWidget
+
+from app.model.curves import Point
+from app.ui.wiring import Wiring
+
+T = TypeVar("T")
+PATIENCE_S = 120.0
+SETTLE_S = 0.12
+
+
+class Hand(QObject):
+    """Acts on a window from a thread of its own, while the window lives on the other.
+
+    Attributes:
+        clicks: made so far. typed: lines typed so far.
+    """
+
+    _asked = Signal(object)
+
+    def __init__(self, wiring: Wiring) -> None:
+        super().__init__()
+        self.wiring, self.window = wiring, wiring.window_
+        self.clicks, self.typed = 0, 0
+        self._answers: queue.Queue[Any] = queue.Queue()
+        self._asked.connect(self._answer, Qt.ConnectionType.QueuedConnection)
+
+    def play(self, act: Callable[[Hand], None]) -> BaseException | None:
+        """Act on another thread until done; return what went wrong, or None."""
+        wrong: list[BaseException] = []
+
+        def work() -> None:
+            try:
+                act(self)
+            except BaseException as fault:
+                wrong.append(fault)
+            finally:
+                self.ask(lambda: QApplication.exit(0))  # quit would ask about the drawing that is in no file
+
+        thread = threading.Thread(target=work, daemon=True)
+        thread.start()
+        QApplication.exec()
+        thread.join(PATIENCE_S)
+        return wrong[0] if wrong else None
+
+    def ask(self, what: Callable[[], T]) -> T:
+        """Return what a function finds on the window's own thread."""
+        self._asked.emit(what)
+        found, answer = self._answers.get(timeout=PATIENCE_S)
+        if not found:
+            raise answer
+        return answer
+
+    def _answer(self, what: Callable[[], Any]) -> None:
+        try:
+            self._answers.put((True, what()))
+        except BaseException as fault:
+            self._answers.put((False, fault))
+
+    def wait_until(self, holds: Callable[[], bool], what: str) -> None:
+        """Wait for something that the window does by itself."""
+        end = time.monotonic() + PATIENCE_S
+        while not self.ask(holds):
+            if time.monotonic() > end:
+                raise AssertionError(f"{what} did not come")
+            time.sleep(0.05)
+
+    def click(self, widget: QWidget) -> None:
+        """Click the middle of a widget."""
+        self._click_at(self.ask(lambda: widget.mapToGlobal(widget.rect().center())))
+
+    def click_button(self, action: str) -> None:
+        """Click the visible button of an action."""
+        self.click(self.ask(lambda: self._button(action)))
+
+    def click_place(self, place: Point) -> None:
+        """Click a place of the drawing, mm."""
+        self._click_at(self.ask(lambda: self._on_screen(place)))
+
+    def type_line(self, text: str) -> None:
+        """Type something and Enter."""
+        self.typed += 1
+        _xdotool("type", "--delay", "8", text)
+        self.press("Return")
+
+    def press(self, keys: str) -> None:
+        """Press a key, such as F5 or ctrl+e."""
+        _xdotool("key", keys)
+        time.sleep(SETTLE_S)
+
+    def focus_window(self) -> None:
+        """Give the window the keyboard, which a display without a window manager does not do by itself."""
+        _xdotool("windowfocus", "--sync", str(self.ask(lambda: int(self.window.winId()))))
+
+    def _click_at(self, at: QPoint) -> None:
+        self.clicks += 1
+        _xdotool("mousemove", str(at.x()), str(at.y()))
+        time.sleep(SETTLE_S)
+        _xdotool("click", "1")
+        time.sleep(SETTLE_S)
+
+    def _button(self, action: str) -> QToolButton:
+        wanted = self.window.actions_[action]
+        return next(b for b in self.window.findChildren(QToolButton) if b.defaultAction() is wanted and b.isVisible())
+
+    def _on_screen(self, place: Point) -> QPoint:
+        canvas = self.window.canvas
+        at: QPointF = canvas.view.to_screen(place)
+        return canvas.mapToGlobal(at.toPoint())
+
+
+def _xdotool(*words: str) -> None:
+    subprocess.run(["xdotool", *words], check=True, timeout=PATIENCE_S)
