@@ -1,16 +1,15 @@
-"""The bar above the canvas with files, views and Compute, and the strip of drawing tools at its left."""
+"""The bar above the canvas with files, views and Compute."""
 
 from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QToolButton, QWidget
 
 from app.ui.actions import Actions
 from app.ui.icons import icon
 from app.ui.theme import Theme
 
 TOP_HEIGHT = 46
-STRIP_WIDTH = 44
 
 
 def _line(width: int, height: int) -> QFrame:
@@ -32,7 +31,7 @@ def _button(actions: Actions, name: str, size: int) -> QToolButton:
 
 
 class TopBar(QWidget):
-    """New, Open, Undo, Redo; the views; Compute and Export."""
+    """New, Open, Save, Undo, Redo; the views; Compute and Export."""
 
     def __init__(self, actions: Actions) -> None:
         super().__init__()
@@ -44,7 +43,7 @@ class TopBar(QWidget):
         row = QHBoxLayout(self)
         row.setContentsMargins(10, 0, 12, 0)
         row.setSpacing(4)
-        for name in ("new", "open", "", "undo", "redo", ""):
+        for name in ("new", "open", "save", "", "undo", "redo", ""):
             if name:
                 row.addWidget(_button(actions, name, 34))
             else:
@@ -82,27 +81,3 @@ class TopBar(QWidget):
         """Follow the theme."""
         self.compute.setIcon(icon("compute", theme, theme.accent_ink))
         self.export.setIcon(icon("export", theme))
-
-
-class ToolStrip(QWidget):
-    """Select and the drawing tools, top to bottom; fit and zoom below."""
-
-    def __init__(self, actions: Actions) -> None:
-        super().__init__()
-        self.setObjectName("toolStrip")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        self.setFixedWidth(STRIP_WIDTH)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(4, 8, 5, 8)
-        column.setSpacing(2)
-        self.buttons: dict[str, QToolButton] = {}
-        drawing = ("tool_line", "tool_polyline", "tool_arc_centre", "tool_arc_three", "tool_circle", "tool_rectangle")
-        for name in ("tool_select", "fit", "", *drawing, "", "delete"):
-            if name:
-                self.buttons[name] = _button(actions, name, 35)
-                column.addWidget(self.buttons[name])
-            else:
-                column.addSpacing(6)
-                column.addWidget(_line(26, 1), 0, Qt.AlignmentFlag.AlignHCenter)
-                column.addSpacing(6)
-        column.addStretch(1)

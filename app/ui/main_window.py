@@ -13,7 +13,7 @@ from app.ui import style
 from app.ui.actions import Actions
 from app.ui.arrow import arrow_picture
 from app.ui.badge import FindingsList
-from app.ui.bars import ToolStrip, TopBar
+from app.ui.bars import TopBar
 from app.ui.canvas.canvas import Canvas
 from app.ui.command_line import CommandLine
 from app.ui.computation import Computation
@@ -29,6 +29,7 @@ from app.ui.stages.import_panel import ImportPanel
 from app.ui.stages.stages_panel import StagesPanel
 from app.ui.status_bar import StatusBar
 from app.ui.theme import DARK, LIGHT, Theme
+from app.ui.tool_strip import ToolStrip
 from app.ui.views import Views
 from app.ui.worker import Worker
 from app.workflow.bitmap_options import PICTURES

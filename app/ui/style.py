@@ -24,6 +24,7 @@ QMenu::indicator:checked { background: $accent; }
 QToolTip { background: $ink; color: $paper; border: 0; padding: 4px 8px; }
 QWidget#topBar, QWidget#statusBar, QWidget#toolStrip, QWidget#sidePanel, QWidget#logArea, QWidget#commandRow { background: $paper; }
 QWidget#topBar { border-bottom: 1px solid $hairline; }
+QFrame#variants { background: $raised; border: 1px solid $edge; border-radius: 4px; }
 QWidget#toolStrip { border-right: 1px solid $hairline; }
 QWidget#sideTabs { background: $paper; border-left: 1px solid $hairline; }
 QWidget#logArea, QWidget#commandRow, QWidget#statusBar { border-top: 1px solid $hairline; }
@@ -45,7 +46,7 @@ QToolButton { border: 0; border-radius: 4px; background: transparent; color: $in
 QToolButton:hover { background: $hover; }
 QToolButton:focus { border: 1px solid $accent_text; }
 QToolButton:disabled { color: $muted; }
-QWidget#toolStrip QToolButton:checked { background: $chosen; }
+QWidget#toolStrip QToolButton:checked, QFrame#variants QToolButton:checked { background: $chosen; }
 QToolButton[role="tab"] { border-radius: 0; padding: 0 10px; color: $muted;
   border-bottom: 2px solid transparent; border-top: 2px solid transparent; }
 QToolButton[role="tab"]:hover { color: $ink; background: transparent; }
@@ -58,6 +59,7 @@ QToolButton[role="choice"]:checked { color: $ink; font-weight: 600; border-botto
 QToolButton[role="choice"]:focus { color: $accent_text; }
 QToolButton[role="toggle"] { padding: 2px 5px; color: $muted; }
 QToolButton[role="toggle"]:checked { color: $ink; }
+QToolButton[role="chip"] { border: 1px solid $edge; padding: 1px 8px; }
 QPushButton { background: $raised; color: $ink; border: 1px solid $edge; border-radius: 4px; padding: 5px 12px; }
 QPushButton:hover { background: $hover; }
 QPushButton:focus { border-color: $accent_text; }

@@ -30,7 +30,7 @@ def curves_of(line: str) -> tuple[Curve, ...]:
     return tuple(e.curve for e in document.part.entities)
 
 
-@pytest.mark.parametrize("kind", TOOLS, ids=lambda k: k.value)
+@pytest.mark.parametrize("kind", PLACES, ids=lambda k: k.value)
 def test_every_tool_makes_one_line_that_the_language_reads(kind: CanvasTool) -> None:
     tool = TOOLS[kind]()
     lines = [tool.add(p) for p in PLACES[kind]]
@@ -40,7 +40,7 @@ def test_every_tool_makes_one_line_that_the_language_reads(kind: CanvasTool) -> 
     assert lines[:-1] == [None] * (len(lines) - 1)
 
 
-@pytest.mark.parametrize("kind", TOOLS, ids=lambda k: k.value)
+@pytest.mark.parametrize("kind", PLACES, ids=lambda k: k.value)
 def test_the_preview_is_the_shape_that_a_click_makes(kind: CanvasTool) -> None:
     tool, places = TOOLS[kind](), PLACES[kind]
     for place in places[:-1]:
@@ -51,7 +51,7 @@ def test_the_preview_is_the_shape_that_a_click_makes(kind: CanvasTool) -> None:
     assert shown == curves_of(line)
 
 
-@pytest.mark.parametrize("kind", TOOLS, ids=lambda k: k.value)
+@pytest.mark.parametrize("kind", PLACES, ids=lambda k: k.value)
 def test_a_preview_at_the_point_before_is_no_crash(kind: CanvasTool) -> None:
     tool = TOOLS[kind]()
     assert tool.preview((3.0, 3.0)).curves == ()

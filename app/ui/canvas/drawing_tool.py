@@ -3,12 +3,48 @@
 from __future__ import annotations
 
 import math
+from collections.abc import MutableMapping
 from dataclasses import dataclass, field
+from enum import Enum, auto
 from typing import ClassVar
 
+from app.edit.difference import Difference
+from app.edit.document import Document
 from app.errors import InputError
 from app.model.curves import Arc, Curve, Line, Point
 from app.tolerances import WELD
+
+
+class Want(Enum):
+    """What a tool asks for: a point, a curve, a point or else a curve, curves to be selected, words to be typed."""
+
+    POINT = auto()
+    CURVE = auto()
+    EITHER = auto()
+    SELECTION = auto()
+    WORDS = auto()
+
+
+@dataclass(frozen=True, slots=True)
+class Pick:
+    """A curve and the place where it was pointed at, mm."""
+
+    id: int
+    at: Point
+    curve: Curve
+
+
+@dataclass(frozen=True, slots=True)
+class Desk:
+    """What a tool works at.
+
+    Attributes:
+        document: to look things up in; tools never change it.
+        numbers: radii, distances and counts given last, by tool and word; they outlive the tool.
+    """
+
+    document: Document
+    numbers: MutableMapping[str, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,11 +54,13 @@ class Preview:
     Attributes:
         curves: the shape as it would become. helpers: lines of construction.
         label: its live measures, shown beside the mouse.
+        trial: what the tool's line would make of the drawing.
     """
 
     curves: tuple[Curve, ...] = ()
     helpers: tuple[Line, ...] = ()
     label: str = ""
+    trial: Difference = field(default_factory=Difference)
 
 
 @dataclass
@@ -38,6 +76,39 @@ class DrawingTool:
 
     name: ClassVar[str] = ""
     prompts: ClassVar[tuple[str, ...]] = ()
+
+    @property
+    def wants(self) -> Want:
+        """What is asked for now."""
+        return Want.POINT
+
+    @property
+    def exact(self) -> bool:
+        """Whether the mouse aims at points of the drawing now; a curve is picked where the mouse is."""
+        return self.wants is not Want.CURVE
+
+    @property
+    def options(self) -> tuple[str, ...]:
+        """Words that may be typed now."""
+        return ()
+
+    def count_on(self, by: int) -> bool:
+        """Change the count of the tool; return False where it has none."""
+        return False
+
+    @property
+    def busy(self) -> bool:
+        """True while a shape has been begun."""
+        return bool(self.points)
+
+    @property
+    def goes_on(self) -> bool:
+        """True where Enter carries on with the shape rather than ends the tool."""
+        return self.busy
+
+    def begin(self, desk: Desk) -> str | None:
+        """Take up work; return a line when nothing has to be asked."""
+        return None
 
     @property
     def base(self) -> Point | None:
@@ -65,6 +136,10 @@ class DrawingTool:
         """Take a word such as close; return a finished line, "" when it was used, None when it means nothing here."""
         return None
 
+    def typed(self, value: float) -> str | None:
+        """Take a typed number that is no distance; return a finished line, "" when it was used, None when it is a distance."""
+        return None
+
     def number(self, value: float, cursor: Point) -> Point | None:
         """Return the point at a typed distance from the base towards the mouse, or None without a direction."""
         if self.base is None or math.dist(self.base, cursor) < WELD:
@@ -83,6 +158,10 @@ class DrawingTool:
             return cursor
         (x, y), (cx, cy) = self.base, cursor
         return (cx, y) if abs(cx - x) >= abs(cy - y) else (x, cy)
+
+    def clear(self) -> None:
+        """Give up the shape."""
+        self.points = []
 
     def finish(self) -> str | None:
         """End the shape; return its line when there is one."""

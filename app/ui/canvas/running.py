@@ -16,9 +16,11 @@ from app.edit.values import Curves
 from app.errors import InputError
 from app.model.curves import Point
 from app.tolerances import WELD
-from app.ui.canvas.drawing_tool import DrawingTool
+from app.ui.canvas.asking import Answer, AskingTool
+from app.ui.canvas.drawing_tool import Desk, DrawingTool, Pick, Preview, Want
 from app.ui.canvas.modes import CanvasTool
 from app.ui.canvas.tools import TOOL_WORDS, TOOLS
+from app.ui.canvas.trials import Trial, Trials
 
 _SELECT_PROMPT = "Select: click, or drag a window; from right to left it takes what it crosses"
 
@@ -28,7 +30,7 @@ class ToolRunner:
 
     Attributes:
         kind: which tool runs. tool: the tool itself, None for SELECT.
-        cursor: where the tool aims, mm.
+        cursor: where the tool aims, mm. under: the curve that a click would pick, or None.
     """
 
     def __init__(self, document: Document, say: Callable[[str], None]) -> None:
@@ -37,6 +39,8 @@ class ToolRunner:
         self.kind = CanvasTool.SELECT
         self.tool: DrawingTool | None = None
         self.cursor: Point = (0.0, 0.0)
+        self.under: Pick | None = None
+        self._desk, self._trials = Desk(document, {}), Trials(document)
         self._last = CanvasTool.LINE
 
     @property
@@ -47,38 +51,60 @@ class ToolRunner:
     @property
     def busy(self) -> bool:
         """True while a shape has been begun."""
-        return self.tool is not None and bool(self.tool.points)
+        return self.tool is not None and self.tool.busy
+
+    @property
+    def choosing(self) -> bool:
+        """True while a tool asks for curves to be selected."""
+        return self.tool is not None and self.tool.wants is Want.SELECTION
+
+    @property
+    def looking(self) -> bool:
+        """True while what lies under the mouse is to be lit: it would be selected, or picked."""
+        return self.tool is None or self.under is not None or self.tool.wants in (Want.SELECTION, Want.CURVE)
+
+    @property
+    def last(self) -> CanvasTool:
+        """The tool that Enter begins again."""
+        return self._last
 
     def start(self, kind: CanvasTool) -> None:
-        """Begin a tool; an unfinished shape is given up."""
-        self.kind = kind
+        """Begin a tool; an unfinished shape is given up. One that has nothing to ask does its work at once."""
+        self.kind, self.under = kind, None
         self.tool = TOOLS[kind]() if kind in TOOLS else None
         if self.tool is not None:
             self._last = kind
+            self._run(self.tool.begin(self._desk))
 
-    def aim_at(self, point: Point) -> None:
-        """See the mouse aim at a point, mm."""
-        self.cursor = point
+    def hold(self, tool: DrawingTool) -> None:
+        """Take a tool in hand for one point, beside SELECT."""
+        self.kind, self.tool = CanvasTool.SELECT, tool
+
+    def aim_at(self, point: Point, under: Pick | None = None) -> None:
+        """See the mouse aim at a point, mm, and at a curve that can be picked there."""
+        self.cursor, self.under = point, under
         if self.tool is not None:
             self.tool.follow(point)
 
     def click(self, point: Point) -> None:
-        """Take a point; one that repeats the last is passed over."""
-        if self.tool is None or (self.tool.base is not None and math.dist(self.tool.base, point) < WELD):
+        """Take a point, or the curve there; a point that repeats the last is passed over."""
+        tool = self.tool
+        if tool is None:
             return
-        self.aim_at(point)
-        try:
-            self._run(self.tool.add(point))
-        except InputError as error:
-            self.tool.points = []
-            self._say(str(error))
+        if isinstance(tool, AskingTool) and tool.wants in (Want.CURVE, Want.EITHER) and (self.under or tool.wants is Want.CURVE):
+            self._pick(tool)
+            return
+        if tool.wants is not Want.POINT or tool.base is None or math.dist(tool.base, point) >= WELD:
+            self.aim_at(point)
+            self._answer(tool, lambda: tool.add(point))
 
     def accept(self) -> None:
         """End the shape; without one end the tool; without a tool begin the last one again."""
         if self.tool is None:
             self.start(self._last)
-        elif self.busy:
-            self._run(self.tool.finish())
+        elif self.tool.goes_on:
+            tool = self.tool
+            self._answer(tool, tool.finish)
         else:
             self.start(CanvasTool.SELECT)
 
@@ -96,8 +122,28 @@ class ToolRunner:
         """Give up the shape, or else the tool; return whether there was either."""
         if self.tool is None:
             return False
-        self.start(self.kind if self.busy else CanvasTool.SELECT)
+        if self.busy and isinstance(self.tool, AskingTool):
+            self.tool.clear()
+        else:
+            self.start(self.kind if self.busy else CanvasTool.SELECT)
         return True
+
+    def count_on(self, by: int) -> bool:
+        """Change the count of the tool; return False where there is none."""
+        return self.tool is not None and self.tool.count_on(by)
+
+    def takes(self, text: str) -> bool:
+        """Return whether a typed text is an option of the running tool, or the words that it asks for."""
+        return self.tool is not None and (self.tool.wants is Want.WORDS or text.strip().lower() in self.tool.options)
+
+    def preview(self, point: Point) -> Preview:
+        """Return what a click at a point would make."""
+        tool = self.tool
+        if not isinstance(tool, AskingTool):
+            return tool.preview(point) if tool is not None else Preview()
+        shown, line = tool.helpers(point), tool.draft(point, self.under)
+        trial = self._trials.of(line) if line is not None else Trial()
+        return replace(shown, trial=trial.difference, label="\n".join(filter(None, (shown.label, trial.reason.split(";")[0]))))
 
     def type_text(self, text: str) -> bool:
         """Take typed text: a word of the tool, a point, a distance, or a command word alone that begins a tool.
@@ -108,7 +154,7 @@ class ToolRunner:
         text = text.strip()
         if not text:
             return False
-        if self.tool is not None and self._word(text.lower()):
+        if self.tool is not None and self._word(text):
             return True
         command = command_word(text)
         if command is not None:
@@ -127,7 +173,14 @@ class ToolRunner:
         return word is not None and word[0] in self._document.session.names
 
     def _word(self, word: str) -> bool:
-        line = self.tool.word(word) if self.tool else None
+        tool = self.tool
+        if isinstance(tool, AskingTool):
+            option, _, value = word.partition(" ")
+            if value and tool.wants is not Want.WORDS and option.lower() in tool.numbers:
+                tool.setting = option.lower()
+                self._place(tool, value)
+                return True
+        line = tool.word(word if tool.wants is Want.WORDS else word.lower()) if tool else None
         if line:
             self._run(line)
         return line is not None
@@ -146,15 +199,46 @@ class ToolRunner:
             return
         if isinstance(value, Curves):
             raise CommandError(f"'{text}' is a curve; a point or a length is wanted.")
+        before = self._answers(tool)
+        line = tool.typed(value)
+        if line is not None:
+            self._run(line, before)
+            return
         point = tool.number(value, self.cursor)
         if point is None:
             raise CommandError(f"'{text}' is a distance without a direction; write x,y or @dx,dy, or point with the mouse first.")
         self.click(point)
 
-    def _run(self, line: str | None) -> None:
+    def _pick(self, tool: AskingTool) -> None:
+        under = self.under
+        if under is None:
+            self._say("No curve is there; click on one.")
+        else:
+            self._answer(tool, lambda: tool.give(under))
+
+    def _answer(self, tool: DrawingTool, act: Callable[[], str | None]) -> None:
+        """Give a tool what it asked for, and carry out what comes of it."""
+        before = self._answers(tool)
+        try:
+            self._run(act(), before)
+        except InputError as error:
+            tool.clear()
+            self._say(str(error))
+
+    def _answers(self, tool: DrawingTool) -> list[Answer]:
+        return list(tool.answers) if isinstance(tool, AskingTool) else []
+
+    def _run(self, line: str | None, before: list[Answer] | None = None) -> None:
+        """Carry out a line; a tool whose line is refused goes back to the answers before."""
         if not line:
             return
+        tool = self.tool
         try:
             self._document.run(line)
         except InputError as error:
             self._say(str(error))
+            if isinstance(tool, AskingTool) and before is not None:
+                tool.restore(before)
+                return
+        if isinstance(tool, AskingTool) and tool.once and self.tool is tool:
+            self.start(CanvasTool.SELECT)

@@ -9,6 +9,9 @@ from dataclasses import dataclass
 from app.edit.shapes import rectangle
 from app.edit.words import point_text
 from app.model.curves import Point
+from app.ui.canvas import corner_tools as corner
+from app.ui.canvas import edit_tools as edit
+from app.ui.canvas import form_tools as form
 from app.ui.canvas.chain_tools import LineTool, PolylineTool
 from app.ui.canvas.drawing_tool import DrawingTool, Preview
 from app.ui.canvas.modes import CanvasTool
@@ -46,10 +49,21 @@ class RectangleTool(DrawingTool):
 
 TOOLS: dict[CanvasTool, Callable[[], DrawingTool]] = {
     CanvasTool.LINE: LineTool, CanvasTool.POLYLINE: PolylineTool, CanvasTool.ARC_CENTRE: ArcCentreTool,
-    CanvasTool.ARC_THREE: ArcThreeTool, CanvasTool.CIRCLE: CircleTool, CanvasTool.RECTANGLE: RectangleTool,
+    CanvasTool.ARC_THREE: ArcThreeTool, CanvasTool.ARC_RADIUS: form.ArcRadiusTool, CanvasTool.ARC_ON: form.ArcOnTool,
+    CanvasTool.CIRCLE: CircleTool, CanvasTool.CIRCLE_TWO: form.CircleTwoTool, CanvasTool.CIRCLE_THREE: form.CircleThreeTool,
+    CanvasTool.RECTANGLE: RectangleTool, CanvasTool.RECTANGLE_ROUND: form.RoundRectangleTool,
+    CanvasTool.POLYGON: form.PolygonTool, CanvasTool.SLOT: form.SlotTool, CanvasTool.ELLIPSE: form.EllipseTool,
+    CanvasTool.SPLINE: form.SplineTool, CanvasTool.TEXT: form.TextTool, CanvasTool.POINT: form.PointTool,
+    CanvasTool.GUIDE: form.GuideTool, CanvasTool.DIMENSION: form.DimensionTool, CanvasTool.MEASURE: form.MeasureTool,
+    CanvasTool.MOVE: edit.MoveTool, CanvasTool.COPY: edit.CopyTool, CanvasTool.ROTATE: edit.RotateTool,
+    CanvasTool.SCALE: edit.ScaleTool, CanvasTool.MIRROR: edit.MirrorTool, CanvasTool.ARRAY: edit.ArrayTool,
+    CanvasTool.ARRAY_POLAR: edit.ArrayPolarTool, CanvasTool.OFFSET: edit.OffsetTool, CanvasTool.TRIM: corner.TrimTool,
+    CanvasTool.EXTEND: corner.ExtendTool, CanvasTool.BREAK: corner.BreakTool, CanvasTool.FILLET: corner.FilletTool,
+    CanvasTool.CHAMFER: corner.ChamferTool, CanvasTool.JOIN: edit.JoinTool, CanvasTool.EXPLODE: edit.ExplodeTool,
+    CanvasTool.REVERSE: edit.ReverseTool,
 }
-"""Every drawing tool; SELECT is the absence of one."""
+"""Every tool; SELECT is the absence of one."""
 
-TOOL_WORDS = {"line": CanvasTool.LINE, "polyline": CanvasTool.POLYLINE, "arc": CanvasTool.ARC_THREE, "circle": CanvasTool.CIRCLE,
-              "rect": CanvasTool.RECTANGLE, "select": CanvasTool.SELECT}
+_OTHER_WORDS = {"arc": CanvasTool.ARC_THREE, "rect": CanvasTool.RECTANGLE}
+TOOL_WORDS = {tool.value: tool for tool in (CanvasTool.SELECT, *TOOLS)} | _OTHER_WORDS
 """Tools that a command word alone begins."""
