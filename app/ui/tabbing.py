@@ -8,7 +8,7 @@ from dataclasses import replace
 from app.model.curves import Point
 from app.model.job import Job
 from app.model.operation import ContourOperation
-from app.ui.canvas.hands import Marking
+from app.ui.canvas.marking import Marking
 from app.ui.main_window import MainWindow
 from app.ui.panels.changes import with_operation
 from app.ui.panels.operation_groups import BY_HAND

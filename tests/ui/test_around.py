@@ -12,7 +12,7 @@ from app.model.job import Copies, Job
 from app.model.operation import ContourOperation
 from app.model.part import Entity, Part
 from app.ui.canvas.canvas import Canvas
-from app.ui.canvas.hands import Marking
+from app.ui.canvas.marking import Marking
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.operation_groups import BY_HAND
 from app.ui.panels.side_panel import SidePanel

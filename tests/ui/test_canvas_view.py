@@ -13,7 +13,7 @@ from app.edit.sample import sample, spline_points
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from app.ui.canvas.curve_path import chain_path, curve_path
 from app.ui.canvas.grid import _text_at, grid_steps
-from app.ui.canvas.snap import Snap, SnapKind, nearest, no_snap_points, snap_points, to_grid
+from app.ui.canvas.snap import Snap, SnapKind, best, no_snap_points, snap_points, to_grid
 from app.ui.canvas.view import LARGEST_SCALE, View, fitted, nice_step
 
 AREA = QRectF(24, 24, 800, 600)
@@ -147,11 +147,11 @@ def test_snap_points_of_each_curve() -> None:
 
 
 def test_ends_win_over_what_is_a_little_nearer() -> None:
-    points = snap_points([Line((0, 0), (1, 0))])
-    assert nearest(points, (0.3, 0.0), 1.0) == Snap((0, 0), SnapKind.END)
-    assert nearest(points, (0.5, 0.0), 0.4) == Snap((0.5, 0), SnapKind.MIDDLE)
-    assert nearest(points, (0.5, 5.0), 1.0) is None
-    assert nearest(no_snap_points(), (0.0, 0.0), 1.0) is None
+    points = snap_points([Line((0, 0), (1, 0))]).near((0.5, 0.0), 5.0)
+    assert best(points, (0.3, 0.0), 1.0) == Snap((0, 0), SnapKind.END)
+    assert best(points, (0.5, 0.0), 0.4) == Snap((0.5, 0), SnapKind.MIDDLE)
+    assert best(points, (0.5, 5.0), 1.0) is None
+    assert no_snap_points().near((0.0, 0.0), 1.0) == []
 
 
 @given(st.floats(-1000, 1000), st.sampled_from([0.01, 0.05, 0.1, 0.25, 1.0, 5.0, 20.0]))

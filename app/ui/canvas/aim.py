@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-
-import numpy as np
+from dataclasses import dataclass, field
 
 from app.model.curves import Point
 from app.ui.canvas.drawing_tool import DrawingTool
-from app.ui.canvas.snap import Snap, SnapKind, SnapPoints, nearest, to_grid
+from app.ui.canvas.near_snaps import Near, forced, near_snaps
+from app.ui.canvas.part_picture import PartPicture
+from app.ui.canvas.snap import SNAP_NAMES, USUAL, Snap, SnapKind, best, to_grid
+from app.ui.canvas.track import Acquired, Tracked, rays, tracked
 
 REACH_PX = 10.0
 
@@ -19,15 +20,22 @@ class AimRules:
     """What helps to aim.
 
     Attributes:
-        snap: to points of the drawing. grid: to the raster. straight: only across or up from the point before.
         grid_step: mm. scale: px per mm.
+        snap: to points of the drawing. grid: to the raster. straight: only across or up from the point before.
+        kinds: of points of the drawing that count. forced: the one kind that the next click takes, or None.
+        polar: degrees between rays from the point before that draw the mouse, or None.
+        acquired: points that the mouse has rested on, which draw it across, up and along their lines.
     """
 
-    snap: bool
-    grid: bool
-    straight: bool
     grid_step: float
     scale: float
+    snap: bool = True
+    grid: bool = False
+    straight: bool = False
+    kinds: frozenset[SnapKind] = USUAL
+    forced: SnapKind | None = None
+    polar: float | None = None
+    acquired: tuple[Acquired, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,18 +44,29 @@ class Aim:
 
     point: Point
     snap: Snap | None = None
+    tracked: Tracked | None = field(default=None)
+
+    @property
+    def word(self) -> str:
+        """What the point is called beside the mouse, or ""."""
+        if self.snap is not None:
+            return SNAP_NAMES[self.snap.kind]
+        return self.tracked.word if self.tracked is not None else ""
 
 
-def aim(at: Point, tool: DrawingTool, snaps: SnapPoints, rules: AimRules) -> Aim:
+def aim(at: Point, tool: DrawingTool, picture: PartPicture, rules: AimRules) -> Aim:
     """Return where a running tool aims with the mouse at a point, mm.
 
-    Points of the drawing win over straightness, straightness over the raster; a free point is rounded to the decimal
-    below the size of a screen px, so that lines in the log stay short.
+    Points of the drawing win over straightness, straightness over rays, rays over the raster; a free point is rounded to
+    the decimal below the size of a screen px, so that lines in the log stay short.
     """
-    if rules.snap:
-        found = nearest(_with_anchors(snaps, tool), at, REACH_PX / rules.scale)
-        if found is not None:
-            return Aim(found.point, found)
+    found = _snapped(at, tool, picture, rules)
+    if found is not None:
+        return Aim(tidy(found.point), found)
+    if not rules.straight:
+        drawn = tracked(at, rays(tool.base, rules.polar, rules.acquired), rules.scale, _digits(rules.scale))
+        if drawn is not None:
+            return Aim(drawn.point, tracked=drawn)
     point = to_grid(at, rules.grid_step) if rules.grid else rounded(at, rules.scale)
     if rules.straight:
         point = tool.held_straight(point)
@@ -56,13 +75,28 @@ def aim(at: Point, tool: DrawingTool, snaps: SnapPoints, rules: AimRules) -> Aim
 
 def rounded(at: Point, scale: float) -> Point:
     """Return a point rounded to the power of ten below the size of a screen px, at most 0.1 mm."""
-    digits = max(1, math.ceil(math.log10(scale) - 1e-9))
+    digits = _digits(scale)
     return (round(at[0], digits) + 0.0, round(at[1], digits) + 0.0)
 
 
-def _with_anchors(snaps: SnapPoints, tool: DrawingTool) -> SnapPoints:
-    anchors = [p for p in tool.anchors if p != tool.base]
-    if not anchors:
-        return snaps
-    own = SnapPoints(np.array(anchors), np.full(len(anchors), SnapKind.END, np.uint8))
-    return SnapPoints.joined([snaps, own])
+def tidy(point: Point) -> Point:
+    """Return a point without the noise of its last digits: a coordinate that is a short decimal within 1e-10 mm becomes that."""
+    x, y = ((short if abs((short := round(value, 6) + 0.0) - value) <= 1e-10 else value) for value in point)
+    return (x, y)
+
+
+def _digits(scale: float) -> int:
+    return max(1, math.ceil(math.log10(scale) - 1e-9))
+
+
+def _snapped(at: Point, tool: DrawingTool, picture: PartPicture, rules: AimRules) -> Snap | None:
+    if not rules.snap and rules.forced is None:
+        return None
+    reach = REACH_PX / rules.scale
+    near = Near(at, reach, picture.near_curves(at, reach), tool.base, picture.near_guides(at, reach))
+    fixed = picture.near_points(at, reach)
+    if rules.forced is not None:
+        return forced(near, rules.forced, fixed)
+    anchors = [Snap(p, SnapKind.END) for p in tool.anchors if p != tool.base]
+    on = [snap for snap in (*fixed, *near_snaps(near, rules.kinds)) if snap.kind in rules.kinds]
+    return best([*on, *anchors], at, reach)

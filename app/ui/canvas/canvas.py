@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from PySide6.QtCore import QRectF
@@ -15,16 +16,21 @@ from app.edit.sample import Box, union
 from app.model.curves import Point
 from app.model.finding import Finding
 from app.model.moves import Program
+from app.model.notes import Note
 from app.model.part import Entity
 from app.ui.canvas import overlay
 from app.ui.canvas.around_picture import AroundPicture
-from app.ui.canvas.curve_path import curve_path
-from app.ui.canvas.describe import describe_entity
+from app.ui.canvas.curve_path import MANY, curve_path
+from app.ui.canvas.describe import describe_entity, describe_note
 from app.ui.canvas.grid import cells_shown, paint_origin, paint_paper, paint_ruler_marks, paint_rulers
+from app.ui.canvas.gripping import GRIP_PX, CarryTool, PullTool
 from app.ui.canvas.hands import PICK_PX, Hands
 from app.ui.canvas.modes import CanvasMode, CanvasTool, ColourBy, PathLayers
+from app.ui.canvas.notes_picture import paint_note
 from app.ui.canvas.program_hover import describe, nearest_move
 from app.ui.canvas.program_picture import PathLook, ProgramPicture, shown_purposes
+from app.ui.canvas.snap_marks import paint_snap
+from app.ui.canvas.view import View
 from app.ui.theme import Theme
 
 __all__ = ["Canvas", "CanvasMode", "CanvasTool", "ColourBy", "Frame", "PathLayers"]
@@ -59,7 +65,7 @@ class Canvas(Hands):
         self.around = AroundPicture()
         self._trial = Difference()
         self._findings: tuple[Finding, ...] = ()
-        self._lit: int | Entity | None = None
+        self._lit: int | Entity | Note | None = None
         self._lit_path = QPainterPath()
         self._fresh = True
         self.setMinimumSize(200, 150)
@@ -140,20 +146,44 @@ class Canvas(Hands):
         scale = min(self.area.width(), self.area.height()) / _CLOSE_MM if closely else 0.0
         self.glide_to(replace(self.view, scale=max(self.view.scale, scale)).centred((x, y), self.area))
 
-    def paint_scene(self, painter: QPainter, area: QRectF) -> None:
-        """Paint paper, paths and part within a screen rectangle."""
-        theme = self._look.theme
+    @property
+    def heavy(self) -> bool:
+        """Whether so much is in view that painting it may take longer than a frame."""
+        return self._many * self.devicePixelRatioF() > MANY
+
+    @property
+    def _many(self) -> int:
+        """How many elements of paths are in view."""
+        box = self.view.world_box(self.area)
+        program = self._shown_program
+        return self.picture.count(box) + (program.count(box, self._look.layers) if program is not None else 0)
+
+    @property
+    def _shown_program(self) -> ProgramPicture | None:
+        return self._program if self._mode is CanvasMode.PATHS else None
+
+    def scene_steps(self, painter: QPainter, area: QRectF) -> Iterator[None]:
+        """Paint paper, paths and part within a screen rectangle, with pauses."""
+        look, program, whole = self._look, self._shown_program, self.view.world_box(self.area)
+        theme = look.theme
         box = self.view.world_box(area.adjusted(-_BLEED_PX, -_BLEED_PX, _BLEED_PX, _BLEED_PX))
-        paint_paper(painter, self.view, area, self.frame, theme)
-        program = self._program if self._mode is CanvasMode.PATHS else None
+        self.paint_ground(painter, area)
         if program is not None:
-            program.paint(painter, self.view, box, replace(self._look, theme=theme.faint(_STALE)) if self._look.stale else self._look)
-        if program is None or PathLayers.CLAMP in self._look.layers:
+            fine = program.count(whole, look.layers) > MANY
+            shown = replace(look, theme=theme.faint(_STALE) if look.stale else theme, fine=fine)
+            yield from program.steps(painter, self.view, box, shown)
+        if program is None or PathLayers.CLAMP in look.layers:
             self.around.paint_clamps(painter, self.view, box, theme)
-        if program is None or PathLayers.PART in self._look.layers:
+        if program is None or PathLayers.PART in look.layers:
+            self.picture.fine = self.picture.count(whole) > MANY
             self.around.paint_copies(painter, self.view, self.picture, (box, theme))
-            self.picture.paint(painter, self.view, box, theme)
+            yield
+            yield from self.picture.steps(painter, self.view, box, theme)
         paint_origin(painter, self.view, theme)
+
+    def paint_ground(self, painter: QPainter, area: QRectF) -> None:
+        """Paint the paper."""
+        paint_paper(painter, self.view, area, self.frame, self._look.theme)
 
     def paint_margins(self, painter: QPainter) -> None:
         """Paint the rulers."""
@@ -163,10 +193,14 @@ class Canvas(Hands):
         """Paint what follows the mouse."""
         theme = self._look.theme
         painter.setClipRect(self.area)
-        if self._lit is not None:
+        if isinstance(self._lit, Note):
+            paint_note(painter, self.view, self._lit, (theme.accent_text, 2.2), self.area)
+        elif self._lit is not None:
             overlay.paint_highlight(painter, self.view, self._lit_path, (theme.accent, theme.accent_text))
         overlay.paint_findings(painter, self.view, self._findings, theme)
         overlay.paint_trial(painter, self.view, self._trial, theme)
+        if self._mode is CanvasMode.DRAW:
+            overlay.paint_grips(painter, self.view, self.grips.points, self._grip_under, theme)
         if self.runner.tool is not None:
             self._paint_tool(painter)
         self._paint_marks(painter)
@@ -191,23 +225,28 @@ class Canvas(Hands):
         if self._fresh:
             self._show_all()
 
-    def _under(self, point: Point) -> int | Entity | None:
+    def _under(self, point: Point) -> int | Entity | Note | None:
         """Return what lies under the mouse: the number of a move, or an entity."""
         reach = PICK_PX / self.view.scale
         if self._mode is CanvasMode.PATHS and self._program is not None:
             move = nearest_move(self._program.shapes, point, reach, shown_purposes(self._look.layers))
             if move is not None:
                 return move
-        return self.picture.nearest(point, reach)
+        found = self.candidates()
+        return found[self.turns.at(self.mouse) % len(found)] if found and self.mouse is not None else None
 
-    def _path_of(self, lit: int | Entity | None) -> QPainterPath:
+    def _path_of(self, lit: int | Entity | Note | None) -> QPainterPath:
         if isinstance(lit, Entity):
             return curve_path(lit.curve)
+        if isinstance(lit, Note):
+            return QPainterPath()
         return self._program.shapes.piece_path(lit) if lit is not None and self._program is not None else QPainterPath()
 
-    def _words_for(self, lit: int | Entity | None) -> str:
+    def _words_for(self, lit: int | Entity | Note | None) -> str:
         if isinstance(lit, Entity):
             return describe_entity(lit)
+        if isinstance(lit, Note):
+            return describe_note(lit)
         return describe(self._program.shapes, lit, self.document.job) if lit is not None and self._program is not None else ""
 
     def _paint_marks(self, painter: QPainter) -> None:
@@ -219,25 +258,51 @@ class Canvas(Hands):
         tool, theme = self.runner.tool, self._look.theme
         if tool is None or self.aim is None or self.mouse is None:
             return
-        preview = tool.preview(self.aim.point)
+        overlay.paint_tracking(painter, self.view, (self.aim.tracked, self.aiming.acquired), self.area, theme)
+        if isinstance(tool, CarryTool):
+            for _ in self.picture.selected_steps(painter, self._carried_view(tool, self.aim.point), theme.accent, self.area):
+                pass
+        preview = self.runner.preview(self.aim.point)
+        overlay.paint_trial(painter, self.view, preview.trial, theme)
         overlay.paint_preview(painter, self.view, preview, theme)
         overlay.paint_points(painter, self.view, [*tool.points[:1], *tool.points[-1:]], theme)
         if self.aim.snap is not None:
-            overlay.paint_snap(painter, self.view, self.aim.snap, theme)
+            paint_snap(painter, self.view, self.aim.snap, theme)
         base = self.view.to_screen(tool.base) if tool.base is not None else None
         place = overlay.LabelPlace(self.mouse, base, self.area)
-        overlay.paint_label(painter, [preview.label, overlay.snap_name(self.aim.snap)], place, theme)
+        overlay.paint_label(painter, [preview.label, self.aim.word], place, theme)
+
+    def _carried_view(self, tool: CarryTool, to: Point) -> View:
+        """Return the view that shows the selection where it is carried to."""
+        dx, dy = tool.shift(to)
+        return self.view.panned(dx * self.view.scale, -dy * self.view.scale)
+
+    @property
+    def _grip_under(self) -> Point | None:
+        """The grip under the mouse, or in hand."""
+        if isinstance(self.runner.tool, PullTool):
+            return self.runner.tool.base
+        if self.mouse is None or self.runner.tool is not None or self.banding:
+            return None
+        return self.grips.at(self.view.to_world(self.mouse), GRIP_PX / self.view.scale)
 
     def _follow(self, change: Change) -> None:
+        places: list[Box] | None = []
         if Change.PART in change:
-            self.picture.update(self.document.part)
+            places = self.picture.update(self.document.part)
             self.look_at(None)
             self.runner.after_undo()
-        if change & (Change.PART | Change.JOB) and self.around.update(self.document.job):
-            self.repaint_scene()
+            self._aim_again()
+        around = bool(change & (Change.PART | Change.JOB)) and self.around.update(self.document.job)
         if change & (Change.PART | Change.SELECTION):
-            self.picture.select(self.document.selection)
+            selected = self.picture.select(self.document.selection)
+            self.grips.update(self.document)
+            places = places + selected if places is not None and selected is not None else None
+        finer = (self.picture.count(self.view.world_box(self.area)) > MANY) != self.picture.fine
+        if around or places is None or finer or self.document.job.copies.shifts[1:]:
             self.repaint_scene()
+        elif places:
+            self.repaint_places(places, _BLEED_PX)
         if Change.LOADED in change:
             self._fresh = True
             self._show_all()

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPen, QPolygonF
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPen
 
 from app.edit.difference import Difference
+from app.model.curves import Point
 from app.model.finding import Finding
 from app.ui.canvas.curve_path import curve_path
 from app.ui.canvas.drawing_tool import Preview
+from app.ui.canvas.notes_picture import paint_notes
 from app.ui.canvas.pens import screen_pen
-from app.ui.canvas.snap import Snap, SnapKind
+from app.ui.canvas.track import Acquired, Tracked
 from app.ui.canvas.view import View
 from app.ui.theme import Theme, text_font
 
-_SNAP_NAMES = {SnapKind.END: "End", SnapKind.MIDDLE: "Middle", SnapKind.CENTRE: "Centre", SnapKind.QUADRANT: "Quadrant", SnapKind.GRID: ""}
+_GRIP_HALF = 3.5
 _LABEL_GAP = 16.0
 
 
@@ -36,6 +39,7 @@ def paint_preview(painter: QPainter, view: View, preview: Preview, theme: Theme)
 
 def paint_trial(painter: QPainter, view: View, trial: Difference, theme: Theme) -> None:
     """Paint what a command would make: what comes in the accent, what goes dashed over it in the colour of errors."""
+    paint_notes(painter, view, trial.notes, (theme.accent, 1.4), QRectF(painter.viewport()))
     if not (trial.added or trial.gone):
         return
     painter.save()
@@ -56,24 +60,28 @@ def paint_points(painter: QPainter, view: View, points: list[tuple[float, float]
         painter.drawEllipse(view.to_screen(point), 3.0, 3.0)
 
 
-def paint_snap(painter: QPainter, view: View, snap: Snap, theme: Theme) -> None:
-    """Paint the mark of a snap: square end, triangle middle, circle centre, diamond quadrant, cross grid."""
-    at = view.to_screen(snap.point)
-    x, y, r = at.x(), at.y(), 5.5
-    painter.setPen(QPen(theme.accent_text, 1.8))
-    painter.setBrush(Qt.BrushStyle.NoBrush)
-    if snap.kind is SnapKind.END:
-        painter.drawRect(QRectF(x - r + 0.5, y - r + 0.5, 2 * r - 1, 2 * r - 1))
-    elif snap.kind is SnapKind.MIDDLE:
-        painter.drawPolygon(QPolygonF([QPointF(x - r, y + r * 0.8), QPointF(x + r, y + r * 0.8), QPointF(x, y - r)]))
-    elif snap.kind is SnapKind.CENTRE:
-        painter.drawEllipse(at, r, r)
-    elif snap.kind is SnapKind.QUADRANT:
-        painter.drawPolygon(QPolygonF([QPointF(x - r, y), QPointF(x, y - r), QPointF(x + r, y), QPointF(x, y + r)]))
-    else:
-        painter.setPen(QPen(theme.muted, 1.2))
-        painter.drawLine(QPointF(x - 4, y), QPointF(x + 4, y))
-        painter.drawLine(QPointF(x, y - 4), QPointF(x, y + 4))
+def paint_grips(painter: QPainter, view: View, points: Sequence[Point], hot: Point | None, theme: Theme) -> None:
+    """Paint small squares to pull at; the hot one is full."""
+    painter.setPen(QPen(theme.accent_text, 1.2))
+    for point in points:
+        painter.setBrush(theme.accent if point == hot else theme.canvas)
+        at = view.to_screen(point)
+        painter.drawRect(QRectF(at.x() - _GRIP_HALF, at.y() - _GRIP_HALF, 2 * _GRIP_HALF, 2 * _GRIP_HALF))
+
+
+def paint_tracking(painter: QPainter, view: View, what: tuple[Tracked | None, Sequence[Acquired]], area: QRectF, theme: Theme) -> None:
+    """Paint the rays that draw the mouse, dotted from edge to edge, and small crosses at the points that were rested on."""
+    tracked, acquired = what
+    painter.setPen(screen_pen(painter, theme.accent_text, 1.2))
+    for known in acquired:
+        at = view.to_screen(known.point)
+        painter.drawLine(at + QPointF(-4, 0), at + QPointF(4, 0))
+        painter.drawLine(at + QPointF(0, -4), at + QPointF(0, 4))
+    painter.setPen(screen_pen(painter, theme.accent_text, 1.0, (1.0, 4.0)))
+    reach = (area.width() + area.height()) / view.scale
+    for ray in tracked.rays if tracked is not None else ():
+        along, _ = ray.seen_from(view.to_world(area.center()))
+        painter.drawLine(view.to_screen(ray.start), view.to_screen(ray.at(max(along, 0.0) + reach)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,8 +169,3 @@ def paint_place(painter: QPainter, at: QPointF, colour: QColor, width: float = 1
     painter.drawEllipse(at, 8.0, 8.0)
     for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         painter.drawLine(QPointF(at.x() + 5 * dx, at.y() + 5 * dy), QPointF(at.x() + 11 * dx, at.y() + 11 * dy))
-
-
-def snap_name(snap: Snap | None) -> str:
-    """Return the word for a snap, or ""."""
-    return _SNAP_NAMES[snap.kind] if snap else ""

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 
-from app.edit.sample import Box, sample
-from app.model.curves import Curve, Point
+from app.edit.sample import Box
+from app.model.curves import Curve, Line, Point
+from app.model.notes import Note
 from app.model.part import Entity, Part
-from app.ui.canvas.chunks import PartChunks
+from app.ui.canvas.chunks import Chunk, PartChunks
 from app.ui.canvas.curve_path import MANY, curve_path
+from app.ui.canvas.near_snaps import distance_to
+from app.ui.canvas.notes_picture import NotesPicture, note_distance, paint_notes
 from app.ui.canvas.pens import FINE, screen_pen
+from app.ui.canvas.snap import Snap
 from app.ui.canvas.view import View
 from app.ui.theme import Theme
 
-PART_WIDTH, SELECTED_WIDTH = 1.25, 2.6
+PART_WIDTH, SELECTED_WIDTH, SELECTED_NOTE_WIDTH = 1.25, 2.6, 1.8
 _BATCH = 64
 
 
@@ -24,71 +30,121 @@ class PartPicture:
 
     Attributes:
         lookup: its chunks, boxes and snap points.
+        notes: its points, construction lines and dimensions.
+        fine: whether curves are painted with pens of one px; that is decided for all that is in view.
     """
 
     def __init__(self) -> None:
         """Begin with an empty drawing."""
-        self.lookup = PartChunks()
+        self.lookup, self.notes = PartChunks(), NotesPicture()
+        self.fine = False
         self._colours: dict[str, str] = {}
         self._locked: frozenset[str] = frozenset()
         self._selected: list[QPainterPath] = []
+        self._selected_boxes: list[Box] = []
+        self._selected_notes: tuple[Note, ...] = ()
 
-    def update(self, part: Part) -> None:
-        """Take over another part."""
-        self.lookup.update(part)
-        self._colours = {layer.name: layer.colour for layer in part.layers}
+    def update(self, part: Part) -> list[Box] | None:
+        """Take over another part; return the boxes in mm of what looks otherwise than before, None for everything."""
+        changed = self.lookup.update(part)
+        colours, notes = {layer.name: layer.colour for layer in part.layers}, self.notes.notes
+        self.notes.update(part)
+        same, self._colours = colours == self._colours and notes == self.notes.notes, colours
         self._locked = frozenset(layer.name for layer in part.layers if layer.locked)
+        return changed if same else None
 
-    def select(self, ids: frozenset[int]) -> None:
-        """Take over another selection."""
-        chosen = [e for e in self.lookup.entities if e.id in ids] if ids else []
+    def select(self, ids: frozenset[int]) -> list[Box] | None:
+        """Take over another selection; return the boxes in mm of what is or was selected, None for everything."""
+        rows = [row for row, entity in enumerate(self.lookup.entities) if entity.id in ids] if ids else []
+        chosen = [self.lookup.entities[row] for row in rows]
         self._selected = [curve_path(*(e.curve for e in chosen[at:at + _BATCH])) for at in range(0, len(chosen), _BATCH)]
+        before, self._selected_boxes = self._selected_boxes, [_box(row) for row in self.lookup.boxes[rows].tolist()]
+        noted, self._selected_notes = self._selected_notes, tuple(note for note in self.notes.notes if note.id in ids)
+        return None if noted or self._selected_notes else before + self._selected_boxes
 
-    def paint(self, painter: QPainter, view: View, box: Box, theme: Theme) -> None:
-        """Paint what lies in a box in mm, and what is selected; the painter works in screen px."""
-        self.paint_curves(painter, view, box, theme)
-        painter.save()
-        painter.setTransform(view.transform(), True)
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        fine = sum(path.elementCount() for path in self._selected) > MANY
-        painter.setPen(_round_pen(painter, theme.selection, FINE if fine else SELECTED_WIDTH))
-        for path in self._selected:
-            painter.drawPath(path)
-        painter.restore()
+    def count(self, box: Box) -> int:
+        """Return how many elements of paths come into a box in mm."""
+        return sum(path.elementCount() for chunk in self._seen(box) for path in chunk.paths.values())
 
-    def paint_curves(self, painter: QPainter, view: View, box: Box, theme: Theme, *, without: tuple[str, ...] = ()) -> None:
-        """Paint what lies in a box in mm, but for some layers; the painter works in screen px."""
+    def steps(self, painter: QPainter, view: View, box: Box, theme: Theme) -> Iterator[None]:
+        """Paint what lies in a box in mm, and what is selected, with pauses; the painter works in screen px."""
+        yield from self.curve_steps(painter, view, box, theme)
+        area = QRectF(view.to_screen((box[0], box[3])), view.to_screen((box[2], box[1])))
+        self.notes.paint(painter, view, area, theme)
+        yield from self.selected_steps(painter, view, theme.selection, area)
+
+    def selected_steps(self, painter: QPainter, view: View, colour: QColor, area: QRectF) -> Iterator[None]:
+        """Paint what is selected in a rectangle of the screen, with pauses; the painter works in screen px."""
+        paint_notes(painter, view, self._selected_notes, (colour, SELECTED_NOTE_WIDTH), area)
         painter.save()
-        painter.setTransform(view.transform(), True)
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        seen = [c for c in self.lookup.chunks
-                if c.box[0] <= box[2] and c.box[2] >= box[0] and c.box[1] <= box[3] and c.box[3] >= box[1]]
-        fine = sum(path.elementCount() for c in seen for path in c.paths.values()) > MANY
-        for chunk in seen:
-            for layer, path in ((name, path) for name, path in chunk.paths.items() if name not in without):
-                painter.setPen(_round_pen(painter, QColor(self._colours.get(layer) or theme.ink), FINE if fine else PART_WIDTH))
+        try:
+            painter.setTransform(view.transform(), True)
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            fine = sum(path.elementCount() for path in self._selected) > MANY
+            painter.setPen(_round_pen(painter, colour, FINE if fine else SELECTED_WIDTH))
+            for path in self._selected:
                 painter.drawPath(path)
-        painter.restore()
+                yield
+        finally:
+            painter.restore()
 
-    def nearest(self, at: Point, reach: float) -> Entity | None:
-        """Return the entity nearest to a point within `reach` mm, not on a locked layer, or None."""
+    def curve_steps(self, painter: QPainter, view: View, box: Box, theme: Theme, *, without: tuple[str, ...] = ()) -> Iterator[None]:
+        """Paint what lies in a box in mm, but for some layers, with pauses; the painter works in screen px."""
+        painter.save()
+        try:
+            painter.setTransform(view.transform(), True)
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            for chunk in self._seen(box):
+                for layer, path in ((name, path) for name, path in chunk.paths.items() if name not in without):
+                    painter.setPen(_round_pen(painter, QColor(self._colours.get(layer) or theme.ink), FINE if self.fine else PART_WIDTH))
+                    painter.drawPath(path)
+                yield
+        finally:
+            painter.restore()
+
+    def _seen(self, box: Box) -> list[Chunk]:
+        return [c for c in self.lookup.chunks
+                if c.box[0] <= box[2] and c.box[2] >= box[0] and c.box[1] <= box[3] and c.box[3] >= box[1]]
+
+    def nearest(self, at: Point, reach: float) -> Entity | Note | None:
+        """Return what is nearest to a point within `reach` mm, not on a locked layer, or None."""
+        return next(iter(self.candidates(at, reach)), None)
+
+    def candidates(self, at: Point, reach: float) -> list[Entity | Note]:
+        """Return everything within `reach` mm of a point that is not on a locked layer, nearest first, of equals the latest drawn."""
+        found: list[tuple[float, int, Entity | Note]] = []
+        for entity in self._near(at, reach):
+            if entity.layer not in self._locked and (distance := distance_to(entity.curve, at)) <= reach:
+                found.append((distance, -entity.id, entity))
+        for note in self.notes.notes:
+            if note.layer not in self._locked and (distance := note_distance(note, at, reach)) <= reach:
+                found.append((distance, -note.id, note))
+        return [thing for _, _, thing in sorted(found, key=lambda row: row[:2])]
+
+    def near_curves(self, at: Point, reach: float) -> list[Curve]:
+        """Return the curves within `reach` mm of a point, nearest first."""
+        found = [(distance_to(e.curve, at), e.id, e.curve) for e in self._near(at, reach)]
+        return [curve for distance, _, curve in sorted(found, key=lambda row: row[:2]) if distance <= reach]
+
+    def near_guides(self, at: Point, reach: float) -> list[Line]:
+        """Return the construction lines within `reach` mm of a point."""
+        return self.notes.near_guides(at, reach)
+
+    def near_points(self, at: Point, reach: float) -> list[Snap]:
+        """Return the points to snap to within `reach` mm of a point that curves and notes have by themselves."""
+        return [*self.lookup.snaps.near(at, reach), *self.notes.near_points(at, reach)]
+
+    def _near(self, at: Point, reach: float) -> list[Entity]:
+        """Return the entities whose boxes reach near a point."""
         boxes = self.lookup.boxes
         near = ((boxes[:, 0] <= at[0] + reach) & (boxes[:, 2] >= at[0] - reach)
                 & (boxes[:, 1] <= at[1] + reach) & (boxes[:, 3] >= at[1] - reach))
-        found: tuple[float, Entity | None] = (reach, None)
-        for row in np.flatnonzero(near):
-            entity = self.lookup.entities[row]
-            if entity.layer not in self._locked and (distance := _distance(entity.curve, at)) <= found[0]:
-                found = (distance, entity)
-        return found[1]
+        return [self.lookup.entities[row] for row in np.flatnonzero(near)]
 
 
-def _distance(curve: Curve, at: Point) -> float:
-    points = sample(curve)
-    a, d = points[:-1], np.diff(points, axis=0)
-    square = np.einsum("ij,ij->i", d, d)
-    share = np.clip(np.einsum("ij,ij->i", np.asarray(at) - a, d) / np.where(square > 0, square, 1.0), 0.0, 1.0)
-    return float(np.hypot(*(a + share[:, None] * d - at).T).min())
+def _box(row: list[float]) -> Box:
+    x0, y0, x1, y1 = row
+    return (x0, y0, x1, y1)
 
 
 def _round_pen(painter: QPainter, colour: QColor, width: float) -> QPen:

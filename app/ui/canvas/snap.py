@@ -1,4 +1,4 @@
-"""Where the mouse snaps to: ends, middles, centres and quadrants of what is drawn, then the grid."""
+"""Where the mouse snaps to on curves alone: ends, middles, centres, quadrants, points; and the grid."""
 
 from __future__ import annotations
 
@@ -22,6 +22,29 @@ class SnapKind(IntEnum):
     CENTRE = 2
     QUADRANT = 3
     GRID = 4
+    NODE = 5
+    INTERSECTION = 6
+    PERPENDICULAR = 7
+    TANGENT = 8
+    NEAREST = 9
+
+
+CHOICES = (SnapKind.END, SnapKind.MIDDLE, SnapKind.CENTRE, SnapKind.QUADRANT, SnapKind.NODE, SnapKind.INTERSECTION,
+           SnapKind.PERPENDICULAR, SnapKind.TANGENT, SnapKind.NEAREST)
+"""Kinds that are switched one by one, in the order in which they are offered."""
+
+USUAL = frozenset(CHOICES) - {SnapKind.NEAREST}
+"""Kinds that are on at first: NEAREST would hold the mouse on every curve that it passes."""
+
+SNAP_WORDS = {"end": SnapKind.END, "mid": SnapKind.MIDDLE, "cen": SnapKind.CENTRE, "qua": SnapKind.QUADRANT, "nod": SnapKind.NODE,
+              "int": SnapKind.INTERSECTION, "per": SnapKind.PERPENDICULAR, "tan": SnapKind.TANGENT, "nea": SnapKind.NEAREST}
+"""Typed while a point is asked for, each lets the next click take that kind alone."""
+
+SNAP_NAMES = {
+    SnapKind.END: "End", SnapKind.MIDDLE: "Middle", SnapKind.CENTRE: "Centre", SnapKind.QUADRANT: "Quadrant", SnapKind.GRID: "",
+    SnapKind.NODE: "Point", SnapKind.INTERSECTION: "Intersection", SnapKind.PERPENDICULAR: "Perpendicular",
+    SnapKind.TANGENT: "Tangent", SnapKind.NEAREST: "On curve",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +69,21 @@ class SnapPoints:
             return no_snap_points()
         return cls(np.concatenate([p.points for p in parts]), np.concatenate([p.kinds for p in parts]))
 
+    @classmethod
+    def of(cls, snaps: Iterable[Snap]) -> SnapPoints:
+        """Return these points as a set."""
+        listed = list(snaps)
+        if not listed:
+            return no_snap_points()
+        return cls(np.array([s.point for s in listed], np.float64), np.array([s.kind for s in listed], np.uint8))
+
+    def near(self, at: Point, reach: float) -> list[Snap]:
+        """Return the points in a square of 2 `reach` mm about a point."""
+        if not len(self.points):
+            return []
+        rows = np.flatnonzero((np.abs(self.points[:, 0] - at[0]) <= reach) & (np.abs(self.points[:, 1] - at[1]) <= reach))
+        return [Snap((float(self.points[row, 0]), float(self.points[row, 1])), SnapKind(int(self.kinds[row]))) for row in rows]
+
 
 def no_snap_points() -> SnapPoints:
     """Return the empty set."""
@@ -54,29 +92,24 @@ def no_snap_points() -> SnapPoints:
 
 def snap_points(curves: Iterable[Curve]) -> SnapPoints:
     """Return the snap points of some curves."""
-    found = [pair for curve in curves for pair in _of(curve)]
-    if not found:
-        return no_snap_points()
-    return SnapPoints(np.array([p for p, _ in found]), np.array([k for _, k in found], np.uint8))
+    return SnapPoints.of(snap for curve in curves for snap in snaps_of(curve))
 
 
-def nearest(snaps: SnapPoints, at: Point, reach: float) -> Snap | None:
-    """Return the snap point nearest to `at` within `reach` mm, or None; ends win over others that are as near within a third.
+def best(snaps: Iterable[Snap], at: Point, reach: float) -> Snap | None:
+    """Return the snap nearest to `at` within `reach` mm, or None.
+
+    Ends win over others that are as near within a third of the reach; feet and tangent points give way by as much, and
+    the nearest point of a curve to everything.
 
     Args:
         at: where the mouse is, mm.
         reach: largest distance, mm.
     """
-    if not len(snaps.points):
-        return None
-    distance = np.hypot(snaps.points[:, 0] - at[0], snaps.points[:, 1] - at[1])
-    best = int(np.argmin(np.where(snaps.kinds == SnapKind.END, distance - reach / 3, distance)))
-    if distance[best] > reach:
-        best = int(np.argmin(distance))
-    if distance[best] > reach:
-        return None
-    x, y = snaps.points[best]
-    return Snap((float(x), float(y)), SnapKind(int(snaps.kinds[best])))
+    within = [snap for snap in snaps if math.dist(snap.point, at) <= reach]
+    return min(within, key=lambda s: math.dist(s.point, at) + _HANDICAP.get(s.kind, 0.0) * reach, default=None)
+
+
+_HANDICAP = {SnapKind.END: -1 / 3, SnapKind.PERPENDICULAR: 1 / 3, SnapKind.TANGENT: 1 / 3, SnapKind.NEAREST: 2.0}
 
 
 def to_grid(at: Point, step: float) -> Point:
@@ -85,17 +118,25 @@ def to_grid(at: Point, step: float) -> Point:
     return (round(round(at[0] / step) * step, digits) + 0.0, round(round(at[1] / step) * step, digits) + 0.0)
 
 
-def _of(curve: Curve) -> list[tuple[Point, SnapKind]]:
+def snaps_of(curve: Curve) -> list[Snap]:
+    """Return the snap points of one curve."""
     if isinstance(curve, Circle):
-        return [(curve.centre, SnapKind.CENTRE), *((p, SnapKind.QUADRANT) for p in quadrants(curve))]
-    found = [(curve.start, SnapKind.END), (curve.end, SnapKind.END)]
+        return [Snap(curve.centre, SnapKind.CENTRE), *(Snap(p, SnapKind.QUADRANT) for p in quadrants(curve))]
+    found = [Snap(p, SnapKind.END) for p in dict.fromkeys((curve.start, curve.end))]
     if isinstance(curve, Line):
-        found.append((((curve.start[0] + curve.end[0]) / 2, (curve.start[1] + curve.end[1]) / 2), SnapKind.MIDDLE))
+        found.append(Snap(((curve.start[0] + curve.end[0]) / 2, (curve.start[1] + curve.end[1]) / 2), SnapKind.MIDDLE))
     elif isinstance(curve, Arc):
         turn = curve.start_angle + curve.sweep / 2
         (x, y), r = curve.centre, curve.radius
-        found += [(curve.centre, SnapKind.CENTRE), ((x + r * math.cos(turn), y + r * math.sin(turn)), SnapKind.MIDDLE)]
-        found += [(p, SnapKind.QUADRANT) for p in quadrants(curve)]
+        found += [Snap(curve.centre, SnapKind.CENTRE), Snap((x + r * math.cos(turn), y + r * math.sin(turn)), SnapKind.MIDDLE)]
+        found += [Snap(p, SnapKind.QUADRANT) for p in quadrants(curve)]
     elif isinstance(curve, Ellipse):
-        found.append((curve.centre, SnapKind.CENTRE))
+        found += [Snap(curve.centre, SnapKind.CENTRE), *(Snap(p, SnapKind.QUADRANT) for p in _axis_ends(curve))]
     return found
+
+
+def _axis_ends(curve: Ellipse) -> list[Point]:
+    """Return the ends of an ellipse's axes that lie on it."""
+    span = curve.end_parameter - curve.start_parameter
+    quarters = (k * math.pi / 2 for k in range(4))
+    return [curve.at(t) for t in quarters if (t - curve.start_parameter) % math.tau <= span]
