@@ -51,6 +51,7 @@ class Settings:
         window_geometry, window_state: opaque text of the window tool-kit, or "".
         last_folder: folder of the last file dialog, or "".
         phosphor: of the 1986 session's tube.
+        backups: the version of a project before the one that is saved is kept.
         language: "system" follows the desktop.
         shortcuts: keys that the user changed, each as "action=key". recent_commands: names of the palette, the latest first.
         tour: "" until the tour was seen or skipped.
@@ -62,6 +63,7 @@ class Settings:
     window_state: str = ""
     last_folder: str = ""
     phosphor: Phosphor = Phosphor.GREEN
+    backups: bool = True
     language: Language = Language.SYSTEM
     shortcuts: tuple[str, ...] = ()
     recent_commands: tuple[str, ...] = ()
@@ -77,6 +79,12 @@ class Settings:
 def config_folder() -> Path:
     """Return the folder of the settings file: HITOFUDE_CONFIG if that is set, else the platform's own place."""
     return Path(os.environ.get("HITOFUDE_CONFIG") or platformdirs.user_config_dir("hitofude"))
+
+
+def state_folder() -> Path:
+    """Return the folder of what outlives a crash: in HITOFUDE_CONFIG if that is set, else the platform's own place."""
+    own = os.environ.get("HITOFUDE_CONFIG")
+    return Path(own, "state") if own else Path(platformdirs.user_state_dir("hitofude"))
 
 
 def load_settings() -> Settings:
@@ -96,7 +104,7 @@ def _checked(name: str, value: object) -> Any:
         return next((choice for choice in type(default) if choice.value == value), default)
     if isinstance(default, tuple):
         return tuple(item for item in value if isinstance(item, str)) if isinstance(value, list) else default
-    return value if isinstance(value, str) else default
+    return value if type(value) is type(default) else default
 
 
 def save_settings(settings: Settings) -> None:

@@ -1,4 +1,4 @@
-"""New, Open, Export, Close: what they ask above the canvas, and what they leave in the log."""
+"""New, Open, Save, Export, Close: what they ask above the canvas, and what they leave in the log."""
 
 from __future__ import annotations
 
@@ -11,8 +11,10 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
 from app.files.drawing import SUFFIXES
+from app.files.project import Look
 from app.model.part import Part, Units
 from app.ui import opening as opening_files
+from app.ui.canvas.view import View as CanvasView
 from app.ui.exporting import FILTER, Exporting
 from app.ui.figures import counted, grouped
 from app.ui.log import Log
@@ -21,6 +23,7 @@ from app.ui.memory import remember
 from app.ui.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
 from app.ui.nc.reading import is_program
 from app.ui.opening import Opened, Opening
+from app.ui.saving import Saving
 from app.ui.showing import Showing
 from app.ui.views import View
 from app.workflow.bitmap_options import PICTURES, is_picture
@@ -46,9 +49,10 @@ class Files(QObject):
         super().__init__(window)
         self._window, self._showing, self._log = window, showing, log
         self._document, self._computation = window.document, window.computation
-        self._gives_up = False
+        self._given_up: object = None
         self._open_program, self._open_picture = open_others.program, open_others.picture
         self.opening = Opening(window.document, window.worker)
+        self.saving = Saving(window, showing, log)
         self.exporting = Exporting(window.computation, window.notice, self._choose_nc_file)
         window.dropped.connect(lambda path: self.open_file(Path(path)))
         window.closing.connect(self._on_closing)
@@ -59,7 +63,9 @@ class Files(QObject):
 
     @property
     def _would_lose(self) -> bool:
-        return self._document.modified and bool(self._document.part.entities)
+        document = self._document
+        drawn = document.part.entities or document.part.notes or document.path
+        return document.modified and bool(drawn) and document.state is not self._given_up
 
     def ask_new(self) -> None:
         """Begin an empty drawing, after asking when changes would be lost."""
@@ -101,9 +107,17 @@ class Files(QObject):
         menu = self._window.actions_.recent
         menu.clear()
         for name in self._window.settings.recent_files:
-            menu.addAction(name, partial(self.open_file, Path(name)))
+            if Path(name).is_file():
+                menu.addAction(name.replace("&", "&&"), partial(self.open_file, Path(name)))
         if menu.isEmpty():
             menu.addAction("Nothing was opened yet").setEnabled(False)
+        else:
+            menu.addSeparator()
+            menu.addAction("Clear this list", self._forget_recent)
+
+    def _forget_recent(self) -> None:
+        self._window.settings = replace(self._window.settings, recent_files=())
+        remember(self._window)
 
     def _choose_nc_file(self, ending: str) -> Path | None:
         stem = self._document.path.stem if self._document.path else self._document.part.name
@@ -112,22 +126,26 @@ class Files(QObject):
         return Path(name) if name else None
 
     def _leave_drawing(self, what: str, act: Callable[[], None]) -> None:
+        self.leave(f"{what}?", act)
+
+    def leave(self, question: str, act: Callable[[], None]) -> None:
+        """Do what ends the work on this drawing, after asking when changes would be lost."""
         if not self._would_lose:
             act()
             return
-        self._window.notice.ask(f"{what}? The changes to this drawing are in no file and will be lost.",
-                                [("Give up the changes", act), ("Keep drawing", lambda: None)])
+        self._window.notice.ask(f"{question} The changes to this drawing are in no file.", [
+            ("Save", lambda: self.saving.save(lambda: self.leave(question, act))),
+            ("Give up the changes", act), ("Keep drawing", lambda: None)], stays=True)
 
     def _on_closing(self) -> None:
-        self._window.may_close = self._gives_up or not self._would_lose
+        self._window.may_close = not self._would_lose
         if self._window.may_close:
             remember(self._window)
         else:
-            self._window.notice.ask("Close? The changes to this drawing are in no file and will be lost.",
-                                    [("Close", self._close_anyway), ("Keep drawing", lambda: None)])
+            self.leave("Close?", self._close_anyway)
 
     def _close_anyway(self) -> None:
-        self._gives_up = True
+        self._given_up = self._document.state
         self._window.close()
 
     def _on_written(self, paths: list[Path], lines: int) -> None:
@@ -139,9 +157,13 @@ class Files(QObject):
         window = self._window
         if opened.path != opening_files.sample_path():
             window.settings = window.settings.with_recent_file(opened.path)
+        self.saving.known = opened.stamp
         self._computation.forget(opened.drawing.findings)
         self._log.note(f"open {opened.path.name}", self._opened_sentence(opened))
         window.notice.hide()
+        if opened.project is not None:
+            self.look(opened.project.look)
+            return
         self._showing.show_view(View.DRAW)
         if opened.path == opening_files.sample_path():
             self._computation.start()
@@ -151,6 +173,16 @@ class Files(QObject):
             self._ask_units(opened)
         window.lay_out_now()
         window.canvas.fit()
+
+    def look(self, look: Look) -> None:
+        """Look at the drawing as a project file says."""
+        canvas = self._window.canvas
+        self._showing.show_view(next((view for view in View if view.value == look.shown), View.DRAW))
+        self._window.lay_out_now()
+        if look.centre is None:
+            canvas.fit()
+        else:
+            canvas.set_view(CanvasView(look.scale).zoomed(1.0, canvas.area.center()).centred(look.centre, canvas.area))
 
     def _opened_sentence(self, opened: Opened) -> str:
         size = opened.size or (0.0, 0.0)

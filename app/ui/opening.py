@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
 from app.edit.document import Document
+from app.edit.recorded import Recorded
 from app.edit.sample import bounds, union
 from app.errors import InputError
 from app.model.job import Job
@@ -19,6 +20,8 @@ from app.ui.worker import Answer, Worker
 
 if TYPE_CHECKING:
     from app.files.drawing import Drawing
+    from app.files.project import Project
+    from app.files.project_files import Stamp
 
 
 @dataclass(frozen=True)
@@ -29,6 +32,7 @@ class Opened:
         path: the file. drawing: what it holds. job: the job to work on, with the tools that were there before.
         units: what the user said its units are; None when he was not asked.
         size: width and height, mm.
+        project: what a project file holds beside its job; None for a drawing. stamp: of that file.
     """
 
     path: Path
@@ -36,6 +40,8 @@ class Opened:
     job: Job
     units: Units | None = None
     size: tuple[float, float] | None = None
+    project: Project | None = None
+    stamp: Stamp | None = None
 
 
 def size_of(part: Part, without: tuple[str, ...] = ()) -> tuple[float, float] | None:
@@ -55,6 +61,8 @@ def _read(path: Path, units: Units | None, before: Job, progress: Progress) -> O
     from app.workflow.options import MakeOptions
 
     progress.step(0.05, f"Reading {path.name}")
+    if path.suffix.lower() == ".hito":
+        return _read_project(path)
     try:
         data = path.read_bytes()
     except OSError as error:
@@ -63,6 +71,17 @@ def _read(path: Path, units: Units | None, before: Job, progress: Progress) -> O
     progress.step(0.9, f"Reading {path.name}")
     job = job_from_drawing(drawing, MakeOptions(job=before, units=units))
     return Opened(path, drawing, job, units, size_of(job.part))
+
+
+def _read_project(path: Path) -> Opened:
+    from app.files.drawing import Drawing
+    from app.files.project_files import load_project
+
+    project, stamp = load_project(path)
+    part = replace(project.state.job.part, name=path.stem)
+    job = replace(project.state.job, part=part)
+    project = replace(project, state=replace(project.state, job=job, recorded=Recorded(part)))
+    return Opened(path, Drawing(part), job, None, size_of(part, job.keep_out_layers), project, stamp)
 
 
 class Opening(QObject):
@@ -87,7 +106,7 @@ class Opening(QObject):
         """Read a drawing; the document changes only when it has been read whole.
 
         Args:
-            path: a DXF file.
+            path: a drawing or a project.
             units: of a drawing that names none; None = not asked yet.
         """
         before = self._document.job
@@ -100,7 +119,10 @@ class Opening(QObject):
             self.failed.emit(f"The drawing was changed while {answer.value.path.name} was being read, so it was kept. Open the file again.")
             return
         self.read.emit(answer.value)
-        self._document.load(answer.value.job, answer.value.path)
+        if answer.value.project is not None:
+            self._document.load_state(answer.value.project.state, answer.value.path)
+        else:
+            self._document.load(answer.value.job, answer.value.path)
         self.opened.emit(answer.value)
 
     def _on_failed(self, answer: Answer) -> None:

@@ -128,7 +128,7 @@ class Showing(QObject):
         name = document.path.name if document.path else document.part.name
         self._window.file_label.setText(f"{name}{' *' if document.modified else ''}")
         self._window.menuBar().setCornerWidget(self._window.file_label)
-        self._window.setWindowTitle(f"{name} - Hitofude")
+        self._window.setWindowTitle(f"{name}{' *' if document.modified else ''} - Hitofude")
         for action, what, verb in (("undo", document.undo_name, "&Undo"), ("redo", document.redo_name, "&Redo")):
             text = f"{verb} {what[0].lower()}{what[1:]}" if what else verb
             actions[action].setText(text)

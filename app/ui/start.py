@@ -10,7 +10,7 @@ from importlib import import_module
 from pathlib import Path
 from types import TracebackType
 
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QApplication
 
 from app.edit.document import Document
@@ -57,6 +57,15 @@ def _tell_mistake(window: MainWindow, kind: type[BaseException], fault: BaseExce
     window.notice.ask(f"The program made a mistake here ({kind.__name__}: {fault}). Your drawing is safe; please report this.", error=True)
 
 
+def _begin(wiring: Wiring, path: Path | None) -> None:
+    """Open a file, and then offer what a crash has left; without a file offer that, or else open the sample part."""
+    if path is None:
+        wiring.recovering.offer(wiring.files.open_sample)
+        return
+    wiring.files.opening.opened.connect(lambda _: wiring.recovering.offer(), Qt.ConnectionType.SingleShotConnection)
+    wiring.files.open_file(path)
+
+
 def start(path: Path | None = None) -> int:
     """Open the window with a drawing, or with the sample part, and stay until it is closed.
 
@@ -72,7 +81,7 @@ def start(path: Path | None = None) -> int:
     sys.excepthook = partial(_tell_mistake, window)
     window.show()
     warmer = warm_up(window)
-    QTimer.singleShot(0, lambda: wiring.files.open_file(path) if path is not None else wiring.files.open_sample())
+    QTimer.singleShot(0, partial(_begin, wiring, path))
     status = application.exec()
     warmer.finish()
     return status

@@ -17,6 +17,7 @@ from app.ui.advising import Advising
 from app.ui.canvas.modes import CanvasTool
 from app.ui.cut.cutting import Cutting
 from app.ui.cut.saving import CutSaving
+from app.ui.drawing_export import DrawingExport
 from app.ui.engaging import Engaging
 from app.ui.figures import counted
 from app.ui.files import Files, Openers
@@ -33,6 +34,7 @@ from app.ui.palette import Palette
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.tool_exchange import ToolExchange
 from app.ui.plot.plotting import Plotting
+from app.ui.recovering import Recovering
 from app.ui.session1986.opening import SessionOpening
 from app.ui.shortcuts import Shortcuts
 from app.ui.showing import Showing
@@ -48,7 +50,8 @@ TOOLS = {
     "tool_rectangle": CanvasTool.RECTANGLE,
 }
 WORDS = {
-    "compute": "compute", "cancel": "cancel", "fit": "fit", "export": "export", "new": "new", "open": "open", "findings": "findings",
+    "compute": "compute", "cancel": "cancel", "fit": "fit", "export": "export", "new": "new", "open": "open",
+    "findings": "findings", "save": "save",
     "line": "tool_line", "li": "tool_line", "polyline": "tool_polyline", "pl": "tool_polyline", "arc": "tool_arc_centre",
     "ar": "tool_arc_centre", "circle": "tool_circle", "ci": "tool_circle", "rect": "tool_rectangle", "re": "tool_rectangle",
 }
@@ -72,6 +75,9 @@ class Wiring(QObject):
         window.cut_panel.line_wanted.connect(self._go_to_motion)
         self.picturing = Picturing(window, self.log)
         self.files = Files(window, self.showing, self.log, Openers(self.nc.open, self.picturing.open))
+        self.drawing_export = DrawingExport(window, self.log)
+        self.drawing_export.failed.connect(self._say_error)
+        self.recovering = Recovering(window, self.showing, self.files, self.log)
         self.tools = ToolExchange(window, self.log)
         self.tabbing = Tabbing(window)
         self.advising = Advising(window)
@@ -102,6 +108,10 @@ class Wiring(QObject):
         self._on("new", files.ask_new)
         self._on("open", files.choose_file)
         self._on("sample", files.ask_sample)
+        self._on("save", files.saving.save)
+        self._on("save_as", files.saving.save_as)
+        self._on("save_copy", files.saving.save_copy)
+        files.saving.failed.connect(self._say_error)
         self._on("export", files.exporting.start)
         self._on("frame", files.exporting.start_frame)
         self._on("quit", self.window_.close)
