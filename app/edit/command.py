@@ -150,7 +150,10 @@ class Rework:
         part, entities, fresh = session.part, list[Entity](), session.part.next_id()
         layers = {e.id: e.layer for e in part.entities}
         for entity in part.entities:
-            for number, curve in enumerate(self.pieces.get(entity.id, (entity.curve,))):
+            if entity.id not in self.pieces:
+                entities.append(entity)
+                continue
+            for number, curve in enumerate(self.pieces[entity.id]):
                 entities.append(replace(entity, id=entity.id if number == 0 else fresh, curve=curve))
                 fresh += number > 0
         entities += [Entity(fresh + number, curve, layers[near]) for number, (near, curve) in enumerate(self.added)]

@@ -26,10 +26,12 @@ def difference(before: Part, after: Part) -> Difference:
     """Return what a part has become; entities that are the same object in both cost next to nothing."""
     if before is after:
         return Difference()
-    old, new = {e.id: e for e in before.entities}, {e.id: e for e in after.entities}
+    kept = set(map(id, before.entities)) & set(map(id, after.entities))
+    gone, added = ([e for e in part.entities if id(e) not in kept] for part in (before, after))
+    old, new = {e.id: e for e in gone}, {e.id: e for e in added}
     notes = {note.id: note for note in before.notes}
     return Difference(
-        tuple(e for e in after.entities if (was := old.get(e.id)) is not e and was != e),
-        tuple(e for e in before.entities if (now := new.get(e.id)) is not e and now != e),
+        tuple(e for e in added if old.get(e.id) != e),
+        tuple(e for e in gone if new.get(e.id) != e),
         tuple(note for note in after.notes if notes.get(note.id) != note),
     )

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable
 
 from app.edit.meet import foot, has, meets
+from app.edit.sample import Box, bounds
 from app.edit.shapes import shown
 from app.edit.split import split
 from app.errors import InputError
@@ -21,7 +22,8 @@ def trimmed(curve: Curve, at: Point, edges: Iterable[Curve]) -> tuple[Curve, ...
     Raises:
         InputError: no edge meets the curve.
     """
-    cuts = [p for edge in edges for p in meets(curve, edge)]
+    box = _grown(bounds(curve))
+    cuts = [p for edge in edges if _may_reach(edge, box) for p in meets(curve, edge)]
     pieces = split(curve, cuts)
     if len(pieces) == 1 and not _closed(curve):
         raise InputError(f"Nothing crosses the curve near {shown(at)}; draw an edge across it, or delete it.")
@@ -31,6 +33,22 @@ def trimmed(curve: Curve, at: Point, edges: Iterable[Curve]) -> tuple[Curve, ...
     pieces = split(curve, [gone.start, gone.end])  # not at the edges beyond these two
     nearest = min(pieces, key=lambda piece: math.dist(foot(piece, at), at))
     return tuple(piece for piece in pieces if piece is not nearest)
+
+
+def _grown(box: Box) -> Box:
+    return (box[0] - WELD, box[1] - WELD, box[2] + WELD, box[3] + WELD)
+
+
+def _may_reach(curve: Curve, box: Box) -> bool:
+    """Return False where a curve surely has no point in a box: quickly, for ten thousand of them."""
+    x0, y0, x1, y1 = box
+    if isinstance(curve, Line):
+        (ax, ay), (bx, by) = curve.start, curve.end
+        return not ((ax < x0 and bx < x0) or (ax > x1 and bx > x1) or (ay < y0 and by < y0) or (ay > y1 and by > y1))
+    if isinstance(curve, Arc | Circle):
+        (x, y), r = curve.centre, curve.radius
+        return x + r >= x0 and x - r <= x1 and y + r >= y0 and y - r <= y1
+    return True
 
 
 def extended(curve: Curve, at: Point, edges: Iterable[Curve]) -> Curve:

@@ -91,6 +91,7 @@ def test_what_is_shown_before_the_click_is_what_it_makes(qtbot: QtBot, job: Job)
     hand.canvas.set_tool(tool)
     for step in steps[:-1]:
         do(hand, step)
+    hand.move(2, 100)
     hand.move(*steps[-1])  # type: ignore[misc]
     hand.canvas.grab()
     assert hand.canvas.aim is not None
