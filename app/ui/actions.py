@@ -80,6 +80,7 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         Spec("log", "L&og", "F2", checkable=True),
         Spec("command", "&Command line", "Ctrl+L"),
         Spec("text", "Te&xt of the drawing", "F12"),
+        Spec("text", "Te&xt of the drawing", "F12"),
         Spec("palette", "Command palette…", "Ctrl+Shift+Space"),
         SEPARATOR,
         Spec("theme_system", "Colours of the s&ystem", group="theme", checkable=True),
@@ -187,6 +188,8 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         Spec("nc_yz", "Seen from the side: &YZ", "Alt+3"),
     )),
     ("&Help", (
+        Spec("help_language", "Shape &language"),
+        Spec("manual", "&Manual"),
         Spec("help_language", "Shape &language"),
         Spec("manual", "&Manual"),
         Spec("keys", "&Keys", "F1"),

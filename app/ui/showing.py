@@ -54,6 +54,7 @@ class Showing(QObject):
 
     Attributes:
         stages_missing: what the stages lack.
+        writing: the drawing is being written as a text, so that nothing need be said of an empty one.
     """
 
     view_changed = Signal(View)
@@ -63,7 +64,7 @@ class Showing(QObject):
         self._window = window
         self._document, self._computation = window.document, window.computation
         self.view = View.DRAW
-        self.stages_missing = NOTHING
+        self.stages_missing, self.writing = NOTHING, False
         self._layers = PathLayers.ALL
         self._shown_program: object = None
         self._empty_action = "open"
@@ -173,7 +174,7 @@ class Showing(QObject):
         if not self._document.part.entities:
             if self.view is View.NC:
                 return NO_PROGRAM
-            return NOTHING if self._window.canvas.tool is not CanvasTool.SELECT else NO_DRAWING
+            return NOTHING if self.writing or self._window.canvas.tool is not CanvasTool.SELECT else NO_DRAWING
         return {View.PATHS: NO_PATHS, View.CUT: NO_CUT, View.NC: NO_NC}.get(self.view, NOTHING)
 
     def _has_something(self) -> bool:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QObject
 
 from app.edit.document import Change
-from app.errors import HitofudeError
 from app.model.operation import OPERATION_KINDS
 from app.settings import ThemeChoice
 from app.ui.advising import Advising
@@ -24,6 +22,7 @@ from app.ui.files import Files, Openers
 from app.ui.help import show_about
 from app.ui.inspecting import Inspecting
 from app.ui.keys_window import KeysWindow
+from app.ui.language.wiring import LanguageWiring
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
 from app.ui.memory import choose_theme
@@ -80,6 +79,7 @@ class Wiring(QObject):
         self.recovering = Recovering(window, self.showing, self.files, self.log)
         self.tools = ToolExchange(window, self.log)
         self.tabbing = Tabbing(window)
+        self.language = LanguageWiring(window, self.showing)
         self.advising = Advising(window)
         self.engaging = Engaging(window)
         self.inspecting = Inspecting(window, self.showing)
@@ -227,8 +227,7 @@ class Wiring(QObject):
 
     def run(self, line: str) -> None:
         """Carry out one line of the drawing language; what is wrong with it stands in the log."""
-        with suppress(HitofudeError):
-            self.document.run(line)
+        self.language.lines.run(line)
 
     def compute(self) -> None:
         """Compute the paths and show them."""
@@ -270,7 +269,7 @@ class Wiring(QObject):
     def cancel(self) -> None:
         """Leave the running job."""
         self.staging.cancel()
-        if self.window_.worker.busy:
+        if self.language.cancel() or self.window_.worker.busy:
             self.window_.worker.cancel()
             self._say("Cancelled; nothing has changed.")
 

@@ -1,0 +1,1 @@
+"""The shape language in the window: an editor with live preview, and help on its words."""

@@ -1,0 +1,50 @@
+"""The manual: every page, a search through all of them, words of the language."""
+
+import pytest
+from PySide6.QtCore import Qt
+
+from app.resources import resource
+from app.ui.help_window import HelpWindow
+from app.ui.theme import DARK
+
+
+@pytest.fixture
+def manual(qtbot):
+    made = HelpWindow(None)
+    qtbot.addWidget(made)
+    return made
+
+
+def test_every_page_of_the_manual_can_be_read(manual) -> None:
+    manual.show_page()
+    assert manual.page == "language"
+    assert {page.name for page in manual.pages} == {path.stem for path in resource("docs").glob("*.md")}
+    for row, page in enumerate(manual.pages):
+        manual.list.setCurrentRow(row)
+        assert page.title in manual.browser.toPlainText() and not page.title.startswith("#")
+
+
+def test_search_goes_on_through_all_pages(qtbot, manual) -> None:
+    manual.show_page()
+    qtbot.keyClicks(manual.search, "preselect")
+    assert manual.page == "posts" and manual.browser.textCursor().selectedText() == "preselect"
+    first = manual.browser.textCursor().position()
+    qtbot.keyClick(manual.search, Qt.Key.Key_Return)
+    assert manual.browser.textCursor().position() != first or manual.page != "posts"
+    manual.search.selectAll()
+    qtbot.keyClicks(manual.search, "xyzzy")
+    assert manual.count.text() == "Not found"
+
+
+def test_a_word_that_is_none_is_looked_for(manual) -> None:
+    manual.show_word("trimming-nothing")
+    assert manual.search.text() == "trimming-nothing" and manual.count.text() == "Not found"
+    manual.show_word("fillet")
+    assert manual.search.text() == "" and manual.browser.textCursor().selectedText().startswith("fillet r CURVE")
+
+
+def test_the_theme_changes_the_page_in_front(manual) -> None:
+    manual.show_page()
+    before = manual.browser.document()
+    manual.set_theme(DARK)
+    assert manual.browser.document() is not before and manual.page == "language"

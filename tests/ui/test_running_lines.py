@@ -1,0 +1,81 @@
+"""Lines that take long are carried out beside the window, in order, and can be left."""
+
+import time
+
+import pytest
+
+from app.edit.document import Document
+from app.ui.running_lines import AT_ONCE_S, RunningLines
+
+LONG = "repeat 3000 as k; circle k,0 1; end"
+
+
+@pytest.fixture
+def document() -> Document:
+    return Document()
+
+
+@pytest.fixture
+def lines(document):
+    made = RunningLines(document)
+    yield made
+    made.worker.finish()
+
+
+def test_a_short_block_is_carried_out_at_once(document, lines) -> None:
+    lines.run("repeat 3 as k; circle k,0 1; end")
+    assert len(document.part.entities) == 3 and not lines.busy
+
+
+def test_a_long_block_leaves_the_window_at_once_and_is_one_step(qtbot, document, lines) -> None:
+    told = []
+    lines.ran.connect(lambda line, well: told.append((line, well)))
+    lines.run(LONG)
+    assert lines.busy and not document.part.entities and not document.log
+    qtbot.waitUntil(lambda: not lines.busy, timeout=20_000)
+    assert len(document.part.entities) == 3000 and told == [(LONG, True)]
+    assert [line.command for line in document.log] == [LONG]
+    document.undo()
+    assert not document.part.entities
+
+
+def test_lines_wait_for_the_one_on_its_way(qtbot, document, lines) -> None:
+    lines.run(LONG)
+    lines.run("circle 0,50 9")
+    lines.run("undo")
+    lines.run("circle 0,60 9")
+    assert not document.part.entities
+    qtbot.waitUntil(lambda: len(document.log) == 4, timeout=20_000)
+    assert [line.command for line in document.log] == [LONG, "circle 0,50 9", "undo", "circle 0,60 9"]
+    assert len(document.part.entities) == 3001
+
+
+def test_a_change_by_hand_meanwhile_is_kept(qtbot, document, lines) -> None:
+    lines.run(LONG)
+    document.run("line 0,0 5,5")
+    qtbot.waitUntil(lambda: len(document.part.entities) == 3001, timeout=20_000)
+    assert document.part.entities[0].curve.start == (0, 0)
+
+
+def test_cancel_leaves_everything_as_it_was(qtbot, document, lines) -> None:
+    lines.run(LONG)
+    lines.run("circle 0,0 1")
+    lines.cancel()
+    qtbot.wait(100)
+    assert not lines.busy and not document.part.entities and not document.log
+
+
+def test_a_wrong_line_is_in_the_log_wherever_it_was_tried(qtbot, document, lines) -> None:
+    lines.run("circle 0,0")
+    lines.run(LONG.replace("; end", "; if k > 2990; circle 0,0 0; end; end"))
+    qtbot.waitUntil(lambda: not lines.busy, timeout=20_000)
+    assert [line.error for line in document.log] == [True, True] and not document.part.entities
+
+
+def test_the_moment_is_short() -> None:
+    document, made = Document(), RunningLines(Document())
+    start = time.perf_counter()
+    made.run("repeat 150000; end")
+    assert made.busy and time.perf_counter() - start < 100 * AT_ONCE_S
+    made.cancel()
+    assert not document.log
