@@ -91,7 +91,8 @@ class AroundPicture:
         for dx, dy in seen:
             moved = view.panned(dx * view.scale, -dy * view.scale)
             if len(seen) <= MOST_DRAWN:
-                picture.paint_curves(painter, moved, (x0 - dx, y0 - dy, x1 - dx, y1 - dy), theme, without=self._layers)
+                for _ in picture.curve_steps(painter, moved, (x0 - dx, y0 - dy, x1 - dx, y1 - dy), theme, without=self._layers):
+                    pass
             else:
                 painter.setPen(theme.ink)
                 painter.drawRect(QRectF(moved.to_screen((around[0], around[3])), moved.to_screen((around[2], around[1]))))

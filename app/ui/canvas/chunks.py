@@ -17,6 +17,9 @@ from app.ui.canvas.snap import SnapPoints, no_snap_points, snap_points
 
 _BITS = 6
 
+_FEW = 8
+"""Changes of more chunks than these are not told one by one."""
+
 
 @dataclass(frozen=True)
 class Chunk:
@@ -54,16 +57,24 @@ class PartChunks:
         self.snaps = no_snap_points()
         self._cache: dict[int, Chunk] = {}
 
-    def update(self, part: Part) -> None:
-        """Take over another part; chunks whose entities are the same are kept."""
+    def update(self, part: Part) -> list[Box] | None:
+        """Take over another part; chunks whose entities are the same are kept.
+
+        Returns:
+            Boxes in mm of what comes, goes or changes; None when that is too much to be told.
+        """
         hidden = {layer.name for layer in part.layers if not layer.visible}
         seen = [e for e in part.entities if e.layer not in hidden] if hidden else part.entities
         groups = {key: tuple(group) for key, group in _by_number(seen)}
-        self._cache = {key: self._chunk(key, group) for key, group in groups.items()}
+        before, self._cache = self._cache, {key: self._chunk(key, group) for key, group in groups.items()}
         self.chunks = list(self._cache.values())
         self.entities = tuple(e for chunk in self.chunks for e in chunk.entities)
         self.boxes = np.concatenate([c.boxes for c in self.chunks]) if self.chunks else np.zeros((0, 4))
         self.snaps = SnapPoints.joined([c.snaps for c in self.chunks])
+        changed = [key for key in before.keys() | self._cache.keys() if before.get(key) is not self._cache.get(key)]
+        if len(changed) > _FEW:
+            return None
+        return [box for key in changed for box in _differing(before.get(key), self._cache.get(key))]
 
     @property
     def box(self) -> Box | None:
@@ -76,6 +87,12 @@ class PartChunks:
     def _chunk(self, key: int, entities: tuple[Entity, ...]) -> Chunk:
         old = self._cache.get(key)
         return old if old is not None and old.entities == entities else _built(entities)
+
+
+def _differing(a: Chunk | None, b: Chunk | None) -> list[Box]:
+    """Return the boxes of the entities that only one of two chunks has."""
+    of = [dict(zip(c.entities, c.boxes.tolist(), strict=True)) if c is not None else {} for c in (a, b)]
+    return [(x0, y0, x1, y1) for own, other in (of, of[::-1]) for entity, (x0, y0, x1, y1) in own.items() if entity not in other]
 
 
 def _by_number(entities: Iterable[Entity]) -> Iterable[tuple[int, Iterable[Entity]]]:

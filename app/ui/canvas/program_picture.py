@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -12,7 +13,7 @@ from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 
 from app.edit.sample import Box
 from app.model.moves import Program, Purpose
-from app.ui.canvas.curve_path import MANY, chain_path
+from app.ui.canvas.curve_path import chain_path
 from app.ui.canvas.engaged import colours
 from app.ui.canvas.left_picture import LeftPicture
 from app.ui.canvas.modes import ColourBy, PathLayers
@@ -40,12 +41,18 @@ _ORDER = (Purpose.LINK, Purpose.PLUNGE, Purpose.POCKET, Purpose.LEAD, Purpose.CO
 
 @dataclass(frozen=True, slots=True)
 class PathLook:
-    """How paths are shown; those that the job has outgrown are `stale`."""
+    """How paths are shown.
+
+    Attributes:
+        stale: whether the job has outgrown them.
+        fine: with pens of one px, because so many of them are in view.
+    """
 
     theme: Theme
     layers: PathLayers = PathLayers.ALL
     colour_by: ColourBy = ColourBy.TOOL
     stale: bool = False
+    fine: bool = False
 
 
 def shown_purposes(layers: PathLayers) -> frozenset[Purpose]:
@@ -82,33 +89,47 @@ class ProgramPicture:
                 chain_path(contour.primitives, path)
             self._regions[region.number] = path
 
-    def paint(self, painter: QPainter, view: View, box: Box, look: PathLook) -> None:
-        """Paint what lies in a box in mm; the painter works in screen px."""
+    def count(self, box: Box, layers: PathLayers) -> int:
+        """Return how many elements of paths come into a box in mm."""
+        return int(self._sizes[self._seen(box, layers)].sum())
+
+    def _seen(self, box: Box, layers: PathLayers) -> NDArray[np.int64]:
+        boxes = self._boxes
+        near = (boxes[:, 0] <= box[2]) & (boxes[:, 2] >= box[0]) & (boxes[:, 1] <= box[3]) & (boxes[:, 3] >= box[1])
+        return np.flatnonzero(near & (self._layers & layers.value != 0))
+
+    def steps(self, painter: QPainter, view: View, box: Box, look: PathLook) -> Iterator[None]:
+        """Paint what lies in a box in mm, with a pause after every few paths; the painter works in screen px."""
         painter.save()
-        painter.setTransform(view.transform(), True)
+        try:
+            painter.setTransform(view.transform(), True)
+            self._paint_places(painter, view, box, look)
+            yield
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            if PathLayers.RAPID in look.layers:
+                painter.setPen(screen_pen(painter, look.theme.rapid, RAPID_WIDTH, RAPID_DOTS))
+                painter.drawPath(rapids_path(self._rapids, box))
+                yield
+            for chunk in (self._chunks[k] for k in self._seen(box, look.layers)):
+                pen = self._pen(painter, chunk.style, look, look.fine)
+                if chunk.begins_at:
+                    pen.setDashOffset(chunk.begins_at * view.scale * painter.device().devicePixelRatioF() / pen.widthF())
+                painter.setPen(pen)
+                painter.drawPath(chunk.path)
+                yield
+        finally:
+            painter.restore()
+        if PathLayers.PLUNGE in look.layers:
+            paint_plunges(painter, view, self._plunges, box, (look.theme.plunge, look.theme.canvas))
+
+    def _paint_places(self, painter: QPainter, view: View, box: Box, look: PathLook) -> None:
+        """Paint regions, and what is left of them."""
         if PathLayers.REGION in look.layers:
             self._paint_regions(painter, look)
         if PathLayers.UNREACHABLE in look.layers:
             self.unreachable.paint(painter, view, box, look.theme.unreachable)
         if PathLayers.LEFT in look.layers:
             self.left.paint(painter, view, box, look.theme.left)
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        if PathLayers.RAPID in look.layers:
-            painter.setPen(screen_pen(painter, look.theme.rapid, RAPID_WIDTH, RAPID_DOTS))
-            painter.drawPath(rapids_path(self._rapids, box))
-        boxes = self._boxes
-        near = (boxes[:, 0] <= box[2]) & (boxes[:, 2] >= box[0]) & (boxes[:, 1] <= box[3]) & (boxes[:, 3] >= box[1])
-        seen = np.flatnonzero(near & (self._layers & look.layers.value != 0))
-        fine = int(self._sizes[seen].sum()) > MANY
-        for chunk in (self._chunks[k] for k in seen):
-            pen = self._pen(painter, chunk.style, look, fine)
-            if chunk.begins_at:
-                pen.setDashOffset(chunk.begins_at * view.scale * painter.device().devicePixelRatioF() / pen.widthF())
-            painter.setPen(pen)
-            painter.drawPath(chunk.path)
-        painter.restore()
-        if PathLayers.PLUNGE in look.layers:
-            paint_plunges(painter, view, self._plunges, box, (look.theme.plunge, look.theme.canvas))
 
     def _layer(self, style: PathStyle) -> PathLayers:
         """Return the layer that a path is shown on; a second pocket tool's is that of rest machining."""

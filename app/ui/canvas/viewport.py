@@ -1,21 +1,35 @@
-"""A widget on the drawing plane: zoom, pan, glide, and a picture of the scene that is painted only when it changes."""
+"""A widget on the drawing plane: zoom, pan, glide, and a picture of the scene that is painted only when it changes.
+
+A scene that takes longer than a frame is first shown as its last picture, moved and scaled, and painted anew in slices between events.
+"""
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
 from PySide6.QtCore import QEasingCurve, QPointF, QRectF, Qt, QTimer, QVariantAnimation, Signal
-from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPixmap, QResizeEvent, QWheelEvent
+from PySide6.QtGui import QHideEvent, QMouseEvent, QPainter, QPaintEvent, QPixmap, QResizeEvent, QTransform, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
 from app.edit.sample import Box
 from app.ui.canvas.grid import RULER
+from app.ui.canvas.growing import Growing
 from app.ui.canvas.view import View, fitted
 
 GLIDE_MS = 150
 _SETTLE_MS = 90
 """After this rest a shifted scene is painted anew, so that dashes meet where the strips met."""
+
+_FRAME_MS, _SLICE_MS = 10.0, 6.0
+"""A heavy scene that takes longer than the first is painted in slices of the second."""
+
+_PATCHES = 16
+"""More places than these are not repainted one by one."""
+
+_SMOOTH_PX = 4e6
+"""A widget of more px of the screen shows a scaled picture without smoothing, which takes a quarter of the time."""
 
 _NOTCH = 1.2
 _SPARE = 0.45
@@ -37,7 +51,10 @@ class Viewport(QWidget):
         self.view = View()
         self.scene_ms = 0.0
         self._scene: QPixmap | None = None
-        self._scene_view = self.view
+        self._scene_view, self._outdated = self.view, True
+        self._growing: Growing | None = None
+        self._later = QTimer(self, singleShot=True, interval=0)
+        self._later.timeout.connect(self._grow)
         self._pan_from: QPointF | None = None
         self._fitted: Box | None = None
         self.covered_right = 0.0
@@ -59,6 +76,25 @@ class Viewport(QWidget):
     def paint_scene(self, painter: QPainter, area: QRectF) -> None:
         """Paint what lies in a screen rectangle and stays while only the mouse moves."""
         raise NotImplementedError
+
+    def scene_steps(self, painter: QPainter, area: QRectF) -> Iterator[None]:
+        """Do what `paint_scene` does; at every pause others may have their turn."""
+        self.paint_scene(painter, area)
+        return iter(())
+
+    def paint_ground(self, painter: QPainter, area: QRectF) -> None:
+        """Paint what a screen rectangle shows until the scene is painted there."""
+        painter.fillRect(area, self.palette().base())
+
+    @property
+    def heavy(self) -> bool:
+        """Whether so much is in view that painting it may take longer than a frame."""
+        return False
+
+    @property
+    def sharp(self) -> bool:
+        """Whether the kept scene is what this view shows."""
+        return self._scene is not None and not self._outdated and self._scene_view == self.view
 
     def paint_margins(self, painter: QPainter) -> None:
         """Paint what stands round the drawing."""
@@ -85,17 +121,42 @@ class Viewport(QWidget):
 
     def _show(self, view: View) -> None:
         self.view = view
-        if self._scroll() is None:
-            self._scene = None
-        else:
+        if self._scroll() is not None:
             self._settle.start()
         self.update()
         self.view_changed.emit()
 
     def repaint_scene(self) -> None:
         """Paint the scene anew when the widget is next shown."""
-        self._scene = None
+        self._outdated = True
+        self._give_up()
         self.update()
+
+    def repaint_places(self, boxes: Sequence[Box] | None, margin: float) -> None:
+        """Paint anew what lies in some boxes in mm; everything where they are many or large or None.
+
+        Args:
+            margin: how far what is painted reaches beyond its box, px.
+        """
+        rects = [self._screen_rect(box, margin) for box in boxes] if boxes is not None and len(boxes) <= _PATCHES else None
+        large = rects is None or 2 * sum(r.width() * r.height() for r in rects) > self.area.width() * self.area.height()
+        if rects is None or large or not self.sharp or not self.devicePixelRatioF().is_integer():
+            self.repaint_scene()
+            return
+        for rect in rects:
+            self.paint_more(partial(self._paint_patch, rect))
+
+    def _screen_rect(self, box: Box, margin: float) -> QRectF:
+        """Return the whole px that a box in mm and a margin in px cover within the area."""
+        a, b = self.view.to_screen((box[0], box[3])), self.view.to_screen((box[2], box[1]))
+        left, top = math.floor(a.x() - margin), math.floor(a.y() - margin)
+        return QRectF(left, top, math.ceil(b.x() + margin) - left, math.ceil(b.y() + margin) - top).intersected(self.area)
+
+    def _paint_patch(self, rect: QRectF, painter: QPainter) -> None:
+        if not rect.isEmpty():
+            painter.setClipRect(rect)
+            for _ in self.scene_steps(painter, rect):
+                pass
 
     def zoom_by(self, factor: float, at: QPointF | None = None) -> None:
         """Zoom; the point under `at` (by default the middle) stays where it is."""
@@ -119,7 +180,7 @@ class Viewport(QWidget):
 
     def paint_more(self, paint: Callable[[QPainter], None]) -> None:
         """Paint more into the kept scene; nothing where it is to be painted anew anyway."""
-        if self._scene is None or self._scene_view != self.view:
+        if self._scene is None or not self.sharp:
             return
         painter = QPainter(self._scene)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -129,15 +190,22 @@ class Viewport(QWidget):
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
-        """Show the kept scene and paint over it."""
-        if self._scene is None or self._scene_view != self.view:
-            self._scene = self._painted(self._scene, self._scroll())
-            self._scene_view = self.view
+        """Show the kept scene, or the last one in its place until the new one is painted, and paint over it."""
+        if not self.sharp:
+            self._sharpen()
         painter = QPainter(self)
-        painter.drawPixmap(0, 0, self._scene)
+        if self._scene is not None and self.sharp:
+            painter.drawPixmap(0, 0, self._scene)
+        else:
+            self._paint_moved(painter)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self.paint_overlay(painter)
         painter.end()
+
+    def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 (Qt's name)
+        """Paint no more for nobody."""
+        self._give_up()
+        super().hideEvent(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Keep what was fitted fitted, or else the middle of the view in the middle."""
@@ -183,25 +251,70 @@ class Viewport(QWidget):
         shift = QPointF(self.view.ox - self._scene_view.ox, self.view.oy - self._scene_view.oy)
         whole = QPointF(round(shift.x()), round(shift.y()))
         same = self.view.scale == self._scene_view.scale and (shift - whole).manhattanLength() < 1e-6
-        return whole if self._scene is not None and same and self.devicePixelRatioF().is_integer() else None
+        kept = self._scene is not None and not self._outdated
+        return whole if kept and same and self.devicePixelRatioF().is_integer() else None
 
-    def _painted(self, old: QPixmap | None, scroll: QPointF | None) -> QPixmap:
+    def _sharpen(self) -> None:
+        """Begin to paint the scene for this view; a light one, or one that was quickly painted, is done at once."""
+        if self._growing is not None and self._growing.view == self.view:
+            return
+        self._give_up()
         ratio = self.devicePixelRatioF()
         pixmap = QPixmap(round(self.width() * ratio), round(self.height() * ratio))
         pixmap.setDevicePixelRatio(ratio)
-        begun = time.perf_counter()
-        painter = QPainter(pixmap)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        if old is not None and scroll is not None:
-            painter.drawPixmap(scroll, old)
+        self._growing = Growing(pixmap, self.view, partial(self._whole_scene, self._scroll()))
+        if self._scene is None or not self.heavy:
+            self._grow(math.inf)
+        elif self.scene_ms <= _FRAME_MS:
+            self._grow(_FRAME_MS)
+        else:
+            self._later.start()
+
+    def _grow(self, most_ms: float = _SLICE_MS) -> None:
+        """Go on with the new picture; once it is whole it is the kept one."""
+        growing = self._growing
+        if growing is None:
+            return
+        if not growing.go_on(most_ms):
+            self._later.start()
+            return
+        self._scene, self._scene_view, self._outdated, self._growing = growing.pixmap, growing.view, False, None
+        self.scene_ms = growing.ms
+        self.update()
+
+    def _give_up(self) -> None:
+        growing, self._growing = self._growing, None
+        if growing is not None:
+            growing.drop()
+
+    def _whole_scene(self, scroll: QPointF | None, painter: QPainter) -> Iterator[None]:
+        """Paint the scene with the kept one shifted where that is enough."""
+        if self._scene is not None and scroll is not None:
+            painter.drawPixmap(scroll, self._scene)
         for part in [self.area] if scroll is None else _uncovered(self.area, scroll):
             painter.setClipRect(part)
-            self.paint_scene(painter, part)
+            yield from self.scene_steps(painter, part)
         painter.setClipping(False)
         self.paint_margins(painter)
-        painter.end()
-        self.scene_ms = (time.perf_counter() - begun) * 1000
-        return pixmap
+
+    def _paint_moved(self, painter: QPainter) -> None:
+        """Paint the kept scene where this view would have it, on bare ground, and sharp margins."""
+        painter.setClipRect(self.area)
+        self.paint_ground(painter, self.area)
+        if self._scene is not None:
+            grown, old = self.view.scale / self._scene_view.scale, self._scene_view
+            painter.save()
+            painter.setTransform(QTransform(grown, 0, 0, grown, self.view.ox - grown * old.ox, self.view.oy - grown * old.oy), True)
+            ratio = self.devicePixelRatioF()
+            smooth = self.width() * self.height() * ratio * ratio < _SMOOTH_PX
+            painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, smooth)
+            size, fine = self._scene.deviceIndependentSize(), self._scene.devicePixelRatio()
+            kept = QRectF(RULER, RULER, size.width() - RULER, size.height() - RULER)
+            painter.drawPixmap(kept, self._scene, QRectF(kept.topLeft() * fine, kept.size() * fine))
+            painter.restore()
+        painter.setClipping(False)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        self.paint_margins(painter)
 
     def _glide_on(self, share: float) -> None:
         self._show(self._way[0].towards(self._way[1], float(share), self.area))
