@@ -26,12 +26,13 @@ def difference(before: Part, after: Part) -> Difference:
     """Return what a part has become; entities that are the same object in both cost next to nothing."""
     if before is after:
         return Difference()
-    kept = set(map(id, before.entities)) & set(map(id, after.entities))
-    gone, added = ([e for e in part.entities if id(e) not in kept] for part in (before, after))
+    was, now = before.entities, after.entities
+    moved = [(b, a) for b, a in zip(was, now, strict=False) if b is not a]
+    gone, added = [b for b, _ in moved] + list(was[len(now):]), [a for _, a in moved] + list(now[len(was):])
     old, new = {e.id: e for e in gone}, {e.id: e for e in added}
     notes = {note.id: note for note in before.notes}
     return Difference(
-        tuple(e for e in added if old.get(e.id) != e),
-        tuple(e for e in gone if new.get(e.id) != e),
+        tuple(e for e in added if (one := old.get(e.id)) is not e and one != e),
+        tuple(e for e in gone if (one := new.get(e.id)) is not e and one != e),
         tuple(note for note in after.notes if notes.get(note.id) != note),
     )

@@ -195,16 +195,16 @@ class Canvas(Hands):
         painter.setClipRect(self.area)
         if isinstance(self._lit, Note):
             paint_note(painter, self.view, self._lit, (theme.accent_text, 2.2), self.area)
-        elif self._lit is not None:
+        elif self._lit is not None and not self.runner.shows_change:
             overlay.paint_highlight(painter, self.view, self._lit_path, (theme.accent, theme.accent_text))
         overlay.paint_findings(painter, self.view, self._findings, theme)
         overlay.paint_trial(painter, self.view, self._trial, theme)
-        if self._mode is CanvasMode.DRAW:
+        if self._mode is CanvasMode.DRAW and self.tool is CanvasTool.SELECT:
             overlay.paint_grips(painter, self.view, self.grips.points, self._grip_under, theme)
         if self.runner.tool is not None:
             self._paint_tool(painter)
         self._paint_marks(painter)
-        if self.runner.tool is None and self.banding and self.band_from is not None and self.mouse is not None:
+        if self.banding and self.band_from is not None and self.mouse is not None:
             overlay.paint_band(painter, self.band_from, self.mouse, theme)
         painter.setClipping(False)
         if self.mouse is not None and self.area.contains(self.mouse):

@@ -38,14 +38,14 @@ def paint_preview(painter: QPainter, view: View, preview: Preview, theme: Theme)
 
 
 def paint_trial(painter: QPainter, view: View, trial: Difference, theme: Theme) -> None:
-    """Paint what a command would make: what comes in the accent, what goes dashed over it in the colour of errors."""
+    """Paint what a command would make: what comes in the accent, what goes in the colour of errors."""
     paint_notes(painter, view, trial.notes, (theme.accent, 1.4), QRectF(painter.viewport()))
     if not (trial.added or trial.gone):
         return
     painter.save()
     painter.setTransform(view.transform(), True)
     painter.setBrush(Qt.BrushStyle.NoBrush)
-    for entities, pen in ((trial.gone, screen_pen(painter, theme.error, 1.4, (3.0, 3.0))),
+    for entities, pen in ((trial.gone, screen_pen(painter, theme.error, 2.2)),
                           (trial.added, screen_pen(painter, theme.accent, 1.8))):
         painter.setPen(pen)
         painter.drawPath(curve_path(*(entity.curve for entity in entities)))

@@ -64,6 +64,11 @@ class ToolRunner:
         return self.tool is None or self.under is not None or self.tool.wants in (Want.SELECTION, Want.CURVE)
 
     @property
+    def shows_change(self) -> bool:
+        """True while the tool shows what would become of curves that are drawn."""
+        return isinstance(self.tool, AskingTool) and bool(self.preview(self.cursor).trial.gone)
+
+    @property
     def last(self) -> CanvasTool:
         """The tool that Enter begins again."""
         return self._last
