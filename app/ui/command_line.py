@@ -2,65 +2,38 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, Qt, Signal
-from PySide6.QtGui import QColor, QFontMetrics, QKeyEvent, QPainter, QPaintEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QVBoxLayout, QWidget
+import re
+from collections.abc import Callable, Sequence
 
-from app.edit.document import LogLine
+from PySide6.QtCore import QEvent, QObject, QPoint, QRect, Qt, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QToolButton, QVBoxLayout, QWidget
+
+from app.ui.completing import common_beginning
+from app.ui.labels import Elided
+from app.ui.language.blocks import depth_change
+from app.ui.language.completion import Offer, OfferList
+from app.ui.log_view import LogView
 from app.ui.theme import LIGHT, Theme, mono_font, text_font
 
-SHOWN_LINES = 3
-LINE_PX = 20
-
-
-class LogView(QWidget):
-    """The last lines of the log: commands at the left, replies at the right."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.setObjectName("logArea")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        self.setFixedHeight(SHOWN_LINES * LINE_PX + 12)
-        self._theme: Theme = LIGHT
-        self.lines: list[LogLine] = []
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
-
-    def show_lines(self, lines: list[LogLine]) -> None:
-        """Show the end of a log."""
-        self.lines = lines[-SHOWN_LINES:]
-        self.setToolTip("\n".join(f"{each.command}    {each.reply}" for each in lines[-12:]))
-        self.update()
-
-    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
-        """Draw the lines, newest at the bottom."""
-        super().paintEvent(event)
-        painter = QPainter(self)
-        middle = int(self.width() * 0.4)
-        first = 7 + (SHOWN_LINES - len(self.lines)) * LINE_PX
-        for at, line in enumerate(self.lines):
-            y = first + at * LINE_PX
-            self._text(painter, (16, y, middle - 32), line.command, mono=True, colour=self._theme.ink)
-            colour = self._theme.error if line.error else self._theme.muted
-            self._text(painter, (middle, y, self.width() - middle - 16), line.reply, mono=False, colour=colour)
-
-    def _text(self, painter: QPainter, place: tuple[int, int, int], text: str, *, mono: bool, colour: QColor) -> None:
-        x, y, width = place
-        font = mono_font() if mono else text_font()
-        painter.setFont(font)
-        painter.setPen(colour)
-        short = QFontMetrics(font).elidedText(text, Qt.TextElideMode.ElideRight, width)
-        painter.drawText(x, y, width, LINE_PX, Qt.AlignmentFlag.AlignVCenter, short)
+GOES_ON = "end closes the block, Esc gives it up"
+_PENDING_PX = 360
+_MOST_REMEMBERED_LINES = 20
+_POINT = re.compile(r"\s*[-+@(.\d][^;]*")
+Completions = Callable[[str], tuple[str, list[Offer]]]
 
 
 class CommandLine(QWidget):
-    """A log and a line to type in; Up and Down walk through what was typed before.
+    """A log and a line to type in; Up and Down walk through what was typed before, Tab completes.
+
+    Blocks such as repeat … end may be typed line by line, or pasted; they are entered whole. Pasted rows of coordinates
+    are entered one by one, for a tool that asks for points.
 
     Signals:
-        entered(text): Enter with text in the line. accepted(): Enter in the empty line. cancelled(): Escape.
+        entered(text): Enter with text in the line, or a whole block. accepted(): Enter in the empty line. cancelled(): Escape.
+
+    Attributes:
+        completions: what the end of a line could become, and how much of it there is.
     """
 
     entered = Signal(str)
@@ -71,71 +44,210 @@ class CommandLine(QWidget):
         super().__init__()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.log, self.edit = LogView(), QLineEdit()
+        self.completions: Completions = lambda line: ("", [])
         self.edit.setObjectName("commandLine")
         self.edit.setAccessibleName("Command line")
         self.edit.textChanged.connect(lambda text: self.edit.setFont(mono_font() if text else text_font()))
+        self.edit.textEdited.connect(self._on_edited)
         self.edit.installEventFilter(self)
+        self.sign, self.pending = QLabel(">"), Elided(role="muted")
+        self.options: dict[str, QToolButton] = {}
+        self.offers: OfferList | None = None
+        self._theme: Theme = LIGHT
+        self._prompt = ""
+        self._block: list[str] = []
         self._typed: list[str] = []
+        self._draft = ""
         self._at = 0
         self._lay_out()
+        self.log.recalled.connect(self.recall)
 
     def _lay_out(self) -> None:
         row = QWidget()
         row.setObjectName("commandRow")
         row.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         row.setFixedHeight(31)
-        line = QHBoxLayout(row)
+        line = self._line = QHBoxLayout(row)
         line.setContentsMargins(16, 0, 16, 0)
         line.setSpacing(8)
-        sign = QLabel(">")
-        sign.setFont(mono_font())
-        sign.setProperty("role", "prompt")
-        line.addWidget(sign)
-        line.addWidget(self.edit, 1)
+        self.sign.setFont(mono_font())
+        self.sign.setProperty("role", "prompt")
+        self.pending.setMaximumWidth(_PENDING_PX)
+        self.pending.setFont(mono_font())
+        self.pending.hide()
+        for widget, stretch in ((self.pending, 0), (self.sign, 0), (self.edit, 1)):
+            line.addWidget(widget, stretch)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addWidget(self.log)
         column.addWidget(row)
 
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme."""
+        self._theme = theme
+
     def set_prompt(self, text: str) -> None:
         """Say what is expected next."""
-        self.edit.setPlaceholderText(text)
+        self._prompt = text
+        self.edit.setPlaceholderText(GOES_ON if self._block else text)
+
+    def set_options(self, words: Sequence[str]) -> None:
+        """Offer words that the running tool takes, as buttons at the end of the line."""
+        if list(words) == list(self.options):
+            return
+        for button in self.options.values():
+            self._line.removeWidget(button)
+            button.hide()
+            button.deleteLater()
+        self.options = {word: self._option(word) for word in words}
+
+    def _option(self, word: str) -> QToolButton:
+        button = QToolButton()
+        button.setText(word)
+        button.setProperty("role", "chip")
+        button.setToolTip(f"The same as typing {word}")
+        button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        button.clicked.connect(lambda: self.entered.emit(word))
+        self._line.addWidget(button)
+        return button
 
     def begin(self, text: str) -> None:
         """Start typing, with the first character that was typed elsewhere."""
         self.edit.setFocus()
         self.edit.insert(text)
 
+    def recall(self, text: str) -> None:
+        """Put a line back, to be changed or entered again."""
+        self.edit.setText("; ".join(line.strip() for line in text.splitlines()))
+        self.edit.setFocus()
+
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
-        """Enter, Escape, Up and Down; with nothing typed, keys like Ctrl+Z are the window's."""
+        """Enter, Escape, Tab, Up and Down; with nothing typed, keys like Ctrl+Z are the window's."""
         if event.type() == QEvent.Type.ShortcutOverride and not self.edit.text():
             event.ignore()
             return True
+        if event.type() == QEvent.Type.FocusOut:
+            self._end_offers()
         if event.type() != QEvent.Type.KeyPress or not isinstance(event, QKeyEvent):
             return super().eventFilter(watched, event)
-        key = event.key()
+        return self._answer_offers(event.key()) or self._act(event.key()) or super().eventFilter(watched, event)
+
+    def _act(self, key: int) -> bool:
+        """Do what a key stands for; return whether it stands for something."""
         if key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             self._enter()
         elif key == Qt.Key.Key_Escape:
-            self.edit.clear()
-            self.cancelled.emit()
+            self._give_up()
         elif key in (Qt.Key.Key_Up, Qt.Key.Key_Down):
-            self._recall(-1 if key == Qt.Key.Key_Up else 1)
+            self._step(-1 if key == Qt.Key.Key_Up else 1)
+        elif key == Qt.Key.Key_Tab and self.edit.text():
+            self._complete()
         else:
-            return super().eventFilter(watched, event)
+            return False
         return True
+
+    def _give_up(self) -> None:
+        self._set_block([])
+        self.edit.clear()
+        self.cancelled.emit()
 
     def _enter(self) -> None:
         text = self.edit.text().strip()
         self.edit.setText("")  # forgets what QLineEdit could undo, which `clear` does not
-        if not text:
+        if text or self._block:
+            self._take([text] if text else [])
+        else:
             self.accepted.emit()
-            return
-        self._typed.append(text)
-        self._at = len(self._typed)
-        self.entered.emit(text)
 
-    def _recall(self, way: int) -> None:
+    def _on_edited(self, text: str) -> None:
+        """Take what was pasted where it has several lines."""
+        if "\n" not in text:
+            return
+        self.edit.setText("")
+        lines = [line.rstrip() for line in text.splitlines() if line.strip()]
+        if not self._block and all(_POINT.fullmatch(line) for line in lines):
+            for line in lines:
+                self.entered.emit(line.strip().replace("\t", ","))
+        else:
+            self._take(lines)
+
+    def _take(self, lines: list[str]) -> None:
+        """Enter lines, together with those that wait for their end; or let them wait."""
+        block = [*self._block, *lines]
+        if sum(depth_change(line)[0] for line in block) > 0 or (block and block[-1].endswith("\\")):
+            self._set_block(block)
+            return
+        self._set_block([])
+        self._remember(block)
+        if block:
+            self.entered.emit("\n".join(block))
+
+    def _set_block(self, block: list[str]) -> None:
+        self._block = block
+        self.sign.setText("…" if block else ">")
+        self.pending.setText(" ; ".join(line.strip() for line in block))
+        self.pending.setToolTip("\n".join(block))
+        self.pending.setVisible(bool(block))
+        self.set_prompt(self._prompt)
+
+    def _remember(self, block: list[str]) -> None:
+        if any("#" in line or line.endswith("\\") for line in block):
+            self._typed += block[:_MOST_REMEMBERED_LINES]
+        elif 0 < len(block) <= _MOST_REMEMBERED_LINES:
+            self._typed.append("; ".join(line.strip() for line in block))
+        self._at = len(self._typed)
+
+    def _step(self, way: int) -> None:
+        if self._at == len(self._typed):
+            self._draft = self.edit.text()
         self._at = min(max(self._at + way, 0), len(self._typed))
-        self.edit.setText(self._typed[self._at] if self._at < len(self._typed) else "")
+        self.edit.setText(self._typed[self._at] if self._at < len(self._typed) else self._draft)
+
+    def _complete(self) -> None:
+        """Write what is certain of the word before the cursor; where there is a choice, offer it."""
+        begun, found = self.completions(self.edit.text()[:self.edit.cursorPosition()])
+        if len(found) == 1:
+            self._put(found[0].word + found[0].behind, begun)
+        elif found:
+            common = common_beginning([offer.word for offer in found])
+            if len(common) > len(begun):
+                self._put(common, begun)
+            self._show_offers(found)
+
+    def _put(self, word: str, begun: str) -> None:
+        self.edit.setSelection(self.edit.cursorPosition() - len(begun), len(begun))
+        self.edit.insert(word)
+
+    def _show_offers(self, found: list[Offer]) -> None:
+        if self.offers is None:
+            self.offers = OfferList(self.window())
+            self.offers.taken.connect(self._take_offer)
+        self.offers.set_theme(self._theme)
+        place = QRect(self.edit.mapTo(self.window(), self.edit.cursorRect().topLeft()), self.edit.cursorRect().size())
+        self.offers.show_offers(found, place.translated(QPoint(-8, 0)), self.window().rect())
+
+    def _take_offer(self, offer: Offer) -> None:
+        self._end_offers()
+        self._put(offer.word + offer.behind, self.completions(self.edit.text()[:self.edit.cursorPosition()])[0])
+
+    def _end_offers(self) -> None:
+        if self.offers is not None:
+            self.offers.hide()
+
+    def _answer_offers(self, key: int) -> bool:
+        """Let a key choose among the offers, where they are shown; return whether it was for them."""
+        if self.offers is None or self.offers.isHidden():
+            return False
+        if key in (Qt.Key.Key_Up, Qt.Key.Key_Backtab):
+            self.offers.step(-1)
+        elif key in (Qt.Key.Key_Down, Qt.Key.Key_Tab):
+            self.offers.step(1)
+        elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and self.offers.current is not None:
+            self._take_offer(self.offers.current)
+        elif key == Qt.Key.Key_Escape:
+            self._end_offers()
+        else:
+            self._end_offers()
+            return False
+        return True

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.edit.document import Change, Document, LogLine
-from app.ui.command_line import LogView
+from app.ui.log_view import LogView
 
 
 class Log:

@@ -17,6 +17,7 @@ from app.ui.cut.cutting import Cutting
 from app.ui.cut.saving import CutSaving
 from app.ui.drawing_export import DrawingExport
 from app.ui.engaging import Engaging
+from app.ui.entering import Entering
 from app.ui.figures import counted
 from app.ui.files import Files, Openers
 from app.ui.help import show_about
@@ -83,6 +84,7 @@ class Wiring(QObject):
         self.advising = Advising(window)
         self.engaging = Engaging(window)
         self.inspecting = Inspecting(window, self.showing)
+        self.entering = Entering(window)
         self.cut_saving = CutSaving(window, self.log)
         self.shortcuts, self.palette = Shortcuts(window), Palette(window, self.files.open_file)
         self.plotting = Plotting(window, self.showing, self.log)

@@ -10,6 +10,7 @@ from functools import partial
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
+from app.edit.area import enclosed_area
 from app.edit.dimension_lines import figure
 from app.edit.document import Document
 from app.edit.evaluate import number_of
@@ -36,6 +37,7 @@ TOTAL, EXTENT = "Total length", "Extent"
 _NOT_SHOWN = ("middle",)
 _FIRST_KINDS = 3
 _FARTHEST = 1e7
+_MOST_ROUND = 2_000  # curves that an area is looked for among
 _SAME = 5e-4  # numbers that are shown alike
 _UNITS = {Units.MM: "mm", Units.INCH: "inch", Units.CM: "cm", Units.M: "m", Units.FOOT: "foot", Units.MICRON: "µm"}
 
@@ -189,9 +191,11 @@ def _size(box: Box) -> str:
 def _figures(selected: Selected) -> dict[str, str]:
     """Return what there is to read of what is selected and cannot be set."""
     curves = [shape for shape in selected.shapes if isinstance(shape, Curve)]
+    area = enclosed_area(curves) if len(curves) <= _MOST_ROUND else None
+    closed = {"Area": f"{grouped(area)} mm²"} if area is not None else {}
     if len(selected.ids) == 1:
-        return _of_curve(curves[0]) if curves else _of_note(selected.shapes[0])
-    return {"Kinds": _kinds(selected)} | ({TOTAL: "", EXTENT: ""} if curves else {})
+        return (_of_curve(curves[0]) if curves else _of_note(selected.shapes[0])) | closed
+    return {"Kinds": _kinds(selected)} | ({TOTAL: "", EXTENT: ""} if curves else {}) | closed
 
 
 def _of_curve(curve: Curve) -> dict[str, str]:

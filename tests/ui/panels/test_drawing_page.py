@@ -129,6 +129,16 @@ def test_different_kinds_share_their_layer_and_their_length(page, document, qtbo
     assert last(document) == 'set layer "holes"' and {e.layer for e in document.part.entities} == {"holes"}
 
 
+def test_a_closed_contour_tells_its_area(page, document):
+    select(page, document, 3)
+    assert page.properties.figures["Area"].value.text() == "28.274 mm²"
+    document.run("rect 100,100 160,140")
+    select(page, document, 5, 6, 7, 8)
+    assert page.properties.figures["Area"].value.text() == "2\u2009400.000 mm²"
+    select(page, document, 5, 6, 7)
+    assert "Area" not in page.properties.figures
+
+
 def test_many_curves_are_added_up_while_the_window_lives(qtbot, page, document):
     document.run("spline 0,100 3,104 5,106 7,102; array 40 40 @20,20 5")
     select(page, document, *(e.id for e in document.part.entities if e.id >= 5))

@@ -1,0 +1,200 @@
+"""The command line: blocks, pasting, completion, what was typed before, the words of tools, and its log."""
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
+
+from app.edit.document import Document
+from app.ui.canvas.modes import CanvasTool
+from app.ui.command_line import GOES_ON, CommandLine
+from app.ui.completing import completions
+
+RETURN, TAB = Qt.Key.Key_Return, Qt.Key.Key_Tab
+
+
+@pytest.fixture
+def line(qtbot) -> CommandLine:
+    made = CommandLine()
+    qtbot.addWidget(made)
+    made.resize(1000, 100)
+    made.show()
+    return made
+
+
+@pytest.fixture
+def entered(line) -> list[str]:
+    got: list[str] = []
+    line.entered.connect(got.append)
+    return got
+
+
+def type_line(qtbot, line: CommandLine, text: str) -> None:
+    qtbot.keyClicks(line.edit, text)
+    qtbot.keyClick(line.edit, RETURN)
+
+
+def paste(qtbot, line: CommandLine, text: str) -> None:
+    QGuiApplication.clipboard().setText(text)
+    qtbot.keyClick(line.edit, Qt.Key.Key_V, Qt.KeyboardModifier.ControlModifier)
+
+
+def test_a_block_is_entered_when_its_last_end_is_typed(qtbot, line, entered):
+    line.set_prompt("Select")
+    for text in ("repeat 3 as k", "if k > 1", "circle 10*k,0 2"):
+        type_line(qtbot, line, text)
+    assert not entered and line.sign.text() == "…" and line.edit.placeholderText() == GOES_ON
+    assert line.pending.isVisible() and line.pending.text() == "repeat 3 as k ; if k > 1 ; circle 10*k,0 2"
+    type_line(qtbot, line, "end")
+    assert not entered
+    type_line(qtbot, line, "end")
+    assert entered == ["repeat 3 as k\nif k > 1\ncircle 10*k,0 2\nend\nend"]
+    assert line.sign.text() == ">" and not line.pending.isVisible() and line.edit.placeholderText() == "Select"
+    document = Document()
+    document.run(entered[0])
+    assert len(document.part.entities) == 1
+    qtbot.keyClick(line.edit, Qt.Key.Key_Up)
+    assert line.edit.text() == "repeat 3 as k; if k > 1; circle 10*k,0 2; end; end"
+    qtbot.keyClick(line.edit, RETURN)
+    document.run(entered[1])
+    assert len(document.part.entities) == 2
+
+
+def test_escape_gives_a_block_up_and_a_whole_block_in_a_line_is_one(qtbot, line, entered):
+    type_line(qtbot, line, "repeat 3")
+    qtbot.keyClick(line.edit, Qt.Key.Key_Escape)
+    type_line(qtbot, line, "repeat 2; circle 0,0 1; end")
+    assert entered == ["repeat 2; circle 0,0 1; end"]
+
+
+def test_an_end_in_a_remark_or_in_quotes_closes_nothing(qtbot, line, entered):
+    type_line(qtbot, line, "repeat 2 # end")
+    type_line(qtbot, line, 'layer "end"')
+    assert not entered
+    type_line(qtbot, line, "end")
+    assert len(entered) == 1
+
+
+def test_several_pasted_lines_are_a_block(qtbot, line, entered):
+    paste(qtbot, line, "let r = 5\r\ncircle 0,0 r\n\n  circle 20,0 r\n")
+    assert entered == ["let r = 5\ncircle 0,0 r\n  circle 20,0 r"] and line.edit.text() == ""
+    paste(qtbot, line, "circle 1,1 1")
+    assert line.edit.text() == "circle 1,1 1" and len(entered) == 1
+    line.edit.clear()
+    paste(qtbot, line, "repeat 2\ncircle 0,0 1\n")
+    assert len(entered) == 1 and line.sign.text() == "…"
+    type_line(qtbot, line, "end")
+    assert entered[-1] == "repeat 2\ncircle 0,0 1\nend"
+
+
+def test_pasted_rows_of_coordinates_are_points_one_by_one(qtbot, line, entered):
+    paste(qtbot, line, "0,0\n10\t5.5\n@5,0\n@3<45")
+    assert entered == ["0,0", "10,5.5", "@5,0", "@3<45"]
+
+
+def test_up_and_down_keep_what_is_being_typed(qtbot, line):
+    for text in ("circle 0,0 1", "circle 0,0 2"):
+        type_line(qtbot, line, text)
+    qtbot.keyClicks(line.edit, "rect")
+    seen = []
+    for key in (Qt.Key.Key_Up, Qt.Key.Key_Up, Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Down, Qt.Key.Key_Down):
+        qtbot.keyClick(line.edit, key)
+        seen.append(line.edit.text())
+    assert seen == ["circle 0,0 2", "circle 0,0 1", "circle 0,0 1", "circle 0,0 2", "rect", "rect"]
+
+
+def complete(qtbot, line: CommandLine, text: str) -> str:
+    line.edit.clear()
+    qtbot.keyClicks(line.edit, text)
+    qtbot.keyClick(line.edit, TAB)
+    return line.edit.text()
+
+
+@pytest.fixture
+def knowing(line) -> CommandLine:
+    document = Document()
+    document.run_script("layer holes\nlayer \"bolt holes\"\nlet width = 3\ncircle 0,0 2 as bore\ndefine washer(c)\ncircle c 3\nend")
+    line.completions = lambda text: completions(text, document)
+    return line
+
+
+def test_tab_completes_commands_names_and_layers(qtbot, knowing):
+    assert complete(qtbot, knowing, "circ") == "circle "
+    assert complete(qtbot, knowing, "was") == "washer "
+    assert complete(qtbot, knowing, "circle 0,0 wid") == "circle 0,0 width"
+    assert complete(qtbot, knowing, "layer ho") == "layer holes"
+    assert complete(qtbot, knowing, "hide bol") == 'hide "bolt holes"'
+    assert complete(qtbot, knowing, 'rename layer "bo') == 'rename layer "bolt holes"'
+    assert complete(qtbot, knowing, "set bore dia") == "set bore diameter "
+    assert complete(qtbot, knowing, "set bor") == "set bore "
+    assert complete(qtbot, knowing, "set 1 layer ho") == "set 1 layer holes"
+    assert complete(qtbot, knowing, "let w = sq") == "let w = sqrt("
+    assert complete(qtbot, knowing, "xyzzy") == "xyzzy"
+
+
+def test_where_there_is_a_choice_it_is_offered(qtbot, knowing):
+    assert complete(qtbot, knowing, "poly") == "poly"
+    words = [knowing.offers.item(at).text() for at in range(knowing.offers.count())]
+    assert "polyline" in words and "polygon" in words and knowing.offers.isVisible()
+    while knowing.offers.currentItem().text() != "polyline":
+        qtbot.keyClick(knowing.edit, TAB)
+    qtbot.keyClick(knowing.edit, RETURN)
+    assert knowing.edit.text() == "polyline " and knowing.offers.isHidden()
+    assert complete(qtbot, knowing, "pol") == "poly"
+    assert knowing.offers.isVisible()
+    qtbot.keyClick(knowing.edit, Qt.Key.Key_Escape)
+    assert knowing.offers.isHidden() and knowing.edit.text().startswith("pol")
+    complete(qtbot, knowing, "pol")
+    qtbot.keyClicks(knowing.edit, "y")
+    assert knowing.offers.isHidden()
+
+
+def test_words_of_the_tool_are_buttons(qtbot, line, entered):
+    line.set_options(("copy", "radius"))
+    qtbot.mouseClick(line.options["radius"], Qt.MouseButton.LeftButton)
+    assert entered == ["radius"]
+    line.set_options(())
+    assert not line.options
+
+
+def test_the_log_is_copied_and_put_back(qtbot, wiring):
+    log, line = wiring.window_.command_line.log, wiring.window_.command_line
+    for text in ("circle 0,0 5", "repeat 2 as k\ncircle 10*k,20 3\nend", "circle 0,0 -1"):
+        wiring.run(text)
+    assert [each.command for each in log.lines[-3:]] == ["circle 0,0 5", "repeat 2 as k\ncircle 10*k,20 3\nend", "circle 0,0 -1"]
+    last = log.model().rowCount() - 1
+    place = log.visualRect(log.model().index(last, 0)).center()
+    qtbot.mouseClick(log.viewport(), Qt.MouseButton.LeftButton, pos=place)
+    qtbot.mouseDClick(log.viewport(), Qt.MouseButton.LeftButton, pos=place)
+    assert line.edit.text() == "circle 0,0 -1" and line.edit.hasFocus()
+    log.setFocus()
+    log.setCurrentIndex(log.model().index(last - 1, 0))
+    qtbot.keyClick(log, RETURN)
+    assert line.edit.text() == "repeat 2 as k; circle 10*k,20 3; end"
+    log.selectAll()
+    qtbot.keyClick(log, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
+    assert QGuiApplication.clipboard().text().splitlines()[-5:] == [
+        "circle 0,0 5", "repeat 2 as k", "circle 10*k,20 3", "end", "circle 0,0 -1"]
+    log.copy_with_replies()
+    assert "greater than 0" in QGuiApplication.clipboard().text()
+
+
+def test_the_newest_line_of_a_long_log_is_seen(wiring):
+    log = wiring.window_.command_line.log
+    for k in range(40):
+        wiring.run(f"line 0,0 10,{k}")
+    bottom = log.visualRect(log.model().index(log.model().rowCount() - 1, 0))
+    assert log.viewport().rect().contains(bottom)
+
+
+def test_tab_leaves_an_empty_line(qtbot, wiring):
+    edit = wiring.window_.command_line.edit
+    edit.setFocus()
+    qtbot.keyClick(edit, TAB)
+    assert not edit.hasFocus()
+
+
+def test_the_words_of_the_tool_in_hand_come_and_go(wiring):
+    canvas, line = wiring.window_.canvas, wiring.window_.command_line
+    for tool in (CanvasTool.LINE, CanvasTool.CIRCLE, CanvasTool.SELECT):
+        canvas.set_tool(tool)
+        assert tuple(line.options) == (canvas.runner.tool.options if canvas.runner.tool is not None else ())
