@@ -53,8 +53,8 @@ class Viewport(QWidget):
         self._scene: QPixmap | None = None
         self._scene_view, self._outdated = self.view, True
         self._growing: Growing | None = None
-        self._later = QTimer(self, singleShot=True, interval=0)
-        self._later.timeout.connect(self._grow)
+        self._slices = QTimer(self, singleShot=True, interval=0)
+        self._slices.timeout.connect(self._grow)
         self._pan_from: QPointF | None = None
         self._fitted: Box | None = None
         self.covered_right = 0.0
@@ -268,7 +268,7 @@ class Viewport(QWidget):
         elif self.scene_ms <= _FRAME_MS:
             self._grow(_FRAME_MS)
         else:
-            self._later.start()
+            self._slices.start()
 
     def _grow(self, most_ms: float = _SLICE_MS) -> None:
         """Go on with the new picture; once it is whole it is the kept one."""
@@ -276,7 +276,7 @@ class Viewport(QWidget):
         if growing is None:
             return
         if not growing.go_on(most_ms):
-            self._later.start()
+            self._slices.start()
             return
         self._scene, self._scene_view, self._outdated, self._growing = growing.pixmap, growing.view, False, None
         self.scene_ms = growing.ms
