@@ -7,26 +7,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
-from app.edit.sample import Points, spline_points
+from app.edit.sample import Box, Points, spline_points
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 
 _ON = 1e-9
 """How far beyond the end of a curve a point still counts as on it, as a share of its size."""
 
 At = Callable[[float], tuple[float, float]]
+Chords = tuple[Points, NDArray[np.intp]]
+"""A polyline, and the numbers of its chords that count."""
 
 
-def meets(a: Curve, b: Curve, extended: bool = False) -> list[Point]:
+def meets(a: Curve, b: Curve, extended: bool = False, within: Box | None = None) -> list[Point]:
     """Return the points where two curves meet, mm; stretches that they share give none.
 
     Args:
         extended: lines go on beyond their ends, arcs round to whole circles.
+        within: x0, y0, x1, y1 in mm of where it is enough to look; ellipses and splines cost much less then.
     """
     if not (_simple(a) and _simple(b)):
-        return _refined(a, b)
+        return _refined(a, b, within)
     found = _unbounded(a, b)
     return [p for p in found if extended or (has(a, p) and has(b, p))]
 
@@ -153,28 +158,48 @@ def _parametric(curve: Curve) -> tuple[At, Points]:
     return lambda t: (x + r * math.cos(t), y + r * math.sin(t)), np.linspace(first, first + sweep, count)
 
 
-def _refined(a: Curve, b: Curve) -> list[Point]:
-    (at_a, ta), (at_b, tb) = _parametric(a), _parametric(b)
-    pa, pb = np.array([at_a(t) for t in ta]), np.array([at_b(t) for t in tb])
+def _refined(a: Curve, b: Curve, within: Box | None) -> list[Point]:
+    rows_a, rows_b = _rows(a, within), _rows(b, within)
+    if not (len(rows_a) and len(rows_b)):
+        return []
+    (at_a, ta, pa), (at_b, tb, pb) = _sampled(a), _sampled(b)
     found: list[Point] = []
-    for i, j, s, u in _crossing_chords(pa, pb):
+    for i, j, s, u in _crossing_chords((pa, rows_a), (pb, rows_b)):
         point = _newton(at_a, at_b, (ta[i] + s * (ta[i + 1] - ta[i]), tb[j] + u * (tb[j + 1] - tb[j])), (ta[0], ta[-1]), (tb[0], tb[-1]))
         if point is not None and all(math.dist(point, p) > 1e-9 * (1 + math.hypot(*point)) for p in found):
             found.append(point)
     return found
 
 
-def _crossing_chords(pa: Points, pb: Points) -> list[tuple[int, int, float, float]]:
+@lru_cache(1024)
+def _sampled(curve: Curve) -> tuple[At, Points, Points]:
+    at, parameters = _parametric(curve)
+    points = spline_points(curve, parameters) if isinstance(curve, Spline) else np.array([at(t) for t in parameters])
+    return at, parameters, points
+
+
+@lru_cache(64)
+def _rows(curve: Curve, within: Box | None) -> NDArray[np.intp]:
+    """Return the numbers of the chords of a curve's samples that reach into a box."""
+    _, _, points = _sampled(curve)
+    if within is None:
+        return np.arange(len(points) - 1)
+    low, high = np.minimum(points[:-1], points[1:]), np.maximum(points[:-1], points[1:])
+    return np.flatnonzero((low <= within[2:]).all(axis=1) & (high >= within[:2]).all(axis=1))
+
+
+def _crossing_chords(a: Chords, b: Chords) -> list[tuple[int, int, float, float]]:
     """Return which chords of two polylines cross, and where on each, with a margin for what bulges beyond its chord."""
-    u, v = np.diff(pa, axis=0)[:, None], np.diff(pb, axis=0)[None]
-    w = pb[None, :-1] - pa[:-1, None]
+    (pa, rows_a), (pb, rows_b) = a, b
+    u, v = (pa[rows_a + 1] - pa[rows_a])[:, None], (pb[rows_b + 1] - pb[rows_b])[None]
+    w = pb[None, rows_b] - pa[rows_a, None]
     cross = u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
     with np.errstate(divide="ignore", invalid="ignore"):
         s = (w[..., 0] * v[..., 1] - w[..., 1] * v[..., 0]) / cross
         t = (w[..., 0] * u[..., 1] - w[..., 1] * u[..., 0]) / cross
     margin = 0.05
-    rows, columns = np.nonzero((s >= -margin) & (s <= 1 + margin) & (t >= -margin) & (t <= 1 + margin))
-    return [(int(i), int(j), float(s[i, j]), float(t[i, j])) for i, j in zip(rows, columns, strict=True)]
+    found = np.nonzero((s >= -margin) & (s <= 1 + margin) & (t >= -margin) & (t <= 1 + margin))
+    return [(int(rows_a[i]), int(rows_b[j]), float(s[i, j]), float(t[i, j])) for i, j in zip(*found, strict=True)]
 
 
 def _newton(a: At, b: At, start: tuple[float, float], range_a: tuple[float, float], range_b: tuple[float, float]) -> Point | None:
@@ -200,8 +225,7 @@ def _newton(a: At, b: At, start: tuple[float, float], range_a: tuple[float, floa
 
 def nearest_parameter(curve: Curve, point: Point) -> float:
     """Return the parameter of the point of a curve that is nearest to a point: an angle, a share of a line, a spline's knot value."""
-    at, parameters = _parametric(curve)
-    points = np.array([at(t) for t in parameters])
+    at, parameters, points = _sampled(curve)
     best = int(np.argmin(np.hypot(*(points - point).T)))
     low, high = float(parameters[max(best - 1, 0)]), float(parameters[min(best + 1, len(parameters) - 1)])
     golden = (math.sqrt(5) - 1) / 2

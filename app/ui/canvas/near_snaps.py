@@ -11,11 +11,11 @@ from itertools import combinations
 import numpy as np
 
 from app.edit.meet import foot, has, meets, tangent_points
-from app.edit.sample import sample, spline_points
+from app.edit.sample import Box, Points, sample, spline_points
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from app.ui.canvas.snap import Snap, SnapKind, snaps_of
 
-_MOST = 12
+_MOST = 6
 """So many of the curves under the mouse are cut with one another."""
 
 
@@ -35,15 +35,20 @@ class Near:
     base: Point | None = None
     guides: Sequence[Curve] = ()
 
+    @property
+    def box(self) -> Box:
+        """x0, y0, x1, y1 of what is within reach, mm."""
+        return (self.at[0] - self.reach, self.at[1] - self.reach, self.at[0] + self.reach, self.at[1] + self.reach)
+
 
 def near_snaps(near: Near, kinds: frozenset[SnapKind]) -> list[Snap]:
     """Return the snap points of these kinds that near curves give together, or with the base."""
     found: list[Snap] = []
     curves = [*near.curves[:_MOST], *near.guides]
     if SnapKind.INTERSECTION in kinds:
-        found += (Snap(p, SnapKind.INTERSECTION) for a, b in combinations(curves, 2) for p in _meets(a, b))
+        found += (Snap(p, SnapKind.INTERSECTION) for a, b in combinations(curves, 2) for p in meets(a, b, within=near.box))
     if near.base is not None and SnapKind.PERPENDICULAR in kinds:
-        found += (Snap(p, SnapKind.PERPENDICULAR) for curve in curves for p in _feet(curve, near.base))
+        found += (Snap(p, SnapKind.PERPENDICULAR) for curve in curves if _may_stand_square(curve, near) for p in _feet(curve, near.base))
     if near.base is not None and SnapKind.TANGENT in kinds:
         found += (Snap(p, SnapKind.TANGENT) for curve in curves for p in _tangents(curve, near.base))
     if SnapKind.NEAREST in kinds:
@@ -80,14 +85,27 @@ def nearest_on(curve: Curve, at: Point) -> Point:
     return foot(curve, at)
 
 
-@lru_cache(256)
-def _samples(curve: Curve) -> np.ndarray:
+@lru_cache(4096)
+def _samples(curve: Curve) -> Points:
     return sample(curve)
 
 
-@lru_cache(1024)
-def _meets(a: Curve, b: Curve) -> tuple[Point, ...]:
-    return tuple(meets(a, b))
+def _chords(curve: Curve, near: Near) -> Points:
+    """Return the chords of a curve's samples that lie within reach: (n, 2, 2), mm."""
+    points = _samples(curve)
+    low, high = np.minimum(points[:-1], points[1:]), np.maximum(points[:-1], points[1:])
+    (x, y), r = near.at, near.reach
+    rows = np.flatnonzero((low[:, 0] <= x + r) & (high[:, 0] >= x - r) & (low[:, 1] <= y + r) & (high[:, 1] >= y - r))
+    return np.stack([points[rows], points[rows + 1]], axis=1)
+
+
+def _may_stand_square(curve: Curve, near: Near) -> bool:
+    """Return whether the way from the base to an ellipse or spline stands square on it within reach; True for other curves."""
+    if not isinstance(curve, Ellipse | Spline) or near.base is None:
+        return True
+    chords = _chords(curve, near)
+    along = np.einsum("ij,ikj->ik", chords[:, 1] - chords[:, 0], chords - near.base)
+    return bool(((along.min(axis=1) <= 0) & (along.max(axis=1) >= 0)).any())
 
 
 @lru_cache(256)
