@@ -17,11 +17,16 @@ _WITHOUT = ("select_all", "fit")
 
 
 class ContextMenu(QObject):
-    """Opens when the canvas asks for it."""
+    """Opens when the canvas asks for it.
+
+    Attributes:
+        menu: the one opened last, or None.
+    """
 
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
         self._window = window
+        self.menu: QMenu | None = None
         window.canvas.menu_wanted.connect(self.open)
 
     def open(self, at: QPoint) -> None:
@@ -30,12 +35,14 @@ class ContextMenu(QObject):
         under = canvas.candidates()
         if under and not any(thing.id in document.selection for thing in under):
             self._run(f"select {under[0].id}")
-        self.made(under[0].id if under else None).popup(at)
+        if self.menu is not None:
+            self.menu.deleteLater()
+        self.menu = self.made(under[0].id if under else None)
+        self.menu.popup(at)
 
     def made(self, under: int | None) -> QMenu:
         """Return the menu; `under` is the number of what lies under the mouse."""
         menu = QMenu(self._window)
-        menu.aboutToHide.connect(menu.deleteLater)
         again = self._window.actions_[f"tool_{self._window.canvas.runner.last.value}"]
         menu.addAction(self._named(menu, f"Repeat {again.text().split(chr(9))[0].replace('&', '')}", again))
         menu.addSeparator()

@@ -6,12 +6,14 @@ import pytest
 
 from app.edit.document import Document
 from app.model.curves import Arc, Circle, Curve, Line
+from app.model.part import Part
 from app.ui.canvas.aim import AimRules, aim, rounded
 from app.ui.canvas.chain_tools import LineTool, PolylineTool
 from app.ui.canvas.modes import CanvasTool
+from app.ui.canvas.part_picture import PartPicture
 from app.ui.canvas.round_tools import ArcCentreTool, CircleTool
 from app.ui.canvas.running import ToolRunner
-from app.ui.canvas.snap import SnapKind, no_snap_points, snap_points
+from app.ui.canvas.snap import SnapKind
 from app.ui.canvas.tools import TOOLS, RectangleTool
 
 PLACES = {
@@ -143,9 +145,11 @@ def test_points_of_the_drawing_win_over_straight_and_grid() -> None:
     tool = LineTool()
     tool.add((0.0, 0.0))
     rules = AimRules(snap=True, grid=True, straight=True, grid_step=5.0, scale=10.0)
-    found = aim((20.4, 7.3), tool, snap_points([Line((20.0, 7.0), (30.0, 7.0))]), rules)
+    drawn, empty = PartPicture(), PartPicture()
+    drawn.update(Part().with_curves((Line((20.0, 7.0), (30.0, 7.0)),), "0"))
+    found = aim((20.4, 7.3), tool, drawn, rules)
     assert (found.point, found.snap and found.snap.kind) == ((20.0, 7.0), SnapKind.END)
-    free = aim((20.4, 7.3), tool, no_snap_points(), rules)
+    free = aim((20.4, 7.3), tool, empty, rules)
     assert free.point == (20.0, 0.0)
 
 
@@ -154,7 +158,7 @@ def test_the_chain_may_snap_to_its_own_first_point() -> None:
     for place in ((0.0, 0.0), (10.0, 0.0), (10.0, 10.0)):
         tool.add(place)
     rules = AimRules(snap=True, grid=False, straight=False, grid_step=1.0, scale=10.0)
-    assert aim((0.4, 0.4), tool, no_snap_points(), rules).point == (0.0, 0.0)
+    assert aim((0.4, 0.4), tool, PartPicture(), rules).point == (0.0, 0.0)
 
 
 def test_the_runner_carries_lines_out_and_tells_errors() -> None:
