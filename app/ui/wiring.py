@@ -13,6 +13,7 @@ from app.model.operation import OPERATION_KINDS
 from app.settings import ThemeChoice
 from app.ui.advising import Advising
 from app.ui.canvas.modes import CanvasTool
+from app.ui.context_menu import ContextMenu
 from app.ui.cut.cutting import Cutting
 from app.ui.cut.saving import CutSaving
 from app.ui.drawing_export import DrawingExport
@@ -44,16 +45,10 @@ from app.ui.tabbing import Tabbing
 from app.ui.verdict import Level, verdict
 from app.ui.views import View
 
-TOOLS = {
-    "tool_select": CanvasTool.SELECT, "tool_line": CanvasTool.LINE, "tool_polyline": CanvasTool.POLYLINE,
-    "tool_arc_centre": CanvasTool.ARC_CENTRE, "tool_arc_three": CanvasTool.ARC_THREE, "tool_circle": CanvasTool.CIRCLE,
-    "tool_rectangle": CanvasTool.RECTANGLE,
-}
+TOOLS = {f"tool_{tool.value}": tool for tool in CanvasTool}
 WORDS = {
     "compute": "compute", "cancel": "cancel", "fit": "fit", "export": "export", "new": "new", "open": "open",
     "findings": "findings", "save": "save",
-    "line": "tool_line", "li": "tool_line", "polyline": "tool_polyline", "pl": "tool_polyline", "arc": "tool_arc_centre",
-    "ar": "tool_arc_centre", "circle": "tool_circle", "ci": "tool_circle", "rect": "tool_rectangle", "re": "tool_rectangle",
 }
 
 
@@ -206,7 +201,6 @@ class Wiring(QObject):
 
     def _connect_canvas(self) -> None:
         canvas, window = self.window_.canvas, self.window_
-        names = {tool: name for name, tool in TOOLS.items()}
         for name, tool in TOOLS.items():
             self._on(name, partial(self._take_tool, tool))
         window.actions_["tool_select"].setChecked(True)
@@ -219,13 +213,23 @@ class Wiring(QObject):
         window.views.cut.cursor_moved.connect(window.status.show_place)
         canvas.message.connect(lambda text: window.status.show_message(text, error=True))
         canvas.key_typed.connect(window.command_line.begin)
-        canvas.tool_changed.connect(lambda tool: window.actions_[names[tool]].setChecked(True))
+        canvas.tool_changed.connect(self._on_tool)
+        self.context_menu = ContextMenu(window)
 
     def _take_tool(self, tool: CanvasTool) -> None:
         """Take a tool in hand, on the canvas."""
         if self.showing.view not in (View.DRAW, View.PATHS):
             self.showing.show_view(View.DRAW)
         self.window_.canvas.set_tool(tool)
+        self._on_tool(self.window_.canvas.tool)
+
+    def _on_tool(self, tool: CanvasTool) -> None:
+        """Show which tool is in hand, where it can be used."""
+        self.window_.actions_[f"tool_{tool.value}"].setChecked(True)
+        if tool is not CanvasTool.SELECT:
+            if self.showing.view not in (View.DRAW, View.PATHS):
+                self.showing.show_view(View.DRAW)
+            self.window_.views.take_focus()
 
     def run(self, line: str) -> None:
         """Carry out one line of the drawing language; what is wrong with it stands in the log."""
@@ -276,7 +280,7 @@ class Wiring(QObject):
             self._say("Cancelled; nothing has changed.")
 
     def _on_entered(self, text: str) -> None:
-        name = WORDS.get(text.lower())
+        name = None if self.window_.canvas.runner.takes(text) else WORDS.get(text.lower())
         if name is not None:
             self.window_.actions_[name].trigger()
             self.window_.views.take_focus()
