@@ -7,6 +7,7 @@ import pytest
 from hypothesis import settings
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+os.environ["LC_ALL"] = "C.UTF-8"  # the window speaks English, whatever the desktop does
 
 settings.register_profile("same", derandomize=True)
 settings.load_profile(os.environ.get("HITOFUDE_HYPOTHESIS", "same"))

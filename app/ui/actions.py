@@ -190,6 +190,7 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         Spec("help_language", "Shape &language"),
         Spec("manual", "&Manual"),
         Spec("keys", "&Keys", "F1"),
+        Spec("tour", "&Tour"),
         Spec("session_1986", "A 1986 &session"),
         Spec("about", "&About Hitofude"),
     )),

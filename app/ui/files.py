@@ -168,7 +168,8 @@ class Files(QObject):
         if opened.path == opening_files.sample_path():
             self._computation.start()
             self._showing.show_view(View.PATHS)
-            window.notice.ask(FIRST_START, [("Draw your own", self.ask_new)])
+            tour = [] if window.settings.tour else [("Show me round", window.actions_["tour"].trigger)]
+            window.notice.ask(FIRST_START, [*tour, ("Draw your own", self.ask_new)])
         elif not opened.drawing.units_named:
             self._ask_units(opened)
         window.lay_out_now()

@@ -108,6 +108,7 @@ QProgressBar { background: $hairline; border: 0; border-radius: 2px; }
 QProgressBar::chunk { background: $accent; border-radius: 2px; }
 QWidget#notice { background: $notice; border-bottom: 1px solid $hairline; }
 QWidget#notice[error="true"] { background: $notice_error; }
+QFrame#ring { border: 2px solid $accent; border-radius: 6px; background: transparent; }
 QFrame#findings, QFrame#palette, QFrame#callout { background: $raised; border: 1px solid $edge; border-radius: 4px; }
 QWidget[row="true"] { background: transparent; }
 QWidget[row="true"]:hover { background: $hover; }

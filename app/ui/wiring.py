@@ -42,6 +42,8 @@ from app.ui.showing import Showing
 from app.ui.stages.picturing import Picturing
 from app.ui.stages.staging import Staging
 from app.ui.tabbing import Tabbing
+from app.ui.tour import Tour
+from app.ui.translation import Translating
 from app.ui.verdict import Level, verdict
 from app.ui.views import View
 
@@ -93,6 +95,7 @@ class Wiring(QObject):
         self._connect_canvas()
         self._nc_wiring = NcWiring(window, self.nc, self.showing)
         self.nc.failed.connect(self._say_error)
+        self.tour, self.translating = Tour(window), Translating(window)
         self._unsubscribe = self.document.subscribe(self.showing.refresh)
         self.showing.show_view(View.DRAW)
         self.showing.refresh(Change.ALL)

@@ -51,7 +51,7 @@ def pdf_subpaths(data: bytes) -> list[list[tuple[float, float]]]:
 
 @pytest.fixture
 def plotted(qtbot, wiring):
-    wiring.run("line 20,20 120,20")
+    wiring.document.run("line 20,20 120,20")
     wiring.window_.actions_["plot"].trigger()
     settle(qtbot, wiring)
     return wiring
@@ -87,7 +87,7 @@ def test_a_view_leaves_the_paper(plotted) -> None:
 def test_the_sheets_follow_the_drawing_and_the_fields(qtbot, plotted) -> None:
     panel = plotted.window_.plot_panel
     assert panel.told.text().startswith("2.69 : 1 on 1 sheet")
-    plotted.run("line 0,0 0,300")
+    plotted.document.run("line 0,0 0,300")
     settle(qtbot, plotted)
     assert panel.told.text().startswith("1 : 1.77 on 1 sheet")
     choose_scale(qtbot, plotted, "1:1")
@@ -167,7 +167,7 @@ def test_paths_are_offered_once_they_are_computed(qtbot, computed) -> None:
     panel.paths.switch.click()
     settle(qtbot, computed)
     assert len(computed.plotting.ready.sheets[0].drawing.strokes) > before
-    computed.run("line 0,0 10,10")
+    computed.document.run("line 0,0 10,10")
     settle(qtbot, computed)
     assert not panel.paths.switch.isEnabled()
 
