@@ -26,6 +26,13 @@ class ThemeChoice(Enum):
     DARK = "dark"
 
 
+class ShownUnits(Enum):
+    """Which units rulers and the status bar count in."""
+
+    MM = "mm"
+    INCH = "inch"
+
+
 class Phosphor(Enum):
     """Which light the 1986 session's tube gives."""
 
@@ -51,6 +58,7 @@ class Settings:
         window_geometry, window_state: opaque text of the window tool-kit, or "".
         last_folder: folder of the last file dialog, or "".
         phosphor: of the 1986 session's tube.
+        units: of rulers and status bar.
         backups: the version of a project before the one that is saved is kept.
         language: "system" follows the desktop.
         shortcuts: keys that the user changed, each as "action=key". recent_commands: names of the palette, the latest first.
@@ -63,6 +71,7 @@ class Settings:
     window_state: str = ""
     last_folder: str = ""
     phosphor: Phosphor = Phosphor.GREEN
+    units: ShownUnits = ShownUnits.MM
     backups: bool = True
     language: Language = Language.SYSTEM
     shortcuts: tuple[str, ...] = ()

@@ -33,6 +33,8 @@ class StatusBar(QWidget):
         self.setFixedHeight(34)
         self.place_x, self.place_y = QLabel(), QLabel()
         self.snap, self.ortho, self.grid = (self._toggle(text) for text in ("Snap", "Ortho", "Grid"))
+        self.unit, self._size, self._shown = muted("mm"), 1.0, (0.0, 0.0, "XY")
+        self._step = 0.0
         self.message = Elided(role="muted")
         self.message.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.bar, self.step = QProgressBar(), muted()
@@ -58,7 +60,7 @@ class StatusBar(QWidget):
         for label in (self.place_x, self.place_y):
             label.setFixedWidth(label.fontMetrics().horizontalAdvance("X -999.999"))
             row.addWidget(label)
-        row.addWidget(muted("mm"))
+        row.addWidget(self.unit)
         row.addSpacing(4)
         row.addWidget(_separator())
         for button in (self.snap, self.ortho, self.grid):
@@ -74,12 +76,25 @@ class StatusBar(QWidget):
 
     def show_place(self, x: float, y: float, axes: str = "XY") -> None:
         """Show where the mouse is, mm, to the right and up, along which axes."""
-        self.place_x.setText(f"{axes[0]} {x:.3f}")
-        self.place_y.setText(f"{axes[1]} {y:.3f}")
+        self._shown = (x, y, axes)
+        self.place_x.setText(f"{axes[0]} {self._figure(x)}")
+        self.place_y.setText(f"{axes[1]} {self._figure(y)}")
 
     def show_grid(self, step: float) -> None:
         """Show the grid's step at this zoom, mm."""
-        self.grid.setText(f"Grid {step:.3f}")
+        self._step = step
+        self.grid.setText(f"Grid {self._figure(step)}")
+
+    def set_unit(self, size: float, name: str) -> None:
+        """Show lengths in a unit of so many mm; the finer figures of larger ones have a digit more."""
+        self._size = size
+        self.unit.setText(name)
+        self.show_place(*self._shown)
+        if self._step:
+            self.show_grid(self._step)
+
+    def _figure(self, value: float) -> str:
+        return f"{value / self._size:.{3 if self._size == 1 else 4}f}"
 
     def show_message(self, text: str, error: bool = False) -> None:
         """Show one sentence; the whole of it is in the tool tip."""

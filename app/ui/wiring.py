@@ -42,6 +42,7 @@ from app.ui.showing import Showing
 from app.ui.stages.picturing import Picturing
 from app.ui.stages.staging import Staging
 from app.ui.tabbing import Tabbing
+from app.ui.unit_choice import UnitChoice
 from app.ui.tour import Tour
 from app.ui.translation import Translating
 from app.ui.verdict import Level, verdict
@@ -76,7 +77,7 @@ class Wiring(QObject):
         self.drawing_export.failed.connect(self._say_error)
         self.recovering = Recovering(window, self.showing, self.files, self.log)
         self.tools = ToolExchange(window, self.log)
-        self.tabbing = Tabbing(window)
+        self.tabbing, self.unit_choice = Tabbing(window), UnitChoice(window)
         self.language = LanguageWiring(window, self.showing)
         self.advising = Advising(window)
         self.engaging = Engaging(window)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -22,7 +23,7 @@ from app.ui.canvas import overlay
 from app.ui.canvas.around_picture import AroundPicture
 from app.ui.canvas.curve_path import MANY, curve_path
 from app.ui.canvas.describe import describe_entity, describe_note
-from app.ui.canvas.grid import cells_shown, paint_origin, paint_paper, paint_ruler_marks, paint_rulers
+from app.ui.canvas.grid import cells_shown, paint_display, paint_origin, paint_paper, paint_ruler_marks, paint_rulers
 from app.ui.canvas.gripping import GRIP_PX, CarryTool, PullTool
 from app.ui.canvas.hands import PICK_PX, Hands
 from app.ui.canvas.modes import CanvasMode, CanvasTool, ColourBy, PathLayers
@@ -183,11 +184,12 @@ class Canvas(Hands):
 
     def paint_ground(self, painter: QPainter, area: QRectF) -> None:
         """Paint the paper."""
-        paint_paper(painter, self.view, area, self.frame, self._look.theme)
+        paint_paper(painter, self.view, area, self._look.theme, self.unit)
+        paint_display(painter, self.view, area, self.frame, self._look.theme)
 
     def paint_margins(self, painter: QPainter) -> None:
         """Paint the rulers."""
-        paint_rulers(painter, self.view, self.width(), self.height(), self._look.theme)
+        paint_rulers(painter, self.view, self.size(), self._look.theme, self.unit)
 
     def paint_overlay(self, painter: QPainter) -> None:
         """Paint what follows the mouse."""
@@ -270,7 +272,8 @@ class Canvas(Hands):
             paint_snap(painter, self.view, self.aim.snap, theme)
         base = self.view.to_screen(tool.base) if tool.base is not None else None
         place = overlay.LabelPlace(self.mouse, base, self.area)
-        overlay.paint_label(painter, [preview.label, self.aim.word], place, theme)
+        far = math.dist(tool.base, self.aim.point) / self.unit if tool.base is not None and self.unit != 1.0 else 0.0
+        overlay.paint_label(painter, [preview.label, f"{far:.4f} in from the last point" if far else "", self.aim.word], place, theme)
 
     def _carried_view(self, tool: CarryTool, to: Point) -> View:
         """Return the view that shows the selection where it is carried to."""

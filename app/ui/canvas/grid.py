@@ -5,24 +5,30 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
+from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
 
 from app.bitmap.frame import Frame
 from app.ui.canvas.view import View, nice_step
+from app.ui.figures import TIMES
 from app.ui.theme import Theme, text_font
 
 RULER = 24
 CELL_PX = 6.0
 _MAJOR_PX = 100.0
 _FONT_PX = 11
+_CORNER_PX = 12.0
 
 
-def grid_steps(view: View) -> tuple[float, float]:
-    """Return the distance of fine and of bold grid lines, mm: bold ones at least 100 px apart."""
-    major = nice_step(_MAJOR_PX / view.scale)
+def grid_steps(view: View, unit: float = 1.0) -> tuple[float, float]:
+    """Return the distance of fine and of bold grid lines, mm: bold ones at least 100 px apart.
+
+    Args:
+        unit: size of the unit in which they are round numbers, mm.
+    """
+    major = nice_step(_MAJOR_PX / (view.scale * unit))
     parts = 4 if round(major / 10 ** math.floor(math.log10(major) + 1e-9)) == 2 else 5
-    return major / parts, major
+    return major / parts * unit, major * unit
 
 
 def cells_shown(view: View, frame: Frame) -> bool:
@@ -30,25 +36,38 @@ def cells_shown(view: View, frame: Frame) -> bool:
     return frame.pitch * view.scale >= CELL_PX
 
 
-def paint_paper(painter: QPainter, view: View, area: QRectF, frame: Frame | None, theme: Theme) -> None:
-    """Paint ground, raster, and the display's cells and frame where there is one, within a screen rectangle."""
+def paint_paper(painter: QPainter, view: View, area: QRectF, theme: Theme, unit: float = 1.0) -> None:
+    """Paint ground and raster within a screen rectangle; the raster's steps are round in a unit of so many mm."""
     painter.fillRect(area, theme.canvas)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-    minor, major = grid_steps(view)
+    minor, major = grid_steps(view, unit)
     _paint_raster(painter, view, area, minor, theme.grid)
     _paint_raster(painter, view, area, major, theme.grid_major)
-    if frame is not None:
-        _paint_frame(painter, view, area, frame, theme)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
 
 
-def _paint_frame(painter: QPainter, view: View, area: QRectF, frame: Frame, theme: Theme) -> None:
+def paint_display(painter: QPainter, view: View, area: QRectF, frame: Frame, theme: Theme) -> None:
+    """Paint the display's cells when they are near, marks at its corners and its name: it is no stock, so it has no outline."""
     x0, y0, x1, y1 = frame.extent
     outline = QRectF(view.to_screen((x0, y1)), view.to_screen((x1, y0)))
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
     if cells_shown(view, frame):
         _paint_cells(painter, view, outline.intersected(area), frame, theme)
-    painter.setPen(_line(theme.hairline.darker(112) if theme.canvas.lightness() > 128 else theme.hairline.lighter(130)))
-    painter.drawRect(_within(outline, area))
+    mark = min(_CORNER_PX, outline.width() / 4, outline.height() / 4)
+    painter.setPen(_line(theme.muted))
+    near = area.adjusted(-_CORNER_PX, -_CORNER_PX, _CORNER_PX, _CORNER_PX)
+    for x, inwards in ((outline.left(), mark), (outline.right(), -mark)):
+        for y, down in ((outline.top(), mark), (outline.bottom(), -mark)):
+            if near.contains(x, y):
+                corner = QPointF(_px(x), _px(y))
+                painter.drawLine(corner, corner + QPointF(inwards, 0))
+                painter.drawLine(corner, corner + QPointF(0, down))
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+    painter.setFont(text_font(_FONT_PX))
+    name = f"{frame.cols} {TIMES} {frame.rows} display"
+    at = QPointF(_px(outline.left()), _px(outline.top()) - 6)
+    if QFontMetricsF(painter.font()).horizontalAdvance(name) < outline.width() and area.adjusted(-400, -40, 40, 40).contains(at):
+        painter.drawText(at, name)
 
 
 def paint_origin(painter: QPainter, view: View, theme: Theme) -> None:
@@ -64,8 +83,9 @@ def paint_origin(painter: QPainter, view: View, theme: Theme) -> None:
     painter.drawEllipse(zero, 4.0, 4.0)
 
 
-def paint_rulers(painter: QPainter, view: View, width: float, height: float, theme: Theme) -> None:
-    """Paint the rulers along the top and the left of a widget, 24 px each."""
+def paint_rulers(painter: QPainter, view: View, size: QSize, theme: Theme, unit: float = 1.0) -> None:
+    """Paint the rulers along the top and the left of a widget, 24 px each, in a unit of so many mm."""
+    width, height = float(size.width()), float(size.height())
     painter.fillRect(QRectF(0, 0, width, RULER), theme.paper)
     painter.fillRect(QRectF(0, 0, RULER, height), theme.paper)
     painter.setFont(text_font(_FONT_PX))
@@ -73,13 +93,13 @@ def paint_rulers(painter: QPainter, view: View, width: float, height: float, the
     painter.setPen(_line(theme.hairline))
     painter.drawLine(QLineF(RULER, RULER - 1, width, RULER - 1))
     painter.drawLine(QLineF(RULER - 1, RULER, RULER - 1, height))
-    minor, major = grid_steps(view)
+    minor, major = grid_steps(view, unit)
     tick = QColor(theme.muted)
     tick.setAlphaF(0.6)
     for value in _multiples((RULER - view.ox) / view.scale, (width - view.ox) / view.scale, minor):
-        _top_mark(painter, _px(view.ox + value * view.scale), _text_at(value, major), (tick, theme.muted))
+        _top_mark(painter, _px(view.ox + value * view.scale), _text_at(value / unit, major / unit), (tick, theme.muted))
     for value in _multiples((view.oy - height) / view.scale, (view.oy - RULER) / view.scale, minor):
-        _left_mark(painter, _px(view.oy - value * view.scale), _text_at(value, major), (tick, theme.muted))
+        _left_mark(painter, _px(view.oy - value * view.scale), _text_at(value / unit, major / unit), (tick, theme.muted))
     painter.fillRect(QRectF(0, 0, RULER, RULER), theme.paper)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
 
@@ -151,11 +171,6 @@ def _paint_cells(painter: QPainter, view: View, part: QRectF, frame: Frame, them
 
 def _multiples(first: float, last: float, step: float) -> Iterator[float]:
     return (k * step for k in range(math.ceil(first / step), math.floor(last / step) + 1))
-
-
-def _within(outline: QRectF, area: QRectF) -> QRectF:
-    """Return the outline cut to a little more than the area, so that huge frames stay paintable."""
-    return outline.intersected(area.adjusted(-4, -4, 4, 4))
 
 
 def _px(position: float) -> int:

@@ -93,7 +93,7 @@ class Hands(Viewport):
     @property
     def grid_step(self) -> float:
         """Distance of the fine raster's lines, mm."""
-        return grid_steps(self.view)[0]
+        return grid_steps(self.view, self.unit)[0]
 
     @property
     def banding(self) -> bool:

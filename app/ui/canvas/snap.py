@@ -114,7 +114,7 @@ _HANDICAP = {SnapKind.END: -1 / 3, SnapKind.PERPENDICULAR: 1 / 3, SnapKind.TANGE
 
 def to_grid(at: Point, step: float) -> Point:
     """Return the grid point nearest to `at`; step in mm."""
-    digits = max(0, 2 - math.floor(math.log10(step)))
+    digits = max(0, 5 - math.floor(math.log10(step)))
     return (round(round(at[0] / step) * step, digits) + 0.0, round(round(at[1] / step) * step, digits) + 0.0)
 
 

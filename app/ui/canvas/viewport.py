@@ -40,6 +40,7 @@ class Viewport(QWidget):
 
     Attributes:
         scene_ms: how long the last painting of the scene took, ms.
+        unit: size of the unit that rulers and raster count in, mm.
         covered_right: width at the right that something is laid over, px; what is fitted is fitted beside it.
     """
 
@@ -49,7 +50,7 @@ class Viewport(QWidget):
         """Begin with 5 px per mm."""
         super().__init__(parent)
         self.view = View()
-        self.scene_ms = 0.0
+        self.scene_ms, self.unit = 0.0, 1.0
         self._scene: QPixmap | None = None
         self._scene_view, self._outdated = self.view, True
         self._growing: Growing | None = None
@@ -108,6 +109,12 @@ class Viewport(QWidget):
         """Look at the drawing this way; a shift by whole px keeps what was painted."""
         self._fitted = None
         self._show(view)
+
+    def set_unit(self, unit: float) -> None:
+        """Count in another unit, of so many mm."""
+        self.unit = unit
+        self.repaint_scene()
+        self.view_changed.emit()
 
     def fit_to(self, box: Box) -> None:
         """Show a box in mm at once, and again when the size of the widget changes, until the view is moved."""

@@ -137,7 +137,7 @@ class PathView(Viewport):
         """Paint raster and motions within a screen rectangle."""
         theme = self._how.theme
         box = self.view.world_box(area.adjusted(-_BLEED_PX, -_BLEED_PX, _BLEED_PX, _BLEED_PX))
-        paint_paper(painter, self.view, area, None, theme)
+        paint_paper(painter, self.view, area, theme, self.unit)
         if self.picture is not None:
             paint_stock(painter, self.view, self.picture.shapes.program.stock, self.picture.side, theme)
         self._rest = self._portions(box)
@@ -170,7 +170,7 @@ class PathView(Viewport):
 
     def paint_margins(self, painter: QPainter) -> None:
         """Paint the rulers."""
-        paint_rulers(painter, self.view, self.width(), self.height(), self._how.theme)
+        paint_rulers(painter, self.view, self.size(), self._how.theme, self.unit)
 
     def paint_overlay(self, painter: QPainter) -> None:
         """Paint what is lit up, what is under the mouse, and where reading ended."""

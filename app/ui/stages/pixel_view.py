@@ -142,7 +142,7 @@ class PixelView(Viewport):
 
     def paint_margins(self, painter: QPainter) -> None:
         """Paint the rulers."""
-        paint_rulers(painter, self.view, self.width(), self.height(), self._theme)
+        paint_rulers(painter, self.view, self.size(), self._theme, self.unit)
 
     def paint_overlay(self, painter: QPainter) -> None:
         """Paint fitted lines, what is lit up, marks, the key, and the pixel under the mouse."""

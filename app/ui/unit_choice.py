@@ -1,0 +1,36 @@
+"""Millimetres or inches on rulers, raster and status bar; drawings and the lines that make them stay in mm."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+
+from app.settings import ShownUnits
+from app.ui.canvas.viewport import Viewport
+from app.ui.main_window import MainWindow
+from app.ui.memory import remember
+
+SIZES = {ShownUnits.MM: 1.0, ShownUnits.INCH: 25.4}
+"""Size of each, mm."""
+
+
+class UnitChoice:
+    """Lets the user choose the units that are shown, and remembers them."""
+
+    def __init__(self, window: MainWindow) -> None:
+        """Show what was chosen the last time."""
+        self._window = window
+        for units in ShownUnits:
+            window.actions_[f"units_{units.value}"].triggered.connect(partial(self._choose, units))
+        self._show(window.settings.units)
+
+    def _choose(self, units: ShownUnits, *_: object) -> None:
+        self._window.settings = replace(self._window.settings, units=units)
+        self._show(units)
+        remember(self._window)
+
+    def _show(self, units: ShownUnits) -> None:
+        self._window.actions_[f"units_{units.value}"].setChecked(True)
+        self._window.status.set_unit(SIZES[units], {ShownUnits.MM: "mm", ShownUnits.INCH: "in"}[units])
+        for viewport in self._window.findChildren(Viewport):
+            viewport.set_unit(SIZES[units])
