@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import chain, compress
+from operator import is_not
 
 from app.edit.recorded import Recorded
 from app.edit.syntax import Define
 from app.edit.values import Value
 from app.model.curves import Curve, Point, Spline
 from app.model.job import Job
-from app.model.part import Part
+from app.model.part import Entity, Part
 
 MOST_BYTES = 256 * 2**20
 """What steps may hold together; beyond that the oldest go."""
@@ -125,9 +127,14 @@ def _unshared(one: State, other: State) -> int:
     mine, theirs = one.job.part.entities, other.job.part.entities
     if mine is theirs:
         return _STEP_BYTES
-    shared = set(map(id, theirs))
-    own = sum(_ENTITY_BYTES + _points(entity.curve) * _POINT_BYTES for entity in mine if id(entity) not in shared)
+    elsewhere = set(map(id, _moved(theirs, mine)))
+    own = sum(_ENTITY_BYTES + _points(entity.curve) * _POINT_BYTES for entity in _moved(mine, theirs) if id(entity) not in elsewhere)
     return _STEP_BYTES + _POINTER_BYTES * len(mine) + own
+
+
+def _moved(mine: tuple[Entity, ...], theirs: tuple[Entity, ...]) -> Iterator[Entity]:
+    """Yield the entities that the other drawing has not at the same place."""
+    return chain(compress(mine, map(is_not, mine, theirs)), mine[len(theirs):])
 
 
 def _points(curve: Curve) -> int:

@@ -220,21 +220,24 @@ def test_dropped_drawing_is_opened(qtbot, wiring, samples):
     assert wiring.document.path == Path(samples / "fig2.dxf")
 
 
+SAVE, GIVE_UP, KEEP = range(3)
+
+
 def test_changes_are_not_lost_without_asking(qtbot, wiring):
     wiring.document.run("circle 10,10 5")
     press(qtbot, wiring, Qt.Key.Key_N, Qt.KeyboardModifier.ControlModifier)
     notice = wiring.window_.notice
     assert len(wiring.document.part.entities) == 1
-    qtbot.mouseClick(notice.buttons[1], Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(notice.buttons[KEEP], Qt.MouseButton.LeftButton)
     assert len(wiring.document.part.entities) == 1
     assert not wiring.window_.close(), "the window closed over changes"
     assert notice.isVisible()
     press(qtbot, wiring, Qt.Key.Key_N, Qt.KeyboardModifier.ControlModifier)
-    qtbot.mouseClick(notice.buttons[0], Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(notice.buttons[GIVE_UP], Qt.MouseButton.LeftButton)
     assert wiring.document.part.entities == ()
     wiring.document.run("circle 10,10 5")
     assert not wiring.window_.close()
-    qtbot.mouseClick(notice.buttons[0], Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(notice.buttons[GIVE_UP], Qt.MouseButton.LeftButton)
     assert not wiring.window_.isVisible()
 
 
