@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMenu, QMenuBar, QWidget
 
+from app.ui.canvas.modes import CanvasTool
+from app.ui.canvas.tools import TOOLS
 from app.ui.icons import icon
 from app.ui.theme import Theme
 
@@ -31,6 +33,7 @@ class Spec:
 
 
 SEPARATOR = Spec("", "")
+_TOOLS = frozenset(f"tool_{tool.value}" for tool in (CanvasTool.SELECT, *TOOLS))
 
 MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
     ("&File", (
@@ -246,6 +249,7 @@ class Actions:
         hint = f"\t{spec.key_hint}" if spec.key_hint and not spec.key else ""
         action = QAction(spec.text + hint, window)
         action.setCheckable(spec.checkable)
+        action.setVisible(spec.group != "tool" or spec.name in _TOOLS)
         action.setIconVisibleInMenu(False)
         if spec.icon:
             self._icons[spec.name] = spec.icon

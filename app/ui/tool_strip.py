@@ -58,12 +58,13 @@ class ToolButton(QToolButton):
     """One tool, or the kind of it used last; a held or right click, a click on its corner, or Right opens the row of kinds.
 
     Attributes:
-        row: the kinds, or None where there is one.
+        names: of the kinds. row: the kinds to choose from, or None where there is one.
     """
 
     def __init__(self, actions: Actions, names: tuple[str, ...]) -> None:
         super().__init__()
         _dressed(self, actions, names[0])
+        self.names = names
         self._theme = LIGHT
         self._hold = QTimer(self, singleShot=True, interval=_HOLD_MS)
         self._hold.timeout.connect(self.open)
@@ -136,11 +137,11 @@ class ToolStrip(QWidget):
         super().__init__()
         self.setObjectName("toolStrip")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        self.buttons: dict[str, ToolButton] = {}
-        for group in GROUPS:
-            for names in group:
-                self.buttons[names[0]] = ToolButton(actions, names)
-                self.buttons[names[0]].setParent(self)
+        offered = [[tuple(name for name in names if actions[name].isVisible()) for names in group] for group in GROUPS]
+        self._groups = [[ToolButton(actions, names) for names in group if names] for group in offered]
+        self.buttons = {button.names[0]: button for group in self._groups for button in group}
+        for button in self.buttons.values():
+            button.setParent(self)
         self._lines = [QFrame(self) for _ in GROUPS[1:]]
         for line in self._lines:
             line.setObjectName("hairline")
@@ -148,25 +149,24 @@ class ToolStrip(QWidget):
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
         """Return the height below which tools would be cut off, at four columns."""
-        return QSize(self.width(), _height(4))
+        return QSize(self.width(), self._height(4))
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Take as many columns as the height asks for."""
         super().resizeEvent(event)
-        self._lay_out(next((columns for columns in (2, 3, 4) if _height(columns) <= self.height()), 4))
+        self._lay_out(next((columns for columns in (2, 3, 4) if self._height(columns) <= self.height()), 4))
 
     def _lay_out(self, columns: int) -> None:
         self.setFixedWidth(columns * SIDE + 2 * _MARGIN + 1)
         y = _MARGIN
-        for number, group in enumerate(GROUPS):
+        for number, group in enumerate(self._groups):
             if number:
                 self._lines[number - 1].setGeometry(_MARGIN + 4, y + _GAP // 2, columns * SIDE - 8, 1)
                 y += _GAP
-            for k, names in enumerate(group):
-                self.buttons[names[0]].move(_MARGIN + k % columns * SIDE, y + k // columns * SIDE)
+            for k, button in enumerate(group):
+                button.move(_MARGIN + k % columns * SIDE, y + k // columns * SIDE)
             y += -(-len(group) // columns) * SIDE
 
-
-def _height(columns: int) -> int:
-    rows = sum(-(-len(group) // columns) for group in GROUPS)
-    return rows * SIDE + (len(GROUPS) - 1) * _GAP + 2 * _MARGIN
+    def _height(self, columns: int) -> int:
+        rows = sum(-(-len(group) // columns) for group in self._groups)
+        return rows * SIDE + (len(GROUPS) - 1) * _GAP + 2 * _MARGIN

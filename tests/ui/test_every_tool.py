@@ -4,7 +4,11 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
+from app.edit.document import Document
 from app.model.curves import Arc, Circle, Line
+from app.ui.canvas import form_tools as form
+from app.ui.canvas.asking import AskingTool
+from app.ui.canvas.drawing_tool import Desk, Pick
 from app.ui.canvas.modes import CanvasTool
 from tests.ui.test_canvas import RIGHT, Hand
 
@@ -58,6 +62,41 @@ JOBS: dict[str, Job] = {
     "chamfer of two sizes": (T.CHAMFER, CROSS, ("size 3", "second 4", (70, 20), (50, 40)), "chamfer 3 and 4 1 70,20 2 50,40"),
     "reverse": (T.REVERSE, (*PLATE, "select 1-4"), (), "reverse"),
 }
+
+
+NOTES = {
+    "point": (form.PointTool, [(1.0, 2.0)], "point 1,2"),
+    "construction line": (form.GuideTool, [(0.0, 0.0), (5.0, 5.0)], "guide 0,0 5,5"),
+    "construction line at an angle": (form.GuideTool, [(0.0, 0.0), 30.0], "guide 0,0 30"),
+    "construction line across": (form.GuideTool, ["across", (3.0, 4.0)], "guide across 3,4"),
+    "dimension": (form.DimensionTool, [(0.0, 0.0), (30.0, 0.0), (15.0, 9.0)], "dimension 0,0 30,0 place 15,9"),
+    "dimension up": (form.DimensionTool, ["up", (0.0, 0.0), (30.0, 8.0), (40.0, 4.0)], "dimension 0,0 30,8 place 40,4 up"),
+    "dimension of a curve": (form.DimensionTool, [Pick(4, (9.0, 9.0), Circle((0, 0), 9)), (20.0, 20.0)], "dimension 4 place 20,20"),
+    "dimension of an angle": (form.DimensionTool, ["angle", (0.0, 0.0), (9.0, 0.0), (0.0, 9.0), (5.0, 5.0)],
+                              "dimension angle 0,0 9,0 0,9 place 5,5"),
+    "text": (form.TextTool, [(1.0, 2.0), 'Say "M6"'], "text 1,2 10 \"Say 'M6'\""),
+    "measure": (form.MeasureTool, [(0.0, 0.0), (3.0, 4.0)], "measure 0,0 3,4"),
+    "measure a curve": (form.MeasureTool, [Pick(7, (9.0, 9.0), Circle((0, 0), 9))], "measure 7"),
+}
+
+
+@pytest.mark.parametrize("job", NOTES.values(), ids=NOTES)
+def test_notes_and_words_are_one_line(job: tuple[type[AskingTool], list[object], str]) -> None:
+    make, answers, line = job
+    tool = make()
+    tool.desk = Desk(Document(), {})
+    made = None
+    for answer in answers:
+        if isinstance(answer, tuple):
+            made = tool.add(answer)
+        elif isinstance(answer, str):
+            made = tool.word(answer)
+        elif isinstance(answer, float):
+            made = tool.typed(answer)
+        else:
+            assert isinstance(answer, Pick)
+            made = tool.give(answer)
+    assert made == line
 
 
 def do(hand: Hand, what: object) -> None:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from app.edit.language import command_word
 from app.edit.shapes import rectangle
 from app.edit.words import point_text
 from app.model.curves import Point
@@ -47,7 +48,7 @@ class RectangleTool(DrawingTool):
         return Preview(rectangle(self.points[0], cursor), label=f"{abs(cursor[0] - x):.3f} \u00d7 {abs(cursor[1] - y):.3f}")
 
 
-TOOLS: dict[CanvasTool, Callable[[], DrawingTool]] = {
+_ALL: dict[CanvasTool, Callable[[], DrawingTool]] = {
     CanvasTool.LINE: LineTool, CanvasTool.POLYLINE: PolylineTool, CanvasTool.ARC_CENTRE: ArcCentreTool,
     CanvasTool.ARC_THREE: ArcThreeTool, CanvasTool.ARC_RADIUS: form.ArcRadiusTool, CanvasTool.ARC_ON: form.ArcOnTool,
     CanvasTool.CIRCLE: CircleTool, CanvasTool.CIRCLE_TWO: form.CircleTwoTool, CanvasTool.CIRCLE_THREE: form.CircleThreeTool,
@@ -62,7 +63,9 @@ TOOLS: dict[CanvasTool, Callable[[], DrawingTool]] = {
     CanvasTool.CHAMFER: corner.ChamferTool, CanvasTool.JOIN: edit.JoinTool, CanvasTool.EXPLODE: edit.ExplodeTool,
     CanvasTool.REVERSE: edit.ReverseTool,
 }
-"""Every tool; SELECT is the absence of one."""
+
+TOOLS = {kind: make for kind, make in _ALL.items() if command_word(kind.value.split("_")[0])}
+"""Every tool whose command the language has; SELECT is the absence of one."""
 
 _OTHER_WORDS = {"arc": CanvasTool.ARC_THREE, "rect": CanvasTool.RECTANGLE}
 TOOL_WORDS = {tool.value: tool for tool in (CanvasTool.SELECT, *TOOLS)} | _OTHER_WORDS
