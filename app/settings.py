@@ -62,6 +62,8 @@ class Settings:
         backups: the version of a project before the one that is saved is kept.
         language: "system" follows the desktop.
         shortcuts: keys that the user changed, each as "action=key". recent_commands: names of the palette, the latest first.
+        snaps: words of the kinds of points that the mouse snaps to. tracking: points it rested on draw it.
+        polar_on: rays at multiples of `polar_step` degrees draw it.
         tour: "" until the tour was seen or skipped.
     """
 
@@ -76,6 +78,10 @@ class Settings:
     language: Language = Language.SYSTEM
     shortcuts: tuple[str, ...] = ()
     recent_commands: tuple[str, ...] = ()
+    snaps: tuple[str, ...] = ("end", "mid", "cen", "qua", "nod", "int", "per", "tan")
+    tracking: bool = True
+    polar_on: bool = True
+    polar_step: str = "45"
     tour: str = ""
 
     def with_recent_file(self, path: Path) -> Settings:

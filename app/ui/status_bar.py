@@ -32,7 +32,7 @@ class StatusBar(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setFixedHeight(34)
         self.place_x, self.place_y = QLabel(), QLabel()
-        self.snap, self.ortho, self.grid = (self._toggle(text) for text in ("Snap", "Ortho", "Grid"))
+        self.snap, self.ortho, self.polar, self.grid = (self._toggle(text) for text in ("Snap", "Ortho", "Polar", "Grid"))
         self.unit, self._size, self._shown = muted("mm"), 1.0, (0.0, 0.0, "XY")
         self._step = 0.0
         self.message = Elided(role="muted")
@@ -63,7 +63,7 @@ class StatusBar(QWidget):
         row.addWidget(self.unit)
         row.addSpacing(4)
         row.addWidget(_separator())
-        for button in (self.snap, self.ortho, self.grid):
+        for button in (self.snap, self.ortho, self.polar, self.grid):
             row.addWidget(button)
         row.addWidget(_separator())
         row.addSpacing(4)

@@ -39,12 +39,13 @@ from app.ui.recovering import Recovering
 from app.ui.session1986.opening import SessionOpening
 from app.ui.shortcuts import Shortcuts
 from app.ui.showing import Showing
+from app.ui.snapping import Snapping
 from app.ui.stages.picturing import Picturing
 from app.ui.stages.staging import Staging
 from app.ui.tabbing import Tabbing
-from app.ui.unit_choice import UnitChoice
 from app.ui.tour import Tour
 from app.ui.translation import Translating
+from app.ui.unit_choice import UnitChoice
 from app.ui.verdict import Level, verdict
 from app.ui.views import View
 
@@ -96,6 +97,7 @@ class Wiring(QObject):
         self._connect_canvas()
         self._nc_wiring = NcWiring(window, self.nc, self.showing)
         self.nc.failed.connect(self._say_error)
+        self.snapping = Snapping(window)
         self.tour, self.translating = Tour(window), Translating(window)
         self._unsubscribe = self.document.subscribe(self.showing.refresh)
         self.showing.show_view(View.DRAW)

@@ -77,7 +77,7 @@ def paint_tracking(painter: QPainter, view: View, what: tuple[Tracked | None, Se
         at = view.to_screen(known.point)
         painter.drawLine(at + QPointF(-4, 0), at + QPointF(4, 0))
         painter.drawLine(at + QPointF(0, -4), at + QPointF(0, 4))
-    painter.setPen(screen_pen(painter, theme.accent_text, 1.0, (1.0, 4.0)))
+    painter.setPen(screen_pen(painter, theme.accent_text, 1.2, (2.0, 4.0)))
     reach = (area.width() + area.height()) / view.scale
     for ray in tracked.rays if tracked is not None else ():
         along, _ = ray.seen_from(view.to_world(area.center()))
@@ -112,7 +112,7 @@ class LabelPlace:
 
 def paint_label(painter: QPainter, texts: list[str], place: LabelPlace, theme: Theme) -> None:
     """Paint live measures on a small sheet beside the mouse."""
-    lines = [text for text in texts if text]
+    lines = [line for text in texts for line in text.split("\n") if line]
     if not lines:
         return
     painter.setFont(text_font(12))

@@ -1,0 +1,36 @@
+"""The switches of aiming in the real window: what they switch, and that they are remembered."""
+
+from app.settings import load_settings
+from app.ui.canvas.snap import USUAL, SnapKind
+from app.ui.start import build
+
+
+def test_kinds_are_switched_at_snap_and_remembered(qtbot, wiring):
+    aiming = wiring.window_.canvas.aiming
+    assert aiming.kinds == USUAL
+    wiring.snapping.kinds[SnapKind.NEAREST].trigger()
+    wiring.snapping.kinds[SnapKind.TANGENT].trigger()
+    assert aiming.kinds == (USUAL | {SnapKind.NEAREST}) - {SnapKind.TANGENT}
+    window, again = build()
+    assert again.window_.canvas.aiming.kinds == aiming.kinds
+    wiring.snapping.kinds[SnapKind.NEAREST].trigger()
+    wiring.snapping.kinds[SnapKind.TANGENT].trigger()
+    window.worker.finish(20.0)
+    window.deleteLater()
+
+
+def test_polar_rays_have_a_step_and_a_switch(qtbot, wiring):
+    window, aiming = wiring.window_, wiring.window_.canvas.aiming
+    assert (aiming.polar, window.status.polar.text()) == (45.0, "Polar 45°")
+    window.status.polar.click()
+    assert aiming.polar is None and not window.actions_["polar"].isChecked()
+    wiring.snapping.steps[15.0].trigger()
+    assert (aiming.polar, window.status.polar.text()) == (15.0, "Polar 15°"), "who chooses a step wants rays"
+    assert (load_settings().polar_step, load_settings().polar_on) == ("15", True)
+    wiring.snapping.steps[45.0].trigger()
+
+
+def test_tracking_is_switched_off(qtbot, wiring):
+    wiring.snapping.tracking.trigger()
+    assert not wiring.window_.canvas.aiming.tracking and not load_settings().tracking
+    wiring.snapping.tracking.trigger()
