@@ -7,6 +7,7 @@ import pytest
 from app.edit.write import draw_text
 from app.errors import InputError
 from app.files.drawing import read_drawing
+from app.geometry.chain import chain
 from app.model.curves import Arc, Circle, Line
 from app.model.part import Units
 from app.resources import resource
@@ -21,6 +22,15 @@ def test_the_sample_plate_is_what_it_says() -> None:
     assert drawing.part.name == "plate" and drawing.units_named and not drawing.findings
     holes = {e.curve.centre for e in drawing.part.entities if isinstance(e.curve, Circle) and e.curve.radius == 2.75}
     assert holes == {(8, 8), (82, 8), (8, 52), (82, 52)}
+
+
+@pytest.mark.parametrize(("name", "curves", "contours"), [("bolt-circle", 13, 12), ("gear", 24 * 6 + 4, 2), ("lever", 11, 4)])
+def test_every_sample_draws_closed_contours(name: str, curves: int, contours: int) -> None:
+    path = resource("samples", f"{name}.draw")
+    part = read_drawing(str(path), path.read_bytes()).part
+    assert len(part.entities) == curves
+    chained = chain(part.entities, 0.01)
+    assert len(chained.contours) == contours and all(contour.closed for contour in chained.contours)
 
 
 def test_a_drawing_written_in_words_is_read_as_itself() -> None:
