@@ -133,7 +133,9 @@ class Files(QObject):
         if not self._would_lose:
             act()
             return
-        self._window.notice.ask(f"{question} The changes to this drawing are in no file.", [
+        path = self._document.path
+        what = f"The changes to {path.name} are not saved." if path else "This drawing is in no file yet."
+        self._window.notice.ask(f"{question} {what}", [
             ("Save", lambda: self.saving.save(lambda: self.leave(question, act))),
             ("Give up the changes", act), ("Keep drawing", lambda: None)], stays=True)
 
