@@ -57,7 +57,7 @@ def _tell_mistake(window: MainWindow, kind: type[BaseException], fault: BaseExce
     window.notice.ask(f"The program made a mistake here ({kind.__name__}: {fault}). Your drawing is safe; please report this.", error=True)
 
 
-def _begin(wiring: Wiring, path: Path | None) -> None:
+def begin(wiring: Wiring, path: Path | None) -> None:
     """Open a file, and then offer what a crash has left; without a file offer that, or else open the sample part."""
     if path is None:
         wiring.recovering.offer(wiring.files.open_sample)
@@ -81,7 +81,7 @@ def start(path: Path | None = None) -> int:
     sys.excepthook = partial(_tell_mistake, window)
     window.show()
     warmer = warm_up(window)
-    QTimer.singleShot(0, partial(_begin, wiring, path))
+    QTimer.singleShot(0, partial(begin, wiring, path))
     status = application.exec()
     warmer.finish()
     return status

@@ -1,5 +1,6 @@
 """Work that is in no file: kept beside while the window lives, offered after a crash, gone after a clean end."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,7 @@ from app.files.project import Look, Project, read_project
 from app.files.project_files import save_project, stamp_of
 from app.files.recovery import Edited, RecoveryFile
 from app.settings import state_folder
+from app.ui import start
 from app.ui.recovering import WAIT_S
 from tests.ui.conftest import WAIT_MS
 
@@ -33,8 +35,6 @@ def crashed(tmp_path):
     file = RecoveryFile()
     file.keep(Project(document.state, Look("view_draw", (7.0, 7.0), 20.0)), Edited(path, stamp))
     file._lock._handle, handle = -1, file._lock._handle
-    import os
-
     os.close(handle)
     return path
 
@@ -89,6 +89,22 @@ def test_what_a_crash_left_comes_back(qtbot, wiring, crashed):
     with qtbot.waitSignal(wiring.files.saving.saved, timeout=WAIT_MS):
         wiring.files.saving.save()
     assert len(read_project("x", crashed.read_bytes()).state.job.part.entities) == 2
+
+
+def test_a_start_offers_it_before_the_sample(qtbot, wiring, crashed):
+    start.begin(wiring, None)
+    assert "plate.hito" in wiring.window_.notice.text.text()
+    assert not wiring.window_.worker.busy
+    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+        press(wiring, "Discard")
+
+
+def test_a_start_with_a_file_offers_it_once_that_is_open(qtbot, wiring, crashed):
+    start.begin(wiring, crashed)
+    qtbot.waitUntil(lambda: "ended before plate.hito" in wiring.window_.notice.text.text(), timeout=WAIT_MS)
+    assert len(wiring.document.part.entities) == 1
+    press(wiring, "Recover")
+    qtbot.waitUntil(lambda: len(wiring.document.part.entities) == 2, timeout=WAIT_MS)
 
 
 def test_the_file_that_changed_after_the_crash_is_not_overwritten(qtbot, wiring, crashed):
