@@ -45,6 +45,7 @@ from app.ui.stages.staging import Staging
 from app.ui.tabbing import Tabbing
 from app.ui.tour import Tour
 from app.ui.translation import Translating
+from app.ui.underlaying import Underlaying
 from app.ui.unit_choice import UnitChoice
 from app.ui.verdict import Level, verdict
 from app.ui.views import View
@@ -78,7 +79,7 @@ class Wiring(QObject):
         self.drawing_export.failed.connect(self._say_error)
         self.recovering = Recovering(window, self.showing, self.files, self.log)
         self.tools = ToolExchange(window, self.log)
-        self.tabbing, self.unit_choice = Tabbing(window), UnitChoice(window)
+        self.tabbing, self.unit_choice, self.underlaying = Tabbing(window), UnitChoice(window), Underlaying(window)
         self.language = LanguageWiring(window, self.showing)
         self.advising = Advising(window)
         self.engaging = Engaging(window)

@@ -31,6 +31,7 @@ from app.ui.canvas.notes_picture import paint_note
 from app.ui.canvas.program_hover import describe, nearest_move
 from app.ui.canvas.program_picture import PathLook, ProgramPicture, shown_purposes
 from app.ui.canvas.snap_marks import paint_snap
+from app.ui.canvas.underlay import UnderlayPicture
 from app.ui.canvas.view import View
 from app.ui.theme import Theme
 
@@ -61,6 +62,7 @@ class Canvas(Hands):
         """Show a document; it is followed from now on."""
         super().__init__(document, parent)
         self.frame = Frame()
+        self._underlay: UnderlayPicture | None = None
         self._look, self._mode = PathLook(theme), CanvasMode.DRAW
         self._program: ProgramPicture | None = None
         self.around = AroundPicture()
@@ -138,6 +140,11 @@ class Canvas(Hands):
         self.frame = frame
         self.repaint_scene()
 
+    def set_underlay(self, picture: UnderlayPicture | None) -> None:
+        """Lay a picture under the drawing, or none."""
+        self._underlay = picture
+        self.repaint_scene()
+
     def fit(self) -> None:
         """Show the whole part, or the frame while nothing is drawn."""
         self.glide_to_box(self.picture.lookup.box or self.frame.extent)
@@ -185,6 +192,8 @@ class Canvas(Hands):
     def paint_ground(self, painter: QPainter, area: QRectF) -> None:
         """Paint the paper."""
         paint_paper(painter, self.view, area, self._look.theme, self.unit)
+        if self._underlay is not None:
+            self._underlay.paint(painter, self.view)
         paint_display(painter, self.view, area, self.frame, self._look.theme)
 
     def paint_margins(self, painter: QPainter) -> None:

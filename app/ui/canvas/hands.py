@@ -155,7 +155,7 @@ class Hands(Viewport):
 
     def type_text(self, text: str) -> bool:
         """Give typed text to the running tool; return False when it is nothing for it."""
-        used = self.runner.type_text(text)
+        used = (self.marking is not None and self.marking.typed(text)) or self.runner.type_text(text)
         kind = SNAP_WORDS.get(text.strip().lower())
         if not used and self.runner.tool is not None and kind is not None:
             self.aiming.switch(forced=kind)

@@ -16,8 +16,10 @@ class Marking:
         prompt: what is expected.
         places: those that are there, mm.
         click: takes a place, mm, and how near counts as on it, mm.
+        typed: takes a typed text; returns False when it is nothing for it.
     """
 
     prompt: str
     places: Callable[[], Sequence[Point]]
     click: Callable[[Point, float], None]
+    typed: Callable[[str], bool] = lambda text: False

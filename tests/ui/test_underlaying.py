@@ -1,0 +1,139 @@
+"""A picture under the drawing: read with care, scaled by two points, moved, straightened, hidden, taken away."""
+
+import math
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QColor, QImage
+
+from app.errors import InputError, ParameterError
+from app.model.underlay import Underlay
+from app.ui.canvas import underlay
+from app.ui.canvas.underlay import read_picture
+from app.ui.canvas.view import View
+from app.ui.wiring import Wiring
+
+NUMBERS = st.floats(-1e4, 1e4)
+
+
+@pytest.fixture
+def picture(tmp_path: Path) -> Path:
+    """200 x 100 px, white, with a red square of 20 px whose lower left corner is 40 px from the left and 10 px from below."""
+    image = QImage(200, 100, QImage.Format.Format_RGB32)
+    image.fill(QColor("white"))
+    for x in range(40, 60):
+        for y in range(70, 90):
+            image.setPixelColor(x, y, QColor("red"))
+    path = tmp_path / "plan.png"
+    assert image.save(str(path))
+    return path
+
+
+@pytest.fixture
+def traced(wiring: Wiring, picture: Path) -> Wiring:
+    wiring.window_.canvas.set_view(View(5.0, 124.0, 500.0))
+    wiring.underlaying.place(picture)
+    return wiring
+
+
+def click(qtbot, wiring: Wiring, x: float, y: float) -> None:
+    at: QPoint = wiring.window_.canvas.view.to_screen((x, y)).toPoint()
+    qtbot.mouseClick(wiring.window_.canvas, Qt.MouseButton.LeftButton, pos=at)
+
+
+def colour(wiring: Wiring, x: float, y: float) -> QColor:
+    canvas = wiring.window_.canvas
+    return canvas.grab().toImage().pixelColor(canvas.view.to_screen((x, y)).toPoint())
+
+
+def reddish(seen: QColor) -> bool:
+    return seen.red() > seen.green() + 60
+
+
+def test_a_picture_fills_the_display_and_lies_upright(traced: Wiring) -> None:
+    place = traced.underlaying.underlay
+    assert place is not None
+    assert (place.origin, place.mm_per_px) == ((0, 0), 0.5)
+    assert reddish(colour(traced, 26, 11))
+    assert not reddish(colour(traced, 26, 41))
+    assert traced.document.part.entities == ()
+
+
+def test_two_points_and_their_distance_give_the_size(qtbot, traced: Wiring) -> None:
+    traced.window_.actions_["underlay_scale"].trigger()
+    click(qtbot, traced, 20, 5)
+    click(qtbot, traced, 30, 5)
+    assert "distance" in traced.window_.canvas.prompt
+    assert traced.window_.canvas.type_text("2in")
+    place = traced.underlaying.underlay
+    assert place is not None
+    assert place.mm_per_px == pytest.approx(0.5 * 5.08)
+    assert place.origin == pytest.approx((20 - 20 * 5.08, 5 - 5 * 5.08))
+    assert traced.window_.canvas.marking is None
+    assert reddish(colour(traced, 45, 30))
+
+
+def test_a_wrong_distance_is_said_and_asked_again(qtbot, traced: Wiring) -> None:
+    traced.window_.actions_["underlay_scale"].trigger()
+    click(qtbot, traced, 20, 5)
+    click(qtbot, traced, 30, 5)
+    assert traced.window_.canvas.type_text("0")
+    assert "greater than 0" in traced.window_.status.message.toolTip()
+    assert traced.window_.canvas.marking is not None
+
+
+def test_it_is_moved_and_straightened(qtbot, traced: Wiring) -> None:
+    traced.window_.actions_["underlay_move"].trigger()
+    click(qtbot, traced, 20, 5)
+    click(qtbot, traced, 40, 15)
+    assert traced.underlaying.underlay is not None
+    assert traced.underlaying.underlay.origin == pytest.approx((20, 10))
+    traced.window_.actions_["underlay_turn"].trigger()
+    click(qtbot, traced, 40, 15)
+    click(qtbot, traced, 60, 25)
+    assert traced.underlaying.underlay.angle == pytest.approx(-math.atan2(10, 20))
+
+
+def test_it_is_hidden_shown_and_removed(traced: Wiring) -> None:
+    shown = traced.window_.actions_["underlay_shown"]
+    shown.setChecked(False)
+    assert not reddish(colour(traced, 26, 11))
+    shown.setChecked(True)
+    assert reddish(colour(traced, 26, 11))
+    traced.window_.actions_["underlay_remove"].trigger()
+    assert traced.underlaying.underlay is None
+    assert not shown.isEnabled()
+    assert not reddish(colour(traced, 26, 11))
+
+
+def test_another_drawing_has_its_own(traced: Wiring) -> None:
+    traced.document.load(traced.document.job)
+    assert traced.underlaying.underlay is None
+
+
+def test_what_is_no_picture_is_refused(tmp_path: Path, picture: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "text.png").write_text("no picture")
+    with pytest.raises(InputError, match="PNG or JPEG"):
+        read_picture(tmp_path / "text.png")
+    (tmp_path / "cut.png").write_bytes(picture.read_bytes()[:60])
+    with pytest.raises(InputError, match=r"damaged|PNG"):
+        read_picture(tmp_path / "cut.png")
+    monkeypatch.setattr(underlay, "MOST_PX", 19_999)
+    with pytest.raises(InputError, match="200 x 100 px"):
+        read_picture(picture)
+
+
+@given(NUMBERS, NUMBERS, st.floats(1e-6, 1e3), st.floats(-7, 7), st.floats(0, 1))
+def test_values_by_name_come_back(x: float, y: float, size: float, angle: float, opacity: float) -> None:
+    place = Underlay("a b.png", (x, y), size, angle, opacity)
+    assert Underlay.from_dict(place.to_dict()) == place
+
+
+@pytest.mark.parametrize("values", [{}, {"path": "a.png", "origin": [1], "mm_per_px": 1, "angle": 0, "opacity": 1},
+                                    {"path": "a.png", "origin": [0, 0], "mm_per_px": -1, "angle": 0, "opacity": 1}])
+def test_damaged_values_are_told(values: dict[str, object]) -> None:
+    with pytest.raises(ParameterError):
+        Underlay.from_dict(values)
