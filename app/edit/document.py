@@ -328,7 +328,10 @@ def _evaluated(statements: tuple[Statement, ...], session: Session, interpreter:
     for number, statement in enumerate(statements):
         interpreter.fraction = interpreter.fraction if alone else number / len(statements)
         outcome = interpreter.carry_out(statement, outcome.session)
-    return outcome if alone else replace(outcome, name=f"{len(statements)} statements")
+    if alone:
+        return outcome
+    words, curves = f"{len(statements)} statements", len(outcome.session.part.entities)
+    return replace(outcome, name=words, reply=f"{words}; the drawing has {curves} curve{'s' * (curves != 1)}.")
 
 
 def _step_of(statements: tuple[Statement, ...]) -> tuple[bool, int] | None:

@@ -39,7 +39,7 @@ class Trial:
 
 
 class Trying(QObject):
-    """Tries one text at a time; a newer one takes its place.
+    """Tries one text at a time; a newer one takes its place, once the thread of the older one has seen that it should stop.
 
     Signals:
         answered(Trial | Problem): about the text that was given last. progress(fraction, text).
@@ -56,6 +56,7 @@ class Trying(QObject):
         self._timer.setInterval(REST_MS)
         self._timer.timeout.connect(self._start)
         self._text, self._session, self._fresh = "", Session(), False
+        self._alive: set[object] = set()
         self.worker.progress.connect(self.progress)
         self.worker.done.connect(lambda answer: self._on_answer(answer.value))
         self.worker.failed.connect(self._on_failed)
@@ -83,8 +84,19 @@ class Trying(QObject):
         self.worker.cancel()
 
     def _start(self) -> None:
+        if self._alive:
+            self._timer.start()
+            return
         text, session, fresh = self._text, self._session, self._fresh
-        self.worker.start(lambda progress: _try(text, session, fresh, progress), 0)
+
+        def run(progress: Progress) -> Trial | Problem:
+            self._alive.add(progress)
+            try:
+                return _try(text, session, fresh, progress)
+            finally:
+                self._alive.discard(progress)
+
+        self.worker.start(run, 0)
 
     def _on_answer(self, value: object) -> None:
         self.answered.emit(value)

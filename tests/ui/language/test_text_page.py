@@ -65,6 +65,17 @@ def test_what_is_wrong_is_underlined_in_place_and_a_click_goes_there(qtbot, wiri
     assert not wiring.document.part.entities, "run although it is wrong"
 
 
+def test_the_next_key_leaves_a_long_text_and_the_last_one_is_shown(qtbot, wiring, text) -> None:
+    text.text = "repeat 100000 as k; circle k,0 1; end"
+    qtbot.waitUntil(lambda: text.trying.worker.busy, timeout=10_000)
+    text.text = "circle 0,0 1"
+    assert not text.trying.worker.busy
+    settle(qtbot, text)
+    assert len(shown(wiring).added) == 1
+    qtbot.wait(50)
+    assert not text.trying._alive
+
+
 def test_run_adds_and_is_undone_as_one_step(qtbot, wiring, text) -> None:
     wiring.document.run("line 0,0 9,9")
     text.text = SAMPLE
