@@ -19,7 +19,7 @@
     pull [CURVES] P to P      (an end, middle, centre, quadrant, control point, and what hangs on it)
     hide NAME     show NAME     lock NAME     unlock NAME     colour NAME "#rrggbb" | none     (of layers)
     set [CURVES] start P     also: end, middle, centre, place P; length, radius, diameter, major, minor; angle, sweep; layer NAME
-    rename layer NAME to NAME     remove layer NAME
+    rename layer NAME to NAME     remove layer NAME     heal tolerance [CURVES]
     move @dx,dy [CURVES]     copy @dx,dy [times n] [CURVES]
     rotate P angle [copy] [CURVES]     scale P factor [copy] [CURVES]     mirror P P [copy] [CURVES]
     array n n @dx,dy [CURVES]     array polar P n [over angle] [CURVES]
@@ -45,12 +45,13 @@ from app.edit import read_edit as edit
 from app.edit import read_rework as rework
 from app.edit.arguments import Arguments
 from app.edit.command import Clear, Edit, Redo, Session, Undo
+from app.edit.heal import Heal, heal
 from app.edit.pull import Pull, pull
 from app.edit.read_set import SetProperty, set_property
 from app.edit.select import Select
 from app.edit.values import wrong
 
-Command = Pull | Edit | SetProperty | layers.RenameLayer | layers.RemoveLayer | Select | Undo | Redo
+Command = Pull | Edit | SetProperty | Heal | layers.RenameLayer | layers.RemoveLayer | Select | Undo | Redo
 
 ALIASES = {
     "li": "line", "l": "line", "pl": "polyline", "ar": "arc", "a": "arc", "ci": "circle", "c": "circle", "re": "rect",
@@ -92,7 +93,7 @@ _READERS: dict[str, Callable[[Arguments, Session], Command]] = {
     "hide": edit.hide, "show": edit.show, "lock": edit.lock, "unlock": edit.unlock, "colour": edit.colour,
     "trim": rework.trim, "extend": rework.extend, "break": rework.break_at, "fillet": rework.fillet_of, "chamfer": rework.chamfer_of,
     "offset": rework.offset,
-    "pull": pull, "set": set_property, "rename": layers.rename, "remove": layers.remove,
+    "pull": pull, "set": set_property, "rename": layers.rename, "remove": layers.remove, "heal": heal,
     "clear": lambda words, session: Clear(), "undo": lambda words, session: Undo(), "redo": lambda words, session: Redo(),
 }
 

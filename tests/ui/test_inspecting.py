@@ -14,7 +14,7 @@ def test_keys_bring_the_page_and_its_sections(qtbot, wiring):
     assert window.side.page == "Drawing"
     qtbot.waitUntil(lambda: window.drawing_page.properties.layer.box.hasFocus())
     window.side.show_page("Job")
-    qtbot.keyClick(window, Qt.Key.Key_F12)
+    qtbot.keyClick(window, Qt.Key.Key_H, Qt.KeyboardModifier.ControlModifier)
     assert window.side.page == "Drawing"
     qtbot.waitUntil(lambda: window.drawing_page.history.list.hasFocus())
     qtbot.keyClick(window, Qt.Key.Key_F11)

@@ -1,0 +1,165 @@
+"""The command `heal`: tiny curves and duplicates go, overlaps are cut, gaps are closed; no point moves farther than a tolerance."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from dataclasses import dataclass, field, replace
+
+from app.edit.arguments import Arguments
+from app.edit.command import Session, check_ids
+from app.edit.faults import FaultKind, apart, common_turn, duplicates, meetings, overlaps, point_of, tiny
+from app.edit.properties import properties_of, with_property
+from app.edit.select import reachable
+from app.errors import InputError
+from app.model.curves import Arc, Circle, Curve, Line, Point
+from app.tolerances import WELD
+
+_LARGEST = 10.0
+_ROUNDS = 4
+_WORDS = {
+    FaultKind.TINY: ("tiny curve removed", "tiny curves removed"), FaultKind.DUPLICATE: ("duplicate removed", "duplicates removed"),
+    FaultKind.OVERLAP: ("overlap cut", "overlaps cut"), FaultKind.GAP: ("gap closed", "gaps closed"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Heal:
+    """Put a drawing's curves where they are, instead.
+
+    Attributes:
+        curves: by number, those that stay, some of them changed; None for those that go.
+        counts: what was put right.
+    """
+
+    curves: dict[int, Curve | None]
+    counts: dict[FaultKind, int]
+    name: str = "Heal"
+
+    @property
+    def reply(self) -> str:
+        """A short sentence for the log."""
+        counts = self.counts
+        told = [f"{counts[kind]} {one if counts[kind] == 1 else many}" for kind, (one, many) in _WORDS.items() if kind in counts]
+        return f"{', '.join(told)}." if told else "Nothing to mend."
+
+    def carried_out(self, session: Session) -> Session:
+        """Return the session with the curves put right."""
+        if not self.curves:
+            return session
+        part, now = session.part, self.curves
+        entities = tuple(replace(e, curve=curve) if (curve := now.get(e.id, e.curve)) is not e.curve and curve is not None else e
+                         for e in part.entities if now.get(e.id, e.curve) is not None)  # fmt: skip
+        return session.with_part(replace(part, entities=entities, used_id=part.next_id() - 1))
+
+
+@dataclass
+class _Work:
+    curves: dict[int, Curve]
+    drawn: dict[int, Curve]
+    tolerance: float
+    counts: Counter[FaultKind] = field(default_factory=Counter)
+
+    def once(self) -> None:
+        """Put right what is wrong now; closing a gap may bring up another fault."""
+        for kind, look in ((FaultKind.TINY, tiny), (FaultKind.DUPLICATE, duplicates)):
+            for fault in look(self.curves, self.tolerance):
+                del self.curves[fault.ids[-1]]
+                self.counts[kind] += 1
+        for fault in overlaps(self.curves, self.tolerance):
+            if all(number in self.curves for number in fault.ids):
+                self.counts[FaultKind.OVERLAP] += self._cut(*fault.ids)
+        for meeting in meetings(self.curves, self.tolerance):
+            self.counts[FaultKind.GAP] += self._close(meeting)
+
+    def _cut(self, long: int, short: int) -> bool:
+        """Cut the shorter of two that overlap down to what the longer one leaves of it; return whether anything changed."""
+        stays, goes = self.curves[long], self.curves[short]
+        left: Curve | None = goes
+        if isinstance(stays, Line) and isinstance(goes, Line):
+            left = _line_left(stays, goes, self.tolerance)
+        elif isinstance(stays, Arc | Circle) and isinstance(goes, Arc | Circle):
+            left = _arc_left(stays, goes, self.tolerance)
+        if left is None:
+            del self.curves[short]
+        elif left is not goes:
+            self.curves[short] = self.drawn[short] = left
+        return left is not goes
+
+    def _close(self, meeting: list[tuple[int, bool]]) -> bool:
+        """Move ends to one point; return whether they were apart. Ends that cannot move, of ellipses, are where the others go."""
+        points = [point_of(self.curves[number], last) for number, last in meeting]
+        if all(point == points[0] for point in points):
+            return False
+        fixed = {point for point, (number, _) in zip(points, meeting, strict=True) if "end" not in properties_of(self.curves[number])}
+        middle = (sum(p[0] for p in points) / len(points), sum(p[1] for p in points) / len(points))
+        to = next(iter(fixed), middle)
+        moved = {number: self._with_end(number, last, to) for number, last in meeting}
+        if len(fixed) > 1 or any(curve is None for curve in moved.values()):
+            return False
+        self.curves.update({number: curve for number, curve in moved.items() if curve is not None})
+        return any(math.dist(points[0], point) > WELD for point in points)
+
+    def _with_end(self, number: int, last: bool, to: Point) -> Curve | None:
+        """Return a curve with an end elsewhere; None where that would take it farther from where it was drawn than the tolerance."""
+        curve = self.curves[number]
+        if point_of(curve, last) == to:
+            return curve
+        try:
+            made: Curve = with_property(curve, "end" if last else "start", to)
+        except InputError:
+            return None
+        return made if apart(self.drawn[number], made) <= self.tolerance else None
+
+
+def _line_left(stays: Line, goes: Line, tolerance: float) -> Line | None:
+    """Return what of a line lies beyond a longer one that it overlaps; None where nothing does."""
+    size = math.dist(stays.start, stays.end)
+    ux, uy = (stays.end[0] - stays.start[0]) / size, (stays.end[1] - stays.start[1]) / size
+    beyond = []
+    for end, (x, y) in enumerate((goes.start, goes.end)):
+        way = (x - stays.start[0]) * ux + (y - stays.start[1]) * uy
+        if not -tolerance <= way <= size + tolerance:
+            beyond.append((end, stays.start if way < 0 else stays.end))
+    if not beyond:
+        return None
+    end, edge = beyond[0]
+    return goes if len(beyond) > 1 else Line(edge, goes.end) if end else Line(goes.start, edge)
+
+
+def _arc_left(stays: Arc | Circle, goes: Arc | Circle, tolerance: float) -> Curve | None:
+    """Return what of an arc lies beyond another of its circle; None where nothing does, the arc itself where it is cut in two."""
+    both = common_turn(goes, stays)
+    if both is None or isinstance(goes, Circle):
+        return None if both is not None else goes
+    whole, r = abs(goes.sweep), goes.radius
+    begins = goes.start_angle if goes.ccw else goes.start_angle + goes.sweep
+    before = (both[0] - begins) % math.tau
+    behind = whole - before - both[1]
+    if max(before, behind) * r <= tolerance:
+        return None
+    if min(before, behind) * r > tolerance:
+        return goes
+    ahead = math.degrees(behind if behind > before else before)
+    from_end = (behind > before) == goes.ccw
+    kept = Arc(goes.end, goes.start, goes.centre, not goes.ccw) if from_end else goes
+    made = with_property(kept, "sweep", ahead)
+    return Arc(made.end, made.start, made.centre, not made.ccw) if from_end else made
+
+
+def heal(words: Arguments, session: Session) -> Heal:
+    """Put right what is wrong within a tolerance, with some curves or with all that are seen and not locked."""
+    tolerance = words.length("the tolerance")
+    if not WELD < tolerance <= _LARGEST:
+        raise InputError(f"The tolerance is {tolerance:g} mm; it must be greater than 0 and at most {_LARGEST:g} mm.")
+    ids = frozenset(words.ids())
+    check_ids(session.part, ids)
+    before = {e.id: e.curve for e in reachable(session.part) if not ids or e.id in ids}
+    work = _Work(dict(before), dict(before), tolerance)
+    for _ in range(_ROUNDS):
+        was = dict(work.curves)
+        work.once()
+        if work.curves == was:
+            break
+    changed = {number: work.curves.get(number) for number, curve in before.items() if work.curves.get(number) is not curve}
+    return Heal(changed, {kind: count for kind, count in work.counts.items() if count})
