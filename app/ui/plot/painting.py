@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -12,8 +13,10 @@ from app import tolerances
 from app.edit.transform import Similarity
 from app.files.plot_layout import Plot
 from app.files.plot_page import Ink, Page, Patch, Pen, Stroke, Words, chains, segments
+from app.model.curves import Curve
 
 _FONT_PX = 100
+_LONG = 96
 
 
 @dataclass(frozen=True)
@@ -44,20 +47,33 @@ def sheets(plot: Plot) -> tuple[Sheet, ...]:
 
 
 def _painted(ink: Ink, scale: float) -> Painted:
-    return Painted(tuple((stroke.pen, _path(stroke, tolerances.CURVE / scale)) for stroke in ink.strokes), ink.patches, ink.words)
+    strokes = ((stroke.pen, path) for stroke in ink.strokes for path in _paths(stroke, tolerances.CURVE / scale))
+    return Painted(tuple(strokes), ink.patches, ink.words)
 
 
-def _path(stroke: Stroke, tolerance: float) -> QPainterPath:
+def _paths(stroke: Stroke, tolerance: float) -> Iterator[QPainterPath]:
+    """Yield a stroke in pieces: the time that Qt takes for a path grows with the square of its length."""
     path = QPainterPath()
     for run in chains(stroke.curves):
+        if path.elementCount() > _LONG:
+            yield path
+            path = QPainterPath()
         path.moveTo(*run[0].start)
         for curve in run:
-            for points in segments(curve, tolerance):
-                if len(points) == 1:
-                    path.lineTo(*points[0])
-                else:
-                    path.cubicTo(*(each for point in points for each in point))
-    return path
+            if path.elementCount() > _LONG and not stroke.pen.dash:
+                yield path
+                path = QPainterPath()
+                path.moveTo(*curve.start)
+            _add(path, curve, tolerance)
+    yield path
+
+
+def _add(path: QPainterPath, curve: Curve, tolerance: float) -> None:
+    for points in segments(curve, tolerance):
+        if len(points) == 1:
+            path.lineTo(*points[0])
+        else:
+            path.cubicTo(*(each for point in points for each in point))
 
 
 def paint(painter: QPainter, sheet: Sheet) -> None:

@@ -12,7 +12,6 @@ from PySide6.QtWidgets import QFileDialog
 
 from app.atomic import write_together
 from app.edit.document import Change
-from app.errors import HitofudeError
 from app.files.plot_content import Shown
 from app.files.plot_layout import PlotOptions, lay_out
 from app.progress import Progress
@@ -46,6 +45,20 @@ def _made_ready(shown: Shown, options: PlotOptions, today: str, progress: Progre
     return Ready(sheets(plot), plot.columns, plot.scale, (x1 - x0, y1 - y0))
 
 
+@dataclass(frozen=True)
+class Kept:
+    """Files that were written, and how many sheets they hold."""
+
+    paths: tuple[Path, ...]
+    sheets: int
+
+
+def _write(path: Path, those: tuple[Sheet, ...], name: str) -> Kept:
+    files = plot_files(path, those, name)
+    write_together(files)
+    return Kept(tuple(files), len(those))
+
+
 class Plotting(QObject):
     """Brings the page preview to the front and takes it away again.
 
@@ -67,7 +80,11 @@ class Plotting(QObject):
         self.worker = Worker(self, head_start_s=0.0)
         self.worker.done.connect(self._on_done)
         self.worker.failed.connect(self._on_failed)
-        window.closed.connect(self.worker.finish)
+        self.writer = Worker(self, head_start_s=0.0)
+        self.writer.done.connect(self._on_written)
+        self.writer.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
+        for worker in (self.worker, self.writer):
+            window.closed.connect(worker.finish)
         window.actions_["plot"].triggered.connect(self.start)
         window.computation.changed.connect(self.refresh)
         self._panel.changed.connect(lambda _: self.refresh())
@@ -127,15 +144,16 @@ class Plotting(QObject):
         """Write the sheets in the format that the name ends in: every file, or none."""
         if self.ready is None:
             return
-        try:
-            files = plot_files(path, self.ready.sheets, self._window.document.part.name)
-            write_together(files)
-        except HitofudeError as error:
-            self.failed.emit(str(error))
-            return
-        names = f"{path.name}" if len(files) == 1 else f"{next(iter(files)).name} … {list(files)[-1].name}"
-        self._log.note(f"plot {path.name}", f"{counted(len(self.ready.sheets), 'sheet')} written to {path.parent}")
-        self._window.status.show_message(f"{names} {'is' if len(files) == 1 else 'are'} written.")
+        sheets, name = self.ready.sheets, self._window.document.part.name
+        self._window.status.show_message(f"Writing {path.name}")
+        self.writer.start(lambda progress: _write(path, sheets, name), 0)
+
+    def _on_written(self, answer: Answer) -> None:
+        assert isinstance(answer.value, Kept)
+        paths, count = answer.value.paths, answer.value.sheets
+        names = paths[0].name if len(paths) == 1 else f"{paths[0].name} … {paths[-1].name}"
+        self._log.note(f"plot {names}", f"{counted(count, 'sheet')} written to {paths[0].parent}")
+        self._window.status.show_message(f"{names} {'is' if len(paths) == 1 else 'are'} written.")
 
     def choose_printer(self) -> None:
         """Ask for a printer and print the sheets at true size."""

@@ -61,6 +61,11 @@ def settle(qtbot, wiring) -> None:
     qtbot.waitUntil(lambda: not wiring.plotting.worker.busy, timeout=5000)
 
 
+def save(qtbot, wiring, path: Path) -> None:
+    wiring.plotting.save(path)
+    qtbot.waitUntil(lambda: not wiring.plotting.writer.busy, timeout=10_000)
+
+
 def choose_scale(qtbot, wiring, text: str) -> None:
     edit = wiring.window_.plot_panel.factor.edit
     edit.selectAll()
@@ -123,7 +128,7 @@ def test_the_paper_shows_the_line_where_it_will_be(qtbot, plotted) -> None:
 @pytest.mark.parametrize(("scale", "length"), [("1:1", 100.0), ("1:2", 50.0), ("200%", 200.0)])
 def test_100_mm_are_100_mm_in_pdf(qtbot, plotted, tmp_path: Path, scale: str, length: float) -> None:
     choose_scale(qtbot, plotted, scale)
-    plotted.plotting.save(tmp_path / "rule.pdf")
+    save(qtbot, plotted, tmp_path / "rule.pdf")
     data = (tmp_path / "rule.pdf").read_bytes()
     width, height = map(float, re.search(rb"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", data).groups())  # type: ignore[union-attr]
     assert (width, height) == pytest.approx((297 / 25.4 * 72, 210 / 25.4 * 72), abs=0.5)
@@ -135,7 +140,7 @@ def test_100_mm_are_100_mm_in_pdf(qtbot, plotted, tmp_path: Path, scale: str, le
 def test_100_mm_are_100_mm_in_png_which_tells_its_size(qtbot, plotted, tmp_path: Path) -> None:
     plotted.window_.plot_panel.framed.switch.click()
     choose_scale(qtbot, plotted, "1:1")
-    plotted.plotting.save(tmp_path / "rule.png")
+    save(qtbot, plotted, tmp_path / "rule.png")
     picture = QImage(str(tmp_path / "rule.png"))
     assert picture.dotsPerMeterX() == 11811
     grey = cv2.imread(str(tmp_path / "rule.png"), cv2.IMREAD_GRAYSCALE)
@@ -145,16 +150,16 @@ def test_100_mm_are_100_mm_in_png_which_tells_its_size(qtbot, plotted, tmp_path:
 
 def test_many_sheets_are_one_pdf_and_a_numbered_svg_each(qtbot, plotted, tmp_path: Path) -> None:
     choose_scale(qtbot, plotted, "5:1")
-    plotted.plotting.save(tmp_path / "rule.pdf")
+    save(qtbot, plotted, tmp_path / "rule.pdf")
     assert re.search(rb"/Count 2\b", (tmp_path / "rule.pdf").read_bytes())
-    plotted.plotting.save(tmp_path / "rule.svg")
-    plotted.plotting.save(tmp_path / "rule.plt")
+    save(qtbot, plotted, tmp_path / "rule.svg")
+    save(qtbot, plotted, tmp_path / "rule.plt")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["rule-1.svg", "rule-2.svg", "rule.pdf", "rule.plt"]
     assert plotted.window_.command_line.log.lines[-1].command == "plot rule.plt"
 
 
-def test_a_place_that_cannot_be_written_is_told(plotted, tmp_path: Path) -> None:
-    plotted.plotting.save(tmp_path / "none" / "rule.pdf")
+def test_a_place_that_cannot_be_written_is_told(qtbot, plotted, tmp_path: Path) -> None:
+    save(qtbot, plotted, tmp_path / "none" / "rule.pdf")
     assert "Cannot write" in plotted.window_.notice.text.text()
 
 
