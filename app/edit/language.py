@@ -14,7 +14,7 @@
     spline P P P … [close]                  sp    through points
     spline degree n P P … [knots k …] [weights w …]    by control points
 
-    select all | none | CURVES | window P P | crossing P P | layer NAME     (before it: add, remove)
+    select all | none | CURVES | window P P | crossing P P | layer NAME | chain CURVES     (before it: add, remove)
     delete [CURVES]     reverse [CURVES]     layer NAME [CURVES]     undo     redo     clear
     pull [CURVES] P to P      (an end, middle, centre, quadrant, control point, and what hangs on it)
     hide NAME     show NAME     lock NAME     unlock NAME     colour NAME "#rrggbb" | none     (of layers)

@@ -134,11 +134,13 @@ def colour(words: Arguments, session: Session) -> SetLook:
 def select(words: Arguments, session: Session) -> Select:
     """Choose curves."""
     how = How(words.accept("add", "remove"))
-    kind = words.accept("all", "none", "window", "crossing", "layer")
+    kind = words.accept("all", "none", "window", "crossing", "layer", "chain")
     if kind in ("window", "crossing"):
         return Select(By(kind), how, box=box(words.point("a corner x,y"), words.point("the opposite corner x,y")))
     if kind == "layer":
         return Select(By.LAYER, how, layer=words.name("the name of a layer"))
+    if kind == "chain":
+        return Select(By.CHAIN, how, _chosen(words, session, "follow"))
     if kind:
         return Select(By(kind), how)
     if not words.more:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 
@@ -10,8 +12,9 @@ from numpy.typing import NDArray
 
 from app.edit.command import Session, check_ids
 from app.edit.sample import Box, bounds, sample
-from app.model.curves import Curve
+from app.model.curves import Curve, Point
 from app.model.part import Entity, Part
+from app.tolerances import WELD
 
 
 class How(Enum):
@@ -31,6 +34,7 @@ class By(Enum):
     WINDOW = "window"
     CROSSING = "crossing"
     LAYER = "layer"
+    CHAIN = "chain"
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +42,7 @@ class Select:
     """Choose entities; hidden and locked layers are passed over, except by number.
 
     Attributes:
+        ids: chosen by number; CHAIN takes what joins these end to end, too.
         box: x0, y0, x1, y1 with x0 <= x1 and y0 <= y1, mm; WINDOW takes what lies wholly inside, CROSSING also what reaches in.
     """
 
@@ -54,7 +59,10 @@ class Select:
             InputError: an id that the part does not have.
         """
         check_ids(session.part, self.ids)
-        found = self.ids if self.by is By.IDS else frozenset(e.id for e in reachable(session.part) if self._takes(e))
+        if self.by is By.CHAIN:
+            found = joined(reachable(session.part), self.ids)
+        else:
+            found = self.ids if self.by is By.IDS else frozenset(e.id for e in reachable(session.part) if self._takes(e))
         if self.how is How.ADD:
             found = session.selection | found
         elif self.how is How.REMOVE:
@@ -69,6 +77,25 @@ class Select:
         if self.by is By.CROSSING:
             return crosses(entity.curve, self.box)
         return self.by is By.ALL
+
+
+def joined(entities: Sequence[Entity], ids: frozenset[int]) -> frozenset[int]:
+    """Return these ids, and those of all entities that join them end to end, one after the other."""
+    cell = 10 * WELD
+    at: dict[tuple[int, int], list[tuple[int, Point]]] = {}
+    ends = {e.id: (e.curve.start, e.curve.end) for e in entities}
+    for number, both in ends.items():
+        for x, y in both:
+            at.setdefault((round(x / cell), round(y / cell)), []).append((number, (x, y)))
+    found, fresh = set(ids), list(ids)
+    while fresh:
+        for x, y in ends.get(fresh.pop(), ()):
+            column, row = round(x / cell), round(y / cell)
+            near = (hit for i in (-1, 0, 1) for j in (-1, 0, 1) for hit in at.get((column + i, row + j), ()))
+            new = {number for number, end in near if number not in found and math.dist(end, (x, y)) <= WELD}
+            found |= new
+            fresh += new
+    return frozenset(found)
 
 
 def reachable(part: Part) -> tuple[Entity, ...]:

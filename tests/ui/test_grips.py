@@ -171,3 +171,10 @@ def test_a_tool_in_hand_passes_grips_over(plate: Hand) -> None:
     plate.canvas.set_tool(CanvasTool.LINE)
     plate.click((100, 60), (110, 70))
     assert plate.said()[-1] == "line 100,60 110,70"
+
+
+def test_a_double_click_selects_all_that_joins(plate: Hand) -> None:
+    plate.click((35, 10.3))
+    plate.qtbot.mouseDClick(plate.canvas, LEFT, pos=plate.at(35, 10.3))
+    assert plate.said()[-1] == "select chain 1"
+    assert plate.document.selection == {1, 2, 3, 4}

@@ -5,19 +5,18 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from app.edit.difference import Difference, difference
+from app.edit.difference import Difference
 from app.edit.document import Document
 from app.edit.pull import Grip, grips, held_at, note_grips
 from app.edit.select import reachable
 from app.edit.words import ids_text, point_text
-from app.errors import InputError
 from app.model.curves import Point
 from app.ui.canvas.aim import tidy
 from app.ui.canvas.drawing_tool import DrawingTool, Preview, span_label
+from app.ui.canvas.trials import Trials
 
 GRIP_PX = 7.0
 _MOST = 200
-_NOTHING = Difference()
 
 
 class Grips:
@@ -72,9 +71,8 @@ class HeldTool(DrawingTool):
 class PullTool(HeldTool):
     """A grip in hand."""
 
-    document: Document | None = None
+    trials: Trials | None = None
     ids: frozenset[int] = frozenset()
-    last: tuple[str, Difference] = ("", _NOTHING)
 
     @property
     def prompt(self) -> str:
@@ -87,14 +85,8 @@ class PullTool(HeldTool):
 
     def show(self, cursor: Point) -> Preview:
         """Return what the curves would become, where they would be curves."""
-        line = self.line([self.points[0], cursor])
-        if line != self.last[0] and self.document is not None:
-            try:
-                made = difference(self.document.part, self.document.tried(line).part)
-            except InputError:
-                made = _NOTHING
-            self.last = (line, replace(made, gone=()))
-        return replace(super().show(cursor), trial=self.last[1])
+        made = self.trials.of(self.line([self.points[0], cursor])).difference if self.trials is not None else Difference()
+        return replace(super().show(cursor), trial=replace(made, gone=()))
 
 
 @dataclass
@@ -119,4 +111,4 @@ class CarryTool(HeldTool):
 
 def pull_tool(document: Document, at: Point) -> PullTool:
     """Return the tool that holds the grip at a point of what is selected."""
-    return PullTool([at], document, held_at(document.part, document.selection, at))
+    return PullTool([at], Trials(document), held_at(document.part, document.selection, at))
