@@ -10,7 +10,7 @@ from app.model.job import Job
 from app.model.notes import Dimension, Guide, Mark, Measure
 from app.model.part import Part
 from app.ui.canvas.gripping import CarryTool, PullTool
-from app.ui.canvas.modes import CanvasTool
+from app.ui.canvas.modes import CanvasMode, CanvasTool
 from app.ui.canvas.view import View
 from tests.ui.test_canvas import LEFT, Hand
 
@@ -118,6 +118,9 @@ def test_a_typed_shift_ends_a_drag(plate: Hand) -> None:
 def test_many_and_locked_have_no_grips(qtbot: QtBot) -> None:
     hand = Hand(qtbot, ("line 0,0 1,0", "array 201 1 @2,0 1", "select 1-200"))
     assert len(hand.canvas.grips.points) == 600
+    hand.canvas.set_mode(CanvasMode.PATHS)
+    assert hand.canvas.grips.points == (), "paths are looked at, not pulled"
+    hand.canvas.set_mode(CanvasMode.DRAW)
     hand.document.run("select 1-201")
     assert hand.canvas.grips.points == ()
     hand.document.run("select 1")

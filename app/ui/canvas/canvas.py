@@ -23,7 +23,7 @@ from app.ui.canvas import overlay
 from app.ui.canvas.around_picture import AroundPicture
 from app.ui.canvas.curve_path import MANY, curve_path
 from app.ui.canvas.describe import describe_entity, describe_note
-from app.ui.canvas.grid import cells_shown, paint_display, paint_origin, paint_paper, paint_ruler_marks, paint_rulers
+from app.ui.canvas.grid import cells_shown, paint_display, paint_origin, paint_paper, paint_raster, paint_ruler_marks, paint_rulers
 from app.ui.canvas.gripping import GRIP_PX, CarryTool, PullTool
 from app.ui.canvas.hands import PICK_PX, Hands
 from app.ui.canvas.modes import CanvasMode, CanvasTool, ColourBy, PathLayers
@@ -103,6 +103,7 @@ class Canvas(Hands):
     def set_mode(self, mode: CanvasMode) -> None:
         """Show the drawing, or the tool paths."""
         self._mode = mode
+        self.grips.update(self.document, mode is CanvasMode.DRAW)
         self.look_at(None)
         self.repaint_scene()
 
@@ -194,6 +195,7 @@ class Canvas(Hands):
         paint_paper(painter, self.view, area, self._look.theme, self.unit)
         if self._underlay is not None:
             self._underlay.paint(painter, self.view)
+            paint_raster(painter, self.view, area, self._look.theme, self.unit)
         paint_display(painter, self.view, area, self.frame, self._look.theme)
 
     def paint_margins(self, painter: QPainter) -> None:
@@ -308,7 +310,7 @@ class Canvas(Hands):
         around = bool(change & (Change.PART | Change.JOB)) and self.around.update(self.document.job)
         if change & (Change.PART | Change.SELECTION):
             selected = self.picture.select(self.document.selection)
-            self.grips.update(self.document)
+            self.grips.update(self.document, self._mode is CanvasMode.DRAW)
             places = places + selected if places is not None and selected is not None else None
         finer = (self.picture.count(self.view.world_box(self.area)) > MANY) != self.picture.fine
         if around or places is None or finer or self.document.job.copies.shifts[1:]:

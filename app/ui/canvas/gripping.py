@@ -30,11 +30,11 @@ class Grips:
         """Begin without any."""
         self.points: tuple[Point, ...] = ()
 
-    def update(self, document: Document) -> None:
-        """Take over a document's selection; one of more than 200 has none, nor have hidden and locked layers."""
+    def update(self, document: Document, shown: bool) -> None:
+        """Take over a document's selection; one of more than 200 has none, nor have hidden and locked layers, nor has any unless shown."""
         chosen, part = document.selection, document.part
         found: list[Grip] = []
-        if 0 < len(chosen) <= _MOST:
+        if shown and 0 < len(chosen) <= _MOST:
             shut = {layer.name for layer in part.layers if not layer.visible or layer.locked}
             found = [grip for e in reachable(part) if e.id in chosen for grip in grips(e.curve)]
             found += [grip for n in part.notes if n.id in chosen and n.layer not in shut for grip in note_grips(n.shape)]
