@@ -14,7 +14,7 @@ from app.model.finding import Finding
 from app.ui.canvas.curve_path import curve_path
 from app.ui.canvas.drawing_tool import Preview
 from app.ui.canvas.notes_picture import paint_notes
-from app.ui.canvas.pens import screen_pen
+from app.ui.canvas.pens import FINE, screen_pen
 from app.ui.canvas.track import Acquired, Tracked
 from app.ui.canvas.view import View
 from app.ui.theme import Theme, text_font
@@ -37,6 +37,10 @@ def paint_preview(painter: QPainter, view: View, preview: Preview, theme: Theme)
     painter.restore()
 
 
+_MANY_TRIED = 500
+"""More curves than these are tried with pens of one px, which Qt strokes far faster."""
+
+
 def paint_trial(painter: QPainter, view: View, trial: Difference, theme: Theme) -> None:
     """Paint what a command would make: what comes in the accent, what goes in the colour of errors."""
     paint_notes(painter, view, trial.notes, (theme.accent, 1.4), QRectF(painter.viewport()))
@@ -45,9 +49,9 @@ def paint_trial(painter: QPainter, view: View, trial: Difference, theme: Theme) 
     painter.save()
     painter.setTransform(view.transform(), True)
     painter.setBrush(Qt.BrushStyle.NoBrush)
-    for entities, pen in ((trial.gone, screen_pen(painter, theme.error, 2.2)),
-                          (trial.added, screen_pen(painter, theme.accent, 1.8))):
-        painter.setPen(pen)
+    fine = len(trial.gone) + len(trial.added) > _MANY_TRIED
+    for entities, colour, width in ((trial.gone, theme.error, 2.2), (trial.added, theme.accent, 1.8)):
+        painter.setPen(screen_pen(painter, colour, FINE if fine else width))
         painter.drawPath(curve_path(*(entity.curve for entity in entities)))
     painter.restore()
 

@@ -63,6 +63,7 @@ class ShapeEditor(QPlainTextEdit):
         self.highlighter, self.gutter, self.list = Highlighter(self.document()), Gutter(self), OfferList(self)
         self.list.taken.connect(self._take_offer)
         self.blockCountChanged.connect(lambda _: self._lay_out())
+        self.textChanged.connect(self._show_marks)
         self.updateRequest.connect(self._follow)
         self.cursorPositionChanged.connect(self._show_marks)
         self._lay_out()
@@ -297,7 +298,7 @@ class ShapeEditor(QPlainTextEdit):
         line.format.setProperty(QTextFormat.Property.FullWidthSelection, True)
         line.cursor = QTextCursor(cursor)
         line.cursor.clearSelection()
-        marks = [line]
+        marks = [] if self.document().isEmpty() else [line]  # it would hide the hint
         for row, start, length in self._family(cursor):
             marks.append(self._mark(self.document().findBlockByNumber(row), start, length, theme.chosen))
         if self._found:
