@@ -80,6 +80,7 @@ class Underlaying:
     def _mark(self, prompt: str, click: Callable[[Point], None], points: list[Point] | None = None) -> None:
         self._window.actions_["underlay_shown"].setChecked(True)
         self._points = points or []
+        self._window.notice.dismiss()
         self._window.canvas.mark(Marking(prompt, lambda: tuple(self._points), lambda at, reach: click(at), self._typed))
         self._window.canvas.setFocus()
 

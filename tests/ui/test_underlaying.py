@@ -73,7 +73,7 @@ def test_two_points_and_their_distance_give_the_size(qtbot, traced: Wiring) -> N
     assert place.mm_per_px == pytest.approx(0.5 * 5.08)
     assert place.origin == pytest.approx((20 - 20 * 5.08, 5 - 5 * 5.08))
     assert traced.window_.canvas.marking is None
-    assert reddish(colour(traced, 45, 30))
+    assert reddish(colour(traced, 46.3, 31.3))
 
 
 def test_a_wrong_distance_is_said_and_asked_again(qtbot, traced: Wiring) -> None:

@@ -39,6 +39,11 @@ def cells_shown(view: View, frame: Frame) -> bool:
 def paint_paper(painter: QPainter, view: View, area: QRectF, theme: Theme, unit: float = 1.0) -> None:
     """Paint ground and raster within a screen rectangle; the raster's steps are round in a unit of so many mm."""
     painter.fillRect(area, theme.canvas)
+    paint_raster(painter, view, area, theme, unit)
+
+
+def paint_raster(painter: QPainter, view: View, area: QRectF, theme: Theme, unit: float = 1.0) -> None:
+    """Paint the raster alone."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
     minor, major = grid_steps(view, unit)
     _paint_raster(painter, view, area, minor, theme.grid)
