@@ -81,6 +81,7 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         Spec("properties", "P&roperties", "Ctrl+I"),
         Spec("layers", "La&yers", "F11"),
         Spec("history", "&History", "Ctrl+H"),
+        Spec("clean_up", "Cl&ean up"),
         SEPARATOR,
         Spec("log", "L&og", "F2", checkable=True),
         Spec("command", "&Command line", "Ctrl+L"),

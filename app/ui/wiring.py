@@ -13,6 +13,7 @@ from app.model.operation import OPERATION_KINDS
 from app.settings import ThemeChoice
 from app.ui.advising import Advising
 from app.ui.canvas.modes import CanvasTool
+from app.ui.cleaning import Cleaning
 from app.ui.context_menu import ContextMenu
 from app.ui.cut.cutting import Cutting
 from app.ui.cut.saving import CutSaving
@@ -85,6 +86,7 @@ class Wiring(QObject):
         self.engaging = Engaging(window)
         self.inspecting = Inspecting(window, self.showing)
         self.entering = Entering(window)
+        self.cleaning = Cleaning(window)
         self.cut_saving = CutSaving(window, self.log)
         self.shortcuts, self.palette = Shortcuts(window), Palette(window, self.files.open_file)
         self.plotting = Plotting(window, self.showing, self.log)

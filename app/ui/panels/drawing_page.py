@@ -12,6 +12,7 @@ from app.edit.document import Change, Document
 from app.edit.errors import CommandError
 from app.edit.sample import Box
 from app.errors import HitofudeError
+from app.ui.panels.drawing_cleanup import CleanUpSection
 from app.ui.panels.drawing_fields import PointField
 from app.ui.panels.drawing_history import HistorySection
 from app.ui.panels.drawing_layers import LayersSection
@@ -38,6 +39,7 @@ class DrawingPage(QScrollArea):
         super().__init__()
         self._document, self._extent = document, extent
         self.properties, self.layers, self.history = PropertiesSection(document), LayersSection(document), HistorySection(document)
+        self.cleanup = CleanUpSection()
         self._due = QTimer(self)
         self._due.setSingleShot(True)
         self._due.timeout.connect(self.refresh)
@@ -53,7 +55,7 @@ class DrawingPage(QScrollArea):
         column = self.column = QVBoxLayout(inner)
         column.setContentsMargins(0, 4, 0, 8)
         column.setSpacing(0)
-        for section in (self.properties, self.layers):
+        for section in (self.properties, self.layers, self.cleanup):
             column.addWidget(section)
             column.addWidget(hairline())
         column.addWidget(self.history, 1)
