@@ -81,7 +81,8 @@ class Arguments:
         """Return whether the next argument is a point."""
         if not self.more or self._is_word():
             return False
-        return isinstance(value_of(self._command.arguments[self._at], self._scope), tuple)
+        scope = replace(self._scope, units={**LENGTH_UNITS, **ANGLE_UNITS})
+        return isinstance(value_of(self._command.arguments[self._at], scope), tuple)
 
     def shift(self, expected: str) -> Point:
         """Read a shift @dx,dy or @r<angle, mm."""

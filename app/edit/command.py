@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from itertools import count
 
 from app.edit.syntax import Define
-from app.edit.transform import Similarity, transformed
+from app.edit.transform import Similarity, transformed, transformed_note
 from app.edit.values import Scope, Value
 from app.errors import InputError
 from app.model.curves import Curve, Point, reversed_curve
@@ -41,7 +41,7 @@ class Session:
 
     def with_part(self, part: Part) -> Session:
         """Return the session with another drawing; what has gone is no longer selected."""
-        kept = self.selection & {e.id for e in part.entities} if self.selection else self.selection
+        kept = self.selection & part.ids() if self.selection else self.selection
         return replace(self, part=part, selection=kept)
 
 
@@ -72,7 +72,7 @@ class Draw:
 
 @dataclass(frozen=True, slots=True)
 class Delete:
-    """Take curves out of the drawing."""
+    """Take curves and notes out of the drawing."""
 
     ids: frozenset[int]
     name: str = "Delete"
@@ -91,12 +91,13 @@ class Delete:
         part = session.part
         check_ids(part, self.ids)
         kept = tuple(e for e in part.entities if e.id not in self.ids)
-        return session.with_part(replace(part, entities=kept, used_id=part.next_id() - 1))
+        notes = tuple(n for n in part.notes if n.id not in self.ids)
+        return session.with_part(replace(part, entities=kept, notes=notes, used_id=part.next_id() - 1))
 
 
 @dataclass(frozen=True, slots=True)
 class Transform:
-    """Map curves by similarities of the plane: onto one place, or onto several as copies.
+    """Map curves and notes by similarities of the plane: onto one place, or onto several as copies.
 
     Attributes:
         maps: one for each place; where `keep` is False there is one, and the curves themselves go there.
@@ -124,11 +125,13 @@ class Transform:
         check_ids(part, self.ids)
         if not self.keep:
             return replace(session, part=replace(part, entities=tuple(
-                replace(e, curve=transformed(e.curve, self.maps[0])) if e.id in self.ids else e for e in part.entities)))
-        chosen = [e for e in part.entities if e.id in self.ids]
+                replace(e, curve=transformed(e.curve, self.maps[0])) if e.id in self.ids else e for e in part.entities), notes=tuple(
+                replace(n, shape=transformed_note(n.shape, self.maps[0])) if n.id in self.ids else n for n in part.notes)))
+        chosen, noted = [e for e in part.entities if e.id in self.ids], [n for n in part.notes if n.id in self.ids]
         ids = count(part.next_id())
         copies = tuple(replace(e, id=next(ids), curve=transformed(e.curve, to)) for to in self.maps for e in chosen)
-        return replace(session, part=part.with_entities(part.entities + copies))
+        notes = tuple(replace(n, id=next(ids), shape=transformed_note(n.shape, to)) for to in self.maps for n in noted)
+        return replace(session, part=replace(part, entities=part.entities + copies, notes=part.notes + notes, used_id=next(ids) - 1))
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,7 +212,8 @@ class SetLayer:
         if not self.ids:
             return replace(session, part=part, layer=self.layer)
         return replace(session, part=replace(part, entities=tuple(
-            replace(e, layer=self.layer) if e.id in self.ids else e for e in part.entities)))
+            replace(e, layer=self.layer) if e.id in self.ids else e for e in part.entities), notes=tuple(
+            replace(n, layer=self.layer) if n.id in self.ids else n for n in part.notes)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -274,7 +278,7 @@ def check_ids(part: Part, ids: frozenset[int]) -> None:
     Raises:
         InputError: it names those that are missing.
     """
-    missing = sorted(ids - {e.id for e in part.entities}) if ids else []
+    missing = sorted(ids - part.ids()) if ids else []
     if missing:
         listed = ", ".join(map(str, missing[:5])) + (" …" if len(missing) > 5 else "")
         raise InputError(f"The drawing has no entity {listed}; select what to change and repeat without numbers.")

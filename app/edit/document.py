@@ -252,7 +252,7 @@ class Document:
 
     def select(self, ids: Iterable[int]) -> None:
         """Select these entities; ids that the part does not have are passed over. Not logged."""
-        chosen = frozenset(ids) & {e.id for e in self.part.entities}
+        chosen = frozenset(ids) & self.part.ids()
         if chosen != self.selection:
             self.selection = chosen
             self._tell(Change.SELECTION)
@@ -288,7 +288,7 @@ class Document:
         self.revision += 1
         if not part_changed:
             return Change.HISTORY
-        kept = self.selection & {e.id for e in self.part.entities}
+        kept = self.selection & self.part.ids()
         change = Change.PART | Change.HISTORY | (Change.SELECTION if kept != self.selection else Change(0))
         self.selection = kept
         return change

@@ -107,8 +107,8 @@ class Interpreter:
         after = command.carried_out(session)
         if isinstance(command, Select):
             return Outcome(after, "Select", f"{len(after.selection)} selected.")
-        if len(after.part.entities) > MOST_CURVES:
-            raise wrong(f"The drawing would have {len(after.part.entities)} curves; a text draws at most {MOST_CURVES}.", written.place)
+        if (drawn := len(after.part.entities) + len(after.part.notes)) > MOST_CURVES:
+            raise wrong(f"The drawing would have {drawn} curves; a text draws at most {MOST_CURVES}.", written.place)
         return Outcome(_labelled(written, session, after), command.name, command.reply)
 
     def _call(self, own: s.Define, written: s.Command, session: Session) -> Outcome:
@@ -157,8 +157,7 @@ def value_text(value: Value) -> str:
 def _labelled(written: s.Command, before: Session, after: Session) -> Session:
     if written.label is None:
         return after
-    known = {e.id for e in before.part.entities}
-    return _with_name(after, written.label, Curves(tuple(e.id for e in after.part.entities if e.id not in known)))
+    return _with_name(after, written.label, Curves(tuple(sorted(after.part.ids() - before.part.ids()))))
 
 
 def _with_name(session: Session, name: s.Name, value: Value) -> Session:

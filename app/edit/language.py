@@ -13,6 +13,7 @@
     ellipse P P half [from a to a] [cw]     el    centre, end of a half axis, length of the other
     spline P P P … [close]                  sp    through points
     spline degree n P P … [knots k …] [weights w …]    by control points
+    point P     guide P P | P angle | across P | up P     dimension P P place P [across|up] | CURVE place P | angle P P P place P
 
     select all | none | CURVES | window P P | crossing P P | layer NAME | chain CURVES     (before it: add, remove)
     delete [CURVES]     reverse [CURVES]     layer NAME [CURVES]     undo     redo     clear
@@ -42,6 +43,7 @@ from collections.abc import Callable
 from app.edit import layers, syntax
 from app.edit import read_draw as draw
 from app.edit import read_edit as edit
+from app.edit import read_notes as notes
 from app.edit import read_rework as rework
 from app.edit.arguments import Arguments
 from app.edit.command import Clear, Edit, Redo, Session, Undo
@@ -51,7 +53,7 @@ from app.edit.read_set import SetProperty, set_property
 from app.edit.select import Select
 from app.edit.values import wrong
 
-Command = Pull | Edit | SetProperty | Heal | layers.RenameLayer | layers.RemoveLayer | Select | Undo | Redo
+Command = Pull | Edit | notes.DrawNote | SetProperty | Heal | layers.RenameLayer | layers.RemoveLayer | Select | Undo | Redo
 
 ALIASES = {
     "li": "line", "l": "line", "pl": "polyline", "ar": "arc", "a": "arc", "ci": "circle", "c": "circle", "re": "rect",
@@ -88,6 +90,7 @@ def read(written: syntax.Command, session: Session) -> Command:
 _READERS: dict[str, Callable[[Arguments, Session], Command]] = {
     "line": draw.line, "polyline": draw.polyline, "arc": draw.arc, "circle": draw.circle_of, "rect": draw.rect,
     "polygon": draw.polygon_of, "slot": draw.slot_of, "ellipse": draw.ellipse_of, "spline": draw.spline_of,
+    "point": notes.point, "guide": notes.guide, "dimension": notes.dimension,
     "select": edit.select, "delete": edit.delete, "move": edit.move, "copy": edit.copy, "rotate": edit.rotate, "scale": edit.scale,
     "mirror": edit.mirror, "array": edit.array, "reverse": edit.reverse, "layer": edit.layer,
     "hide": edit.hide, "show": edit.show, "lock": edit.lock, "unlock": edit.unlock, "colour": edit.colour,

@@ -11,8 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.edit.command import Session, check_ids
+from app.edit.dimension_lines import dimension_lines
 from app.edit.sample import Box, bounds, sample
 from app.model.curves import Curve, Point
+from app.model.notes import Guide, Mark, Note, Shape
 from app.model.part import Entity, Part
 from app.tolerances import WELD
 
@@ -62,12 +64,24 @@ class Select:
         if self.by is By.CHAIN:
             found = joined(reachable(session.part), self.ids)
         else:
-            found = self.ids if self.by is By.IDS else frozenset(e.id for e in reachable(session.part) if self._takes(e))
+            found = self.ids if self.by is By.IDS else self._found(session.part)
         if self.how is How.ADD:
             found = session.selection | found
         elif self.how is How.REMOVE:
             found = session.selection - found
         return replace(session, selection=found)
+
+    def _found(self, part: Part) -> frozenset[int]:
+        return frozenset([e.id for e in reachable(part) if self._takes(e)] + [n.id for n in reachable_notes(part) if self._takes_note(n)])
+
+    def _takes_note(self, note: Note) -> bool:
+        if self.by is By.LAYER:
+            return note.layer == self.layer
+        if self.by is By.WINDOW:
+            return note_inside(note.shape, self.box)
+        if self.by is By.CROSSING:
+            return note_crosses(note.shape, self.box)
+        return self.by is By.ALL
 
     def _takes(self, entity: Entity) -> bool:
         if self.by is By.LAYER:
@@ -102,6 +116,34 @@ def reachable(part: Part) -> tuple[Entity, ...]:
     """Return the entities on layers that are visible and not locked."""
     shut = {layer.name for layer in part.layers if not layer.visible or layer.locked}
     return tuple(e for e in part.entities if e.layer not in shut) if shut else part.entities
+
+
+def reachable_notes(part: Part) -> tuple[Note, ...]:
+    """Return the notes on layers that are visible and not locked."""
+    shut = {layer.name for layer in part.layers if not layer.visible or layer.locked}
+    return tuple(n for n in part.notes if n.layer not in shut)
+
+
+def note_inside(shape: Shape, box: Box) -> bool:
+    """Return whether a note lies within a box; a construction line, which has no end, never does."""
+    if isinstance(shape, Guide):
+        return False
+    points = (shape.at,) if isinstance(shape, Mark) else (*shape.points, shape.place)
+    return all(inside((*p, *p), box) for p in points)
+
+
+def note_crosses(shape: Shape, box: Box) -> bool:
+    """Return whether anything of a note lies within a box."""
+    if isinstance(shape, Mark):
+        return note_inside(shape, box)
+    if isinstance(shape, Guide):
+        sides = [(x - shape.through[0]) * math.sin(shape.angle) - (y - shape.through[1]) * math.cos(shape.angle)
+                 for x in box[::2] for y in box[1::2]]
+        return min(sides) <= 0 <= max(sides)
+    if inside((*shape.place, *shape.place), box):
+        return True
+    drawn = dimension_lines(shape, 1.0)
+    return any(crosses(line, box) for line in drawn.lines) or any(crosses(arc, box) for arc in drawn.arcs)
 
 
 def inside(inner: Box, outer: Box) -> bool:

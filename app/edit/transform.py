@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from app.errors import InputError
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point
+from app.model.notes import Guide, Mark, Measure, Shape
 from app.tolerances import WELD
 
 
@@ -88,6 +89,22 @@ def transformed(curve: Curve, to: Similarity) -> Curve:
     if isinstance(curve, Ellipse):
         return _ellipse(curve, to)
     return replace(curve, control_points=tuple(map(to, curve.control_points)))
+
+
+def transformed_note(shape: Shape, to: Similarity) -> Shape:
+    """Return a note where the map takes it; measures across and up change places where it turns by more than 45 degrees."""
+    if isinstance(shape, Mark):
+        return Mark(to(shape.at))
+    if isinstance(shape, Guide):
+        x, y = replace(to, b=0j)((math.cos(shape.angle), math.sin(shape.angle)))
+        angle = math.atan2(y, x) % math.pi
+        return Guide(to(shape.through), angle if angle < math.pi else 0.0)
+    points, measure = tuple(map(to, shape.points)), shape.measure
+    if measure is Measure.ANGLE and to.mirrored:
+        points = (points[0], points[2], points[1])
+    if measure in (Measure.ACROSS, Measure.UP) and abs(to.a.imag) > abs(to.a.real):
+        measure = Measure.UP if measure is Measure.ACROSS else Measure.ACROSS
+    return replace(shape, measure=measure, points=points, place=to(shape.place))
 
 
 def _ellipse(curve: Ellipse, to: Similarity) -> Ellipse:

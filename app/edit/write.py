@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from app.edit.words import name_text, number_text, point_text
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
-from app.model.part import Layer, Part
+from app.model.notes import Guide, Mark, Note, Shape
+from app.model.part import Entity, Layer, Part
 from app.tolerances import WELD
 
 
@@ -24,21 +26,39 @@ class DrawText:
 
 
 def draw_text(part: Part) -> DrawText:
-    """Return the text that draws a part: its layers with their looks, then its curves in order."""
+    """Return the text that draws a part: its layers with their looks, then its curves in order, with the notes among them."""
     lines = [f"# {part.name}"]
     for layer in part.layers:
         lines += [f"layer {name_text(layer.name)}", *_looks(layer)]
     current = part.layers[-1].name if part.layers else ""
     left_out = 0
-    for entity in part.entities:
-        if _is_nothing(entity.curve):
+    for item in _in_order(part):
+        if isinstance(item, Entity) and _is_nothing(item.curve):
             left_out += 1
             continue
-        if entity.layer != current:
-            current = entity.layer
+        if item.layer != current:
+            current = item.layer
             lines.append(f"layer {name_text(current)}")
-        lines.append(curve_text(entity.curve))
+        lines.append(curve_text(item.curve) if isinstance(item, Entity) else note_text(item.shape))
     return DrawText("\n".join(lines) + "\n", left_out)
+
+
+def _in_order(part: Part) -> Iterator[Entity | Note]:
+    notes = sorted(part.notes, key=lambda note: note.id, reverse=True)
+    for entity in part.entities:
+        while notes and notes[-1].id < entity.id:
+            yield notes.pop()
+        yield entity
+    yield from reversed(notes)
+
+
+def note_text(shape: Shape) -> str:
+    """Return the line that draws a note."""
+    if isinstance(shape, Mark):
+        return f"point {point_text(shape.at)}"
+    if isinstance(shape, Guide):
+        return f"guide {point_text(shape.through)} {number_text(math.degrees(shape.angle))}"
+    return f"dimension {shape.measure.value} {' '.join(map(point_text, shape.points))} place {point_text(shape.place)}"
 
 
 def curve_text(curve: Curve) -> str:

@@ -74,6 +74,10 @@ class Part:
         """Return an entity id that was never given."""
         return (self.used_id or _highest(self.entities, self.notes)) + 1
 
+    def ids(self) -> set[int]:
+        """Return the ids of all entities and notes."""
+        return {e.id for e in self.entities} | {n.id for n in self.notes}
+
     def curve(self, entity_id: int) -> Curve | None:
         """Return an entity's curve, or None when the part does not have it."""
         return next((e.curve for e in self.entities if e.id == entity_id), None)
