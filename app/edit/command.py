@@ -112,8 +112,8 @@ class Transform:
     @property
     def reply(self) -> str:
         """A short sentence for the log."""
-        curves = _counted(len(self.ids), "curve")
-        return f"{curves}, {_counted(len(self.maps), 'copy', 'copies')}." if self.keep else f"{curves}."
+        curves = counted(len(self.ids), "curve")
+        return f"{curves}, {counted(len(self.maps), 'copy', 'copies')}." if self.keep else f"{curves}."
 
     def carried_out(self, session: Session) -> Session:
         """Return the session with the curves at their places.
@@ -268,7 +268,8 @@ Edit = Clear | Draw | Delete | Transform | Rework | Reverse | SetLayer | SetLook
 """Commands that change the drawing; each has a name, a reply and `carried_out(session) -> session`."""
 
 
-def _counted(count: int, one: str, many: str = "") -> str:
+def counted(count: int, one: str, many: str = "") -> str:
+    """Return a number with the word for what it counts."""
     return f"{count} {one if count == 1 else many or one + 's'}"
 
 

@@ -174,6 +174,6 @@ def _check_name(name: s.Name) -> None:
 RESERVED = frozenset({
     "add", "all", "and", "arc", "as", "by", "ccw", "center", "centre", "close", "copy", "crossing", "cw", "define", "degree",
     "diameter", "else", "end", "from", "if", "knots", "large", "let", "none", "on", "over", "pi", "polar", "radius", "remove",
-    "repeat", "round", "side", "through", "times", "to", "weights", "window",
+    "repeat", "round", "side", "through", "times", "to", "weights", "window", "within",
 })
 """Words that commands look for among their arguments."""

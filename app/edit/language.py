@@ -26,6 +26,7 @@
     array n n @dx,dy [CURVES]     array polar P n [over angle] [CURVES]
 
     trim CURVE P [by CURVES]     extend CURVE P [to CURVES]     break CURVE P [P]     offset d P [CURVES]
+    join [within d] [CURVES]     explode [CURVES]     measure P P     measure [CURVES]
     fillet r CURVE [P] CURVE [P]     fillet r CURVES     chamfer d [and d] CURVE [P] CURVE [P]     chamfer d CURVES
 
     let w = 60 + 2     let p = mid(a, b)     circle p w/4 as hole
@@ -47,13 +48,16 @@ from app.edit import read_notes as notes
 from app.edit import read_rework as rework
 from app.edit.arguments import Arguments
 from app.edit.command import Clear, Edit, Redo, Session, Undo
+from app.edit.explode import explode
 from app.edit.heal import Heal, heal
+from app.edit.join import join
+from app.edit.measuring import Measure, measure
 from app.edit.pull import Pull, pull
 from app.edit.read_set import SetProperty, set_property
 from app.edit.select import Select
 from app.edit.values import wrong
 
-Command = Pull | Edit | notes.DrawNote | SetProperty | Heal | layers.RenameLayer | layers.RemoveLayer | Select | Undo | Redo
+Command = Pull | Edit | notes.DrawNote | SetProperty | Heal | Measure | layers.RenameLayer | layers.RemoveLayer | Select | Undo | Redo
 
 ALIASES = {
     "li": "line", "l": "line", "pl": "polyline", "ar": "arc", "a": "arc", "ci": "circle", "c": "circle", "re": "rect",
@@ -95,7 +99,7 @@ _READERS: dict[str, Callable[[Arguments, Session], Command]] = {
     "mirror": edit.mirror, "array": edit.array, "reverse": edit.reverse, "layer": edit.layer,
     "hide": edit.hide, "show": edit.show, "lock": edit.lock, "unlock": edit.unlock, "colour": edit.colour,
     "trim": rework.trim, "extend": rework.extend, "break": rework.break_at, "fillet": rework.fillet_of, "chamfer": rework.chamfer_of,
-    "offset": rework.offset,
+    "offset": rework.offset, "join": join, "explode": explode, "measure": measure,
     "pull": pull, "set": set_property, "rename": layers.rename, "remove": layers.remove, "heal": heal,
     "clear": lambda words, session: Clear(), "undo": lambda words, session: Undo(), "redo": lambda words, session: Redo(),
 }

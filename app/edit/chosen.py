@@ -1,0 +1,23 @@
+"""The curves that a command means: those it names, or what is selected."""
+
+from __future__ import annotations
+
+from app.edit.arguments import Arguments
+from app.edit.command import Session, check_ids
+from app.errors import InputError
+from app.model.curves import Curve
+
+
+def chosen_curves(words: Arguments, session: Session, verb: str) -> dict[int, Curve]:
+    """Return the curves that the rest of a command names, or those selected, by number; notes are passed over.
+
+    Raises:
+        InputError: there are none, or the drawing lacks one; `verb` says what was to be done with them.
+    """
+    ids = frozenset(words.ids())
+    check_ids(session.part, ids)
+    ids = ids or session.selection
+    curves = {e.id: e.curve for e in session.part.entities if e.id in ids}
+    if not curves:
+        raise InputError(f"No curve is selected; select what to {verb}, or write its numbers after the command.")
+    return curves
