@@ -231,9 +231,13 @@ class Document:
         self._tell(Change.ALL)
 
     def mark_saved(self, path: Path, state: State | None = None) -> None:
-        """Remember that a state, by default that of now, lies in this file."""
+        """Remember that a state, by default that of now, lies in this file; the part is named after it."""
         self._saved, self.path = state or self._history.state, path
-        self._tell(Change.HISTORY)
+        if self.part.name == path.stem:
+            self._tell(Change.HISTORY)
+            return
+        self._saved = self._history.rename(path.stem, self._saved)
+        self._tell(Change.HISTORY | Change.JOB)
 
     def undo(self) -> None:
         """Take the last change back; logged as the line `undo`."""

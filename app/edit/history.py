@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from itertools import chain, compress
 from operator import is_not
+from typing import Any, TypeVar
 
 from app.edit.recorded import Recorded
 from app.edit.syntax import Define
@@ -18,6 +19,9 @@ MOST_BYTES = 256 * 2**20
 """What steps may hold together; beyond that the oldest go."""
 
 _STEP_BYTES, _ENTITY_BYTES, _POINT_BYTES, _POINTER_BYTES = 2000, 400, 160, 8
+
+
+Kind = TypeVar("Kind")
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +41,10 @@ class State:
     names: Mapping[str, Value] = field(default_factory=dict)
     commands: Mapping[str, Define] = field(default_factory=dict)
     recorded: Recorded = field(default_factory=lambda: Recorded(Part()))
+
+    def named(self, name: str) -> State:
+        """Return it with another name of the part."""
+        return replace(self, job=replace(self.job, part=replace(self.job.part, name=name)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +112,32 @@ class History:
     def redo(self) -> str | None:
         """Go forward one step and return its name, or None when there is none."""
         return self._swap(self._redo, self._undo)
+
+    def rename(self, name: str, kept: State) -> State:
+        """Let the part have this name in all that was, is and will be again, which is no step; return what becomes of the state `kept`."""
+        known: dict[int, Any] = {}
+
+        def part(old: Part) -> Part:
+            return replace(old, name=name)
+
+        def job(old: Job) -> Job:
+            return replace(old, part=once(old.part, part))
+
+        def state(old: State) -> State:
+            return replace(old, job=once(old.job, job))
+
+        def once(old: Kind, change: Callable[[Kind], Kind]) -> Kind:
+            if id(old) not in known:
+                known[id(old)] = change(old)
+            made: Kind = known[id(old)]
+            return made
+
+        before = (self.state, *(step.other for step in (*self._undo, *self._redo)), kept)
+        after = [once(each, state) for each in before]
+        self._undo = [replace(step, other=other) for step, other in zip(self._undo, after[1:], strict=False)]
+        self._redo = [replace(step, other=other) for step, other in zip(self._redo, after[1 + len(self._undo):], strict=False)]
+        self.state = after[0]
+        return after[-1]
 
     def _swap(self, source: list[_Step], target: list[_Step]) -> str | None:
         if not source:

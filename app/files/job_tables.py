@@ -203,7 +203,7 @@ def read_angle(value: Any) -> float:
         InputError: it is neither.
     """
     if isinstance(value, str):
-        match = re.fullmatch(r"(\d\S{0,30}) rad", value)
+        match = re.fullmatch(r"(-?\d\S{0,30}) rad", value)
         try:
             return float(match[1] if match else "none")
         except ValueError as error:

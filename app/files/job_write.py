@@ -65,7 +65,7 @@ def _tool(tool: Tool) -> Iterator[str]:
     usual = Tool(tool.number, tool.diameter)
     always = {"number", "diameter", "kind", "name", "flutes", "spindle_speed", "feed_rate", "plunge_rate", *shape_keys(tool.kind)}
     keys: Iterable[str] = (key for key in TOOL_KEYS if key != "feeds" and (key in always or getattr(tool, key) != getattr(usual, key)))
-    yield from _table("tool", {key: _angle(tool.tip_angle) if key == "tip_angle" else getattr(tool, key) for key in keys}, several=True)
+    yield from _table("tool", {key: angle_said(tool.tip_angle) if key == "tip_angle" else getattr(tool, key) for key in keys}, several=True)
     for row in tool.feeds:
         yield from _table("tool.feeds", {"material": row.material, "surface_speed": row.surface_speed,
                                          "feed_per_tooth": row.feed_per_tooth, "plunge_share": row.plunge_share}, several=True)
@@ -79,7 +79,7 @@ def _operation(operation: Operation) -> Iterator[tuple[str, Any]]:
             continue
         value: Any = kind if key == "kind" else _at(operation.cut if target.startswith(("cut.", "entry.")) else operation, target)
         if value is not None:
-            yield key, _angle(value) if key == "entry_angle" else value
+            yield key, angle_said(value) if key == "entry_angle" else value
 
 
 def _at(holder: Any, target: str) -> Any:
@@ -89,7 +89,7 @@ def _at(holder: Any, target: str) -> Any:
     return holder
 
 
-def _angle(angle: float) -> float | str:
+def angle_said(angle: float) -> float | str:
     """Return degrees where some number of degrees is exactly the angle in radians, else the radians in words."""
     degrees = shortest_degrees(angle)
     return degrees if math.radians(degrees) == angle else f"{angle!r} rad"

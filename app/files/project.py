@@ -24,6 +24,7 @@ from app.files.drawing_account import on_layers, other_units, switched_off
 from app.files.job_tables import JobText, Table, one_of, read_flag, read_number, read_points, read_text, read_texts, read_whole
 from app.files.job_toml import TABLES, UNITS, read_kept_job, with_line
 from app.files.job_write import empty_lists, job_lines, word_of
+from app.files.project_beside import NOTHING_BESIDE, Beside, beside_lines, read_beside
 from app.files.project_curves import MOST_THINGS, curve_lines, note_lines, read_curves, read_notes
 from app.model.curves import Point
 from app.model.notes import Note
@@ -40,7 +41,7 @@ UPGRADES: Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]] = {}
 """By version: what makes of a file's tables those of the next version."""
 
 _HEADER = "# A project of Hitofude: a drawing and the job that is cut from it. resources/docs/project.md explains every key."
-_OWN = ("format", "version", "part", "layer", "view", "names", "commands", "curves", "notes")
+_OWN = ("format", "version", "part", "layer", "view", "underlay", "text", "names", "commands", "curves", "notes")
 _REMEDY = "mend the file, or open its backup, the file of the same name with ~ behind it"
 
 
@@ -64,6 +65,7 @@ class Project:
 
     state: State
     look: Look = Look()
+    beside: Beside = NOTHING_BESIDE
 
 
 def write_project(project: Project) -> bytes:
@@ -90,7 +92,8 @@ def read_project(name: str, data: bytes) -> Project:
     part, layer, last = _part(name, text, lines, tree)
     names = {key: _value(name, key, value) for key, value in _table(tree, lines, "names").items()}
     commands = {key: _command(name, key, value) for key, value in _table(tree, lines, "commands").items()}
-    return Project(State(replace(job, part=part), layer, last, names, commands, Recorded(part)), _look(tree, lines))
+    beside = read_beside(lines, {path: _table(tree, lines, path) for path in ("underlay", "text")})
+    return Project(State(replace(job, part=part), layer, last, names, commands, Recorded(part)), _look(tree, lines), beside)
 
 
 def project_drawing(data: bytes, name: str, units: Units | None = None, layers: tuple[str, ...] = ()) -> Drawing:
@@ -100,19 +103,27 @@ def project_drawing(data: bytes, name: str, units: Units | None = None, layers: 
     return Drawing(chosen, (*other_units(units, part.units), *switched_off(chosen, layers)))
 
 
+def check_size(name: str, data: bytes) -> None:
+    """Refuse the bytes of a project file that are too many to be read.
+
+    Raises:
+        InputError: they are.
+    """
+    if len(data) > MOST_BYTES:
+        raise InputError(f"{name}: the project has {len(data) / 2**20:.0f} MB; at most {MOST_BYTES >> 20} are read. Part the drawing.")
+    blocks = sum(len(found[0]) for found in re.finditer(rb"(?m)^lines = '''\r?\n[^']*'''\r?$", data))
+    if len(data) - blocks > MOST_HEAD:
+        raise InputError(f"{name}: beside its curves the project has {(len(data) - blocks) >> 20} MB; at most {MOST_HEAD >> 20} are read.")
+
+
 def _tree(name: str, data: bytes) -> tuple[str, dict[str, Any]]:
     """Return the text and its tables, of the newest version."""
-    if len(data) > MOST_BYTES:
-        raise InputError(f"{name}: the file has {len(data) / 2**20:.0f} MB; at most {MOST_BYTES // 2**20} are read. Part the drawing.")
+    check_size(name, data)
     try:
         text = data.decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError as error:
         line = data[:error.start].count(b"\n") + 1
         raise InputError(f"{name}:{line}: this is no text in UTF-8; {_REMEDY}.") from error
-    blocks = sum(len(found[0]) for found in re.finditer(r"(?m)^lines = '''\n[^']*'''$", text))
-    if len(text) - blocks > MOST_HEAD:
-        raise InputError(f"{name}: beside its curves the file has {(len(text) - blocks) >> 20} MB; "
-                         f"at most {MOST_HEAD >> 20} are read; {_REMEDY}.")
     try:
         tree = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
@@ -246,6 +257,7 @@ def _lines(project: Project) -> Iterator[str]:
         yield from ("", "[[layer]]", f"name = {spelled(layer.name)}", f"colour = {spelled(layer.colour)}",
                     f"visible = {spelled(layer.visible)}", f"locked = {spelled(layer.locked)}")
     yield from _look_lines(project.look)
+    yield from beside_lines(project.beside)
     yield from _name_lines(state)
     yield from job_lines(state.job)
     for title, things in (("curves", curve_lines(part.entities)), ("notes", note_lines(part.notes))):

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 from app.atomic import keep_copy, write_atomically
 from app.errors import InputError
-from app.files.project import MOST_BYTES, Project, read_project, write_project
+from app.files.project import MOST_BYTES, Project, check_size, read_project, write_project
 
 Stamp = tuple[int, int, int]
 """What tells that a file is as it was: when it was changed, ns; its bytes; its number on the disk."""
@@ -44,7 +45,8 @@ def load_project(path: Path) -> tuple[Project, Stamp | None]:
         data = path.read_bytes()
     except OSError as error:
         raise InputError(f"Cannot read {path}: {error.strerror}. Choose another file.") from error
-    return read_project(path.name, data), stamp
+    project = read_project(path.name, data)
+    return replace(project, beside=project.beside.from_folder(path.parent)), stamp
 
 
 def save_project(path: Path, project: Project, known: Stamp | None = None, backup: bool = True) -> Stamp:
@@ -60,12 +62,11 @@ def save_project(path: Path, project: Project, known: Stamp | None = None, backu
         ChangedElsewhere: the file has changed since it had that stamp; nothing was written.
         InputError: it cannot be written; what was there is untouched.
     """
-    data = write_project(project)
+    data = write_project(replace(project, beside=project.beside.in_folder(path.parent)))
     there = stamp_of(path)
     if known is not None and there is not None and there != known:
         raise ChangedElsewhere(f"{path.name} was changed by another program since it was opened or saved here.")
-    if len(data) > MOST_BYTES:
-        raise InputError(f"The project would have {len(data) >> 20} MB; at most {MOST_BYTES >> 20} can be read again. Part the drawing.")
+    check_size(path.name, data)
     if backup and there is not None and path.is_file():
         keep_copy(path, backup_of(path))
     write_atomically(path, data)

@@ -120,7 +120,10 @@ class Computation(QObject):
 
     def pixels_of(self, part: Part) -> BitmapPart | None:
         """Return the pixels of a part that is a picture's and was not drawn in since, else None."""
-        return self.pixels[1] if self.pixels is not None and self.pixels[0] is part else None
+        if self.pixels is None:
+            return None
+        drawn, pixels = self.pixels
+        return pixels if drawn.entities is part.entities and drawn.layers is part.layers else None
 
     def forget(self, drawing_findings: tuple[Finding, ...] = ()) -> None:
         """Drop the result: another document was opened, and reading it had this to say."""

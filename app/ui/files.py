@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
 from app.files.drawing import SUFFIXES
-from app.files.project import Look
+from app.files.project import Look, Project
 from app.model.part import Part, Units
 from app.ui import opening as opening_files
 from app.ui.canvas.view import View as CanvasView
@@ -65,7 +65,8 @@ class Files(QObject):
     def _would_lose(self) -> bool:
         document = self._document
         drawn = document.part.entities or document.part.notes or document.path
-        return document.modified and bool(drawn) and document.state is not self._given_up
+        changed = (document.modified and bool(drawn)) or self.saving.beside.unsaved
+        return changed and document.state is not self._given_up
 
     def ask_new(self) -> None:
         """Begin an empty drawing, after asking when changes would be lost."""
@@ -164,7 +165,8 @@ class Files(QObject):
         self._log.note(f"open {opened.path.name}", self._opened_sentence(opened))
         window.notice.hide()
         if opened.project is not None:
-            self.look(opened.project.look)
+            self.saving.beside.mark_saved(opened.project.beside)
+            self.bring(opened.project)
             return
         self._showing.show_view(View.DRAW)
         if opened.path == opening_files.sample_path():
@@ -177,8 +179,14 @@ class Files(QObject):
         window.lay_out_now()
         window.canvas.fit()
 
-    def look(self, look: Look) -> None:
-        """Look at the drawing as a project file says."""
+    def bring(self, project: Project) -> None:
+        """Bring back what a project file holds beside the document."""
+        self._look(project.look)
+        if wrong := self.saving.beside.bring(project.beside):
+            self._log.note("picture", wrong, error=True)
+            self._window.status.show_message(wrong, error=True)
+
+    def _look(self, look: Look) -> None:
         canvas = self._window.canvas
         self._showing.show_view(next((view for view in View if view.value == look.shown), View.DRAW))
         self._window.lay_out_now()

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 
 from app.edit.document import Document
-from app.edit.recorded import Recorded
 from app.edit.sample import bounds, union
 from app.errors import InputError
 from app.model.job import Job
@@ -78,9 +77,9 @@ def _read_project(path: Path) -> Opened:
     from app.files.project_files import load_project
 
     project, stamp = load_project(path)
-    part = replace(project.state.job.part, name=path.stem)
-    job = replace(project.state.job, part=part)
-    project = replace(project, state=replace(project.state, job=job, recorded=Recorded(part)))
+    project = replace(project, state=project.state.named(path.stem))
+    job = project.state.job
+    part = job.part
     return Opened(path, Drawing(part), job, None, size_of(part, job.keep_out_layers), project, stamp)
 
 

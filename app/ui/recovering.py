@@ -16,7 +16,6 @@ from app.progress import Progress
 from app.ui.files import Files
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
-from app.ui.saving import project_of
 from app.ui.showing import Showing
 from app.ui.worker import Answer, Worker
 
@@ -51,13 +50,14 @@ class Recovering(QObject):
         self._worker.failed.connect(self._on_failed)
         window.closed.connect(self._close)
         self._unsubscribe = self._document.subscribe(self._on_change)
+        files.saving.beside.changed.connect(self._wait)
 
     def keep(self) -> None:
         """Write the document as it is now into the recovery file, in the background; take the file away where it is saved."""
         if self._worker.busy:
             self._timer.start(round(_AGAIN_S * 1000))
             return
-        project = project_of(self._window, self._showing.view.value) if self._document.modified else None
+        project = self._files.saving.project() if self._document.modified or self._files.saving.beside.unsaved else None
         if project is None and self._file is None:
             return
         edited = Edited(self._document.path, self._files.saving.known)
@@ -98,7 +98,11 @@ class Recovering(QObject):
             self._file.keep(project, edited)
 
     def _on_change(self, change: Change) -> None:
-        if change & (Change.PART | Change.JOB | Change.HISTORY) and not self._timer.isActive():
+        if change & (Change.PART | Change.JOB | Change.HISTORY):
+            self._wait()
+
+    def _wait(self) -> None:
+        if not self._timer.isActive():
             self._timer.start(round(WAIT_S * 1000))
 
     def _on_done(self, answer: Answer) -> None:
@@ -121,7 +125,7 @@ class Recovering(QObject):
         self._document.load_state(project.state, edited.path, saved=False)
         self._files.saving.known = edited.stamp
         self._window.computation.forget()
-        self._files.look(project.look)
+        self._files.bring(project)
         self._taken.append(found)
         self._log.note("recover", f"{len(project.state.job.part.entities)} curves of {_clock(found.when)}; save to keep them.")
         for other in self._left:

@@ -11,10 +11,11 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog
 
 from app.edit.document import Change
-from app.edit.history import State
 from app.files.project import SUFFIX, Look, Project
+from app.files.project_beside import Beside
 from app.files.project_files import ChangedElsewhere, Stamp, save_project
 from app.progress import Progress
+from app.ui.beside import BesideDrawing
 from app.ui.figures import counted, grouped
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
@@ -45,15 +46,9 @@ class _Saved:
     """What became of it: the file's stamp, or a sentence on why it was not touched."""
 
     wish: _Wish
-    state: State
+    project: Project
     stamp: Stamp | None
     elsewhere: str = ""
-
-
-def project_of(window: MainWindow, shown: str) -> Project:
-    """Return what a project file of the window holds now."""
-    canvas = window.canvas
-    return Project(window.document.state, Look(shown, canvas.view.to_world(canvas.area.center()), canvas.view.scale))
 
 
 class Saving(QObject):
@@ -64,6 +59,7 @@ class Saving(QObject):
 
     Attributes:
         known: the stamp of the document's file as it was read or written last; None where it has none.
+        beside: what is saved beside the drawing.
         choose_file: asks the user for a path, given a title and a first choice; None = he changed his mind.
     """
 
@@ -78,6 +74,7 @@ class Saving(QObject):
         self._next: _Wish | None = None
         self._generation = 0
         self.known: Stamp | None = None
+        self.beside = BesideDrawing(self)
         self.choose_file: Callable[[str, Path], Path | None] = self._choose
         self._worker.done.connect(self._on_done)
         self._worker.failed.connect(self._on_failed)
@@ -86,6 +83,12 @@ class Saving(QObject):
         backups.setChecked(window.settings.backups)
         backups.toggled.connect(self._keep_backups)
         self._unsubscribe = self._document.subscribe(self._on_change)
+
+    def project(self) -> Project:
+        """Return what a project file of the window holds now."""
+        canvas = self._window.canvas
+        look = Look(self._showing.view.value, canvas.view.to_world(canvas.area.center()), canvas.view.scale)
+        return Project(self._document.state, look, self.beside.now)
 
     def save(self, then: Callable[[], None] | None = None) -> None:
         """Save to the document's own file, or ask for one where it has none; `then` is done once it is saved."""
@@ -127,13 +130,13 @@ class Saving(QObject):
         if self._worker.busy:
             self._next = wish
             return
-        project, backup = project_of(self._window, self._showing.view.value), self._window.settings.backups
-        self._worker.start(partial(_save, wish, project, backup), self._generation)
+        self._worker.start(partial(_save, wish, self.project(), self._window.settings.backups), self._generation)
 
     def _on_change(self, change: Change) -> None:
         if change & Change.LOADED:
             self._generation += 1
             self.known = None
+            self.beside.mark_saved(Beside())
 
     def _on_done(self, answer: Answer) -> None:
         saved = answer.value
@@ -144,9 +147,10 @@ class Saving(QObject):
         size = grouped(saved.stamp[1] / 1000, 1) if saved.stamp else ""
         if answer.revision == self._generation and not saved.wish.copy:
             self.known = saved.stamp
-            self._document.mark_saved(saved.wish.path, saved.state)
+            self._document.mark_saved(saved.wish.path, saved.project.state)
+            self.beside.mark_saved(saved.project.beside)
             self._window.settings = self._window.settings.with_recent_file(saved.wish.path)
-        self._log.note(f"save {saved.wish.path.name}", f"{counted(len(saved.state.job.part.entities), 'curve')}, {size} kB.")
+        self._log.note(f"save {saved.wish.path.name}", f"{counted(len(saved.project.state.job.part.entities), 'curve')}, {size} kB.")
         self._window.status.show_message(f"{saved.wish.path.name} is saved.")
         self.saved.emit(saved.wish.path)
         following, self._next = self._next, None
@@ -170,6 +174,11 @@ class Saving(QObject):
 
 def _save(wish: _Wish, project: Project, backup: bool, progress: Progress) -> _Saved:
     try:
-        return _Saved(wish, project.state, save_project(wish.path, project, wish.known, backup))
+        return _Saved(wish, project, save_project(wish.path, _named(project, wish.path.stem), wish.known, backup))
     except ChangedElsewhere as sentence:
-        return _Saved(wish, project.state, None, str(sentence))
+        return _Saved(wish, project, None, str(sentence))
+
+
+def _named(project: Project, name: str) -> Project:
+    """Return a project whose part has this name."""
+    return replace(project, state=project.state.named(name))

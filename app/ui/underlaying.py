@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from pathlib import Path
 
+from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog
 
 from app.edit.document import Change
@@ -24,11 +25,20 @@ _MOVE = "Move the picture: click a point of it, then where that belongs; Esc end
 _TURN = "Turn the picture: click two points of it that lie straight across or up; Esc ends"
 
 
-class Underlaying:
-    """Lets the user lay a picture under the drawing; that is no change of the drawing and is not undone."""
+class Underlaying(QObject):
+    """Lets the user lay a picture under the drawing; that is no change of the drawing and is not undone.
+
+    Signals:
+        changed(): another picture, or another place of it.
+    """
+
+    changed = Signal()
 
     def __init__(self, window: MainWindow) -> None:
-        self._window, self._points, self._shown = window, list[Point](), None
+        super().__init__(window)
+        self._window, self._points = window, list[Point]()
+        self._shown: UnderlayPicture | None = None
+        self._missing: Underlay | None = None
         acts: dict[str, Callable[[], None]] = {
             "underlay": self._choose, "underlay_scale": lambda: self._mark(_SCALE, self._scale_click),
             "underlay_move": lambda: self._mark(_MOVE, self._move_click), "underlay_turn": lambda: self._mark(_TURN, self._turn_click),
@@ -40,12 +50,10 @@ class Underlaying:
         window.document.subscribe(lambda change: self.lay(None) if Change.LOADED in change else None)
         self.lay(None)
 
-    _shown: UnderlayPicture | None
-
     @property
     def underlay(self) -> Underlay | None:
-        """Where the picture lies, if there is one."""
-        return self._shown.place if self._shown is not None else None
+        """Where the picture lies, if there is one; also of one whose file cannot be read."""
+        return self._shown.place if self._shown is not None else self._missing
 
     def place(self, path: Path) -> None:
         """Lay a picture over the display's frame; what is wrong with it is said."""
@@ -60,13 +68,28 @@ class Underlaying:
         self._window.notice.ask(f"{path.name} lies under the drawing. Two points whose distance you know give it its size.", [
             ("Scale by two points", lambda: self._mark(_SCALE, self._scale_click)), ("Remove it", lambda: self.lay(None))])
 
+    def bring(self, place: Underlay | None) -> str:
+        """Lay the picture that a file tells of; return what is wrong with it, or "". Its place is kept all the same."""
+        if place is None:
+            self.lay(None)
+            return ""
+        try:
+            self.lay(UnderlayPicture(read_picture(Path(place.path)), place))
+        except InputError as error:
+            self.lay(None)
+            self._missing = place
+            self._window.actions_["underlay_remove"].setEnabled(True)
+            return f"{error} It was the picture to trace, {place.path}; place it again, or remove it."
+        return ""
+
     def lay(self, picture: UnderlayPicture | None) -> None:
         """Show another picture, or none."""
-        self._shown = picture
+        self._shown, self._missing = picture, None
         for name in ("underlay_scale", "underlay_move", "underlay_turn", "underlay_shown", "underlay_remove"):
             self._window.actions_[name].setEnabled(picture is not None)
         self._window.actions_["underlay_shown"].setChecked(picture is not None)
         self._window.canvas.set_underlay(picture)
+        self.changed.emit()
 
     def _choose(self) -> None:
         name, _ = QFileDialog.getOpenFileName(self._window, "Place a picture to trace", self._window.settings.last_folder,
@@ -87,6 +110,7 @@ class Underlaying:
     def _put(self, place: Underlay) -> None:
         if self._shown is not None:
             self._shown.place = place
+            self.changed.emit()
             self._window.canvas.repaint_scene()
         self._points = []
         self._window.canvas.mark(None)

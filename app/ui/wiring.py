@@ -82,6 +82,7 @@ class Wiring(QObject):
         self.tools = ToolExchange(window, self.log)
         self.tabbing, self.unit_choice, self.underlaying = Tabbing(window), UnitChoice(window), Underlaying(window)
         self.language = LanguageWiring(window, self.showing)
+        self.files.saving.beside.watch(self.underlaying, self.language.control)
         self.advising = Advising(window)
         self.engaging = Engaging(window)
         self.inspecting = Inspecting(window, self.showing)

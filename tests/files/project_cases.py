@@ -9,6 +9,7 @@ from app.edit.history import State
 from app.edit.syntax import Define
 from app.edit.values import Curves
 from app.files.project import Look, Project
+from app.files.project_beside import Beside
 from app.model.curves import Arc, Circle, Ellipse, Line, Spline
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
@@ -16,6 +17,7 @@ from app.model.notes import Dimension, Guide, Mark, Measure, Note
 from app.model.operation import ContourOperation, Cut, Direction, DrillOperation, Order, PocketOperation, RestOperation, Side
 from app.model.part import Entity, Layer, Part, Units
 from app.model.tool import FeedRow, Tool, ToolKind, shape_keys
+from app.model.underlay import Underlay
 
 
 def floats(low: float, high: float, **more: bool) -> st.SearchStrategy[float]:
@@ -132,4 +134,7 @@ def projects(draw: st.DrawFn) -> Project:
     commands = draw(st.sampled_from([{}, {"bolt": command()}]))
     layer = draw(st.sampled_from([layer.name for layer in part.layers]))
     look = Look(draw(st.sampled_from(["", "view_cut"])), draw(st.one_of(st.none(), POINT)), draw(floats(1e-6, 1e6)))
-    return Project(State(draw(jobs(part)), layer, draw(POINT), names, commands), look)
+    place = st.builds(Underlay, TEXT.map(lambda name: f"p{name}"), POINT, floats(1e-6, 1e3), floats(-7, 7), floats(0, 1))
+    text = st.lists(TEXT, min_size=1, max_size=5).map(lambda lines: "\n".join(["x", *lines]))
+    beside = Beside(draw(st.one_of(st.none(), place)), *draw(st.one_of(st.just(()), st.tuples(text, st.booleans()))))
+    return Project(State(draw(jobs(part)), layer, draw(POINT), names, commands), look, beside)

@@ -13,6 +13,7 @@ from app.errors import InputError
 from app.files.job_toml import read_job
 from app.files.job_write import empty_lists, job_lines
 from app.files.project import MOST_HEAD, Look, Project, read_project, write_project
+from app.files.project_beside import MOST_TEXT, Beside
 from app.model.job import Job
 from app.model.part import Part
 from tests.conftest import ROOT
@@ -27,7 +28,7 @@ def same(one: Project, other: Project) -> None:
     assert (other.state.layer, other.state.last, other.state.names) == (one.state.layer, one.state.last, one.state.names)
     assert {name: each.source for name, each in other.state.commands.items()} == {n: c.source for n, c in one.state.commands.items()}
     assert list(other.state.names) == list(one.state.names)
-    assert other.look == one.look
+    assert (other.look, other.beside) == (one.look, one.beside)
 
 
 @settings(max_examples=150, deadline=None)
@@ -114,6 +115,9 @@ TEXT = write_project(drawn()).decode()
     ('"define bolt(c)"', '"define bolt(c"', r"bolt in \[commands\] cannot be read"),
     ('"define bolt(c)"', '"define nut(c)"', r"bolt in \[commands\] is not one define"),
     ("scale = 12.5", "scale = 0", "scale is out of range"),
+    ("[names]", "[underlay]\norigin = [0, 0]\n[names]", r"p.hito:\d+: \[underlay\] names no picture"),
+    ("[names]", '[underlay]\npath = "a.png"\nmm_per_px = 0\n[names]', r"p.hito:\d+: The picture a.png cannot lie there"),
+    ("[names]", "[text]\nlines = 3\n[names]", r"p.hito:\d+: lines is 3: it must be a list of texts"),
 ])  # fmt: skip
 def test_what_is_wrong_is_told_with_its_place(old: str, new: str, told: str) -> None:
     assert old in TEXT
@@ -122,6 +126,12 @@ def test_what_is_wrong_is_told_with_its_place(old: str, new: str, told: str) -> 
         read_project("p.hito", damaged.encode())
     if match := re.match(r"p\.hito:(\d+):", str(caught.value)):
         assert abs(int(match[1]) - (TEXT[:TEXT.index(old)].count("\n") + 1)) <= 2
+
+
+def test_a_text_too_long_for_the_file_is_left_out_and_the_file_is_read() -> None:
+    kept, left_out = ("a" * count for count in (MOST_TEXT - 100, MOST_TEXT))
+    for text, read in ((kept, kept), (left_out, "")):
+        assert read_project("p.hito", write_project(Project(drawn().state, beside=Beside(text=text)))).beside.text == read
 
 
 def test_windows_line_ends_are_read() -> None:

@@ -6,11 +6,14 @@ from pathlib import Path
 import pytest
 
 from app.edit.history import State
+from app.edit.values import Curves
 from app.errors import InputError
 from app.files.project import Project, read_project
+from app.files.project_beside import Beside
 from app.files.project_files import ChangedElsewhere, load_project, save_project, stamp_of
 from app.model.job import Job
 from app.model.part import Part
+from app.model.underlay import Underlay
 from tests.files.project_cases import plate
 
 
@@ -100,6 +103,27 @@ def test_the_names_of_the_folder_reach_the_disk_too(tmp_path: Path, monkeypatch:
     monkeypatch.setattr(os, "fsync", noted)
     save_project(tmp_path / "a.hito", named("one"))
     assert flushed[-1] == str(tmp_path.resolve()) and len(flushed) == 2
+
+
+def test_a_picture_in_the_folder_moves_with_it_and_one_elsewhere_stays(tmp_path: Path) -> None:
+    (tmp_path / "one" / "pictures").mkdir(parents=True)
+    for picture in (tmp_path / "one" / "pictures" / "plan b.png", tmp_path / "else.png"):
+        project = Project(named("one").state, beside=Beside(Underlay(str(picture))))
+        save_project(tmp_path / "one" / "a.hito", project)
+        assert load_project(tmp_path / "one" / "a.hito")[0].beside == project.beside
+        (tmp_path / "two").mkdir(exist_ok=True)
+        (tmp_path / "one" / "a.hito").replace(tmp_path / "two" / "a.hito")
+        place = load_project(tmp_path / "two" / "a.hito")[0].beside.underlay
+        assert place is not None
+        assert place.path == str(picture).replace("/one/", "/two/")
+
+
+def test_what_could_not_be_read_again_is_not_written(tmp_path: Path) -> None:
+    state = State(Job(plate()), names={f"n{k}": Curves(tuple(range(1, 400_000, 2))) for k in range(8)})
+    save_project(tmp_path / "a.hito", named("one"))
+    with pytest.raises(InputError, match="beside its curves the project has"):
+        save_project(tmp_path / "a.hito", Project(state))
+    assert name_in(tmp_path / "a.hito") == "one"
 
 
 def test_stamps(tmp_path: Path) -> None:

@@ -18,6 +18,7 @@ def wiring(qtbot):
     yield made
     window.worker.finish(20.0)
     made.document.load(made.document.job)
+    made.language.control.text = ""
     window.close()
     window.deleteLater()
 

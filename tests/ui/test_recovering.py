@@ -66,6 +66,21 @@ def test_a_change_is_kept_and_a_saved_document_is_not(qtbot, wiring, tmp_path):
     assert kept() == []
 
 
+def test_a_text_that_was_only_typed_is_kept_and_comes_back(qtbot, wiring):
+    wiring.language.control.text = "circle 0,0 5  # not run"
+    assert wiring.recovering._timer.isActive()
+    keep_now(qtbot, wiring)
+    (file,) = kept()
+    left = RecoveryFile()
+    left.keep(read_project("x", file.read_bytes()), Edited())
+    os.close(left._lock._handle)
+    wiring.language.control.text = ""
+    wiring.recovering.offer()
+    with qtbot.waitSignal(wiring.recovering.kept, timeout=WAIT_MS):
+        press(wiring, "Recover")
+    assert wiring.language.control.text == "circle 0,0 5  # not run"
+
+
 def test_a_clean_end_leaves_nothing(qtbot, wiring):
     wiring.document.run("circle 0,0 5")
     keep_now(qtbot, wiring)

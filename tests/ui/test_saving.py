@@ -5,9 +5,13 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, Qt, QUrl
-from PySide6.QtGui import QDropEvent
+from PySide6.QtGui import QDropEvent, QImage
 
-from app.files.project import read_project
+from app.files.project import Project, read_project
+from app.files.project_beside import Beside
+from app.files.project_files import load_project, save_project
+from app.model.underlay import Underlay
+from app.ui.computation import State
 from app.ui.views import View
 from tests.ui.conftest import WAIT_MS
 
@@ -222,3 +226,76 @@ def test_backups_can_be_switched_off_and_that_is_remembered(qtbot, wiring, tmp_p
         save_to(qtbot, wiring, tmp_path / "a.hito")
     assert [path.name for path in tmp_path.iterdir()] == ["a.hito"]
     assert load_settings().backups is False
+
+
+def test_the_part_is_named_after_its_file_in_all_that_can_be_undone(qtbot, wiring, tmp_path):
+    document = wiring.document
+    for line in ("rect 0,0 60,40", "circle 30,20 8", "undo"):
+        document.run(line)
+    save_to(qtbot, wiring, tmp_path / "lid 蓋.hito")
+    assert document.part.name == "lid 蓋" and not document.modified
+    assert read_project("x", (tmp_path / "lid 蓋.hito").read_bytes()).state.job.part.name == "lid 蓋"
+    for step, names in ((document.redo, 5), (document.undo, 4), (document.undo, 0), (document.redo, 4)):
+        step()
+        assert document.part.name == "lid 蓋" and len(document.part.entities) == names
+    assert not document.modified
+
+
+def test_the_program_bears_the_name_of_the_file(qtbot, wiring, tmp_path):
+    wiring.document.run("rect 0,0 60,40")
+    wiring.computation.start()
+    qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=WAIT_MS)
+    save_to(qtbot, wiring, tmp_path / "lid.hito")
+    assert wiring.computation.state is State.STALE
+    wiring.files.exporting.choose_file = lambda ending: tmp_path / "lid.ngc"
+    with qtbot.waitSignal(wiring.files.exporting.written, timeout=WAIT_MS):
+        wiring.files.exporting.start()
+        qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=WAIT_MS)
+        if wiring.window_.notice.buttons:
+            press(wiring, "Write anyway")
+    text = (tmp_path / "lid.ngc").read_text()
+    assert "Part lid" in text and "untitled" not in text
+
+
+def test_the_text_of_the_editor_and_the_picture_lie_in_the_file(qtbot, wiring, tmp_path):
+    picture = tmp_path / "plan.png"
+    image = QImage(20, 10, QImage.Format.Format_RGB32)
+    image.fill(0)
+    assert image.save(str(picture))
+    wiring.document.run("circle 0,0 5")
+    wiring.underlaying.place(picture)
+    wiring.language.control.text = "let r = 5  # the bore's\ncircle 0,0 r"
+    wiring.language.control.page.set_replaces(True)
+    save_to(qtbot, wiring, tmp_path / "a.hito")
+    place, saved = wiring.underlaying.underlay, (tmp_path / "a.hito").read_bytes()
+    assert b'path = "plan.png"' in saved and not wiring.files.saving.beside.unsaved
+    wiring.files.new()
+    assert wiring.underlaying.underlay is None and wiring.language.control.text == ""
+    wiring.language.control._kept.clear()
+    open_it(qtbot, wiring, tmp_path / "a.hito")
+    assert wiring.underlaying.underlay == place
+    assert wiring.language.control.text == "let r = 5  # the bore's\ncircle 0,0 r" and wiring.language.control.page.replaces
+    assert not wiring.files.saving.beside.unsaved
+
+
+def test_a_picture_that_has_gone_is_told_and_its_place_is_not_lost(qtbot, wiring, tmp_path):
+    place = Underlay(str(tmp_path / "gone.png"), (1.0, 2.0), 0.1, 0.3)
+    wiring.document.run("circle 0,0 5")
+    save_project(tmp_path / "a.hito", Project(wiring.document.state, beside=Beside(place)))
+    wiring.files.new()
+    open_it(qtbot, wiring, tmp_path / "a.hito")
+    assert len(wiring.document.part.entities) == 1
+    assert "gone.png is not there" in wiring.log.lines[-1].reply and wiring.log.lines[-1].error
+    with qtbot.waitSignal(wiring.files.saving.saved, timeout=WAIT_MS):
+        wiring.files.saving.save()
+    assert load_project(tmp_path / "a.hito")[0].beside.underlay == place
+    wiring.window_.actions_["underlay_remove"].trigger()
+    assert wiring.underlaying.underlay is None and wiring.files.saving.beside.unsaved
+
+
+def test_a_text_that_was_only_typed_is_asked_for_before_the_window_closes(wiring):
+    wiring.language.control.text = "circle 0,0 5"
+    wiring.window_.close()
+    assert wiring.window_.isVisible() and "Close?" in wiring.window_.notice.text.text()
+    press(wiring, "Give up the changes")
+    assert not wiring.window_.isVisible()

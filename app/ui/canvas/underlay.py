@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from pathlib import Path
 
 from PySide6.QtCore import QByteArray, QRectF, Qt
@@ -24,6 +25,8 @@ def read_picture(path: Path) -> QImage:
     Raises:
         InputError: it cannot be read, is of another kind, damaged, or larger than 64 million pixels.
     """
+    if not os.path.isfile(path):
+        raise InputError(f"{path.name} is not there.")
     reader = QImageReader(str(path))
     reader.setAutoTransform(True)
     reader.setDecideFormatFromContent(True)

@@ -70,6 +70,11 @@ class TextControl(QObject):
     def text(self, text: str) -> None:
         self.page.text = text
 
+    @property
+    def is_drawn(self) -> bool:
+        """Whether the drawing is what the text draws."""
+        return self.page.text == self._done
+
     def open(self) -> None:
         """Bring the page to the front, with the cursor in it."""
         if self._showing.view not in (View.DRAW, View.PATHS):
