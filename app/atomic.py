@@ -9,23 +9,29 @@ import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from types import MappingProxyType
 
 from app.errors import InputError
 
 
-def write_atomically(path: Path, data: bytes) -> None:
+def write_atomically(path: Path, data: bytes, backup: Path | None = None) -> None:
     """Write a file so that a reader sees the old content or the new one, never a part.
 
     The bytes go to a temporary file in the same folder, are forced to the disk, and take the old file's place in one
     step; its permissions stay. A link is followed. A device or a pipe is written straight, as it cannot be replaced.
 
+    Args:
+        path: of the file.
+        data: its bytes.
+        backup: where the old content is kept, once the new one is safe on the disk; None: nowhere.
+
     Raises:
         InputError: the file cannot be written; what was there before is untouched.
     """
-    write_together({path: data})
+    write_together({path: data}, {} if backup is None else {path: backup})
 
 
-def keep_copy(path: Path, copy: Path) -> None:
+def _keep_copy(path: Path, copy: Path) -> None:
     """Let a file's content stand under a second name too, in the place of what stood there; the file itself stays untouched.
 
     Raises:
@@ -56,11 +62,12 @@ def _flush(folder: Path) -> None:
             os.close(handle)
 
 
-def write_together(files: Mapping[Path, bytes]) -> None:
+def write_together(files: Mapping[Path, bytes], backups: Mapping[Path, Path] = MappingProxyType({})) -> None:
     """Write files as `write_atomically` does, all or none: where one cannot be written, all are as they were before.
 
     Args:
         files: bytes by path.
+        backups: by path, where what was there is kept; of files that are there.
 
     Raises:
         InputError: naming the first file that cannot be written.
@@ -76,6 +83,9 @@ def write_together(files: Mapping[Path, bytes]) -> None:
                     path.write_bytes(data)
                 else:
                     staged.append(_Staged(path, target, data))
+        for each in staged:
+            if each.path in backups and each.existed:
+                _keep_copy(each.path, backups[each.path])
         for each in staged:
             with _told(each.path):
                 each.take_place()
@@ -110,7 +120,7 @@ class _Staged:
         """
         self.path, self._target, self.folder = path, target, target.parent
         self._old = ""
-        self._placed, self._existed = False, target.exists()
+        self._placed, self.existed = False, target.exists()
         mode = stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask()
         handle, self._new = tempfile.mkstemp(prefix=f".{target.name[:32]}.", suffix=".part", dir=target.parent)
         try:
@@ -125,7 +135,7 @@ class _Staged:
 
     def take_place(self) -> None:
         """Replace the file in one step; keep the old one under another name, where the file system can."""
-        if self._existed:
+        if self.existed:
             old = f"{self._new}.old"
             with suppress(OSError):
                 os.link(self._target, old)
@@ -137,7 +147,7 @@ class _Staged:
         """Make the file what it was before."""
         if self._placed and self._old:
             os.replace(self._old, self._target)
-        elif self._placed and not self._existed:
+        elif self._placed and not self.existed:
             os.unlink(self._target)
 
     def clean(self) -> None:

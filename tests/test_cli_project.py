@@ -57,6 +57,11 @@ def test_layers_are_chosen(project: Path, capsys: pytest.CaptureFixture[str]) ->
     assert "no layer none" in capsys.readouterr().err
 
 
+def test_the_backup_of_a_project_is_one(project: Path) -> None:
+    backup = project.replace(project.with_name("plate.hito~"))
+    assert "T7 M6" in made(backup)
+
+
 def test_a_newer_project_is_refused_and_stays(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
     data = project.read_bytes().replace(b"version = 1", b"version = 9")
     project.write_bytes(data)

@@ -22,7 +22,7 @@ from tests.conftest import ROOT
 
 
 def test_settings_come_back() -> None:
-    settings = Settings(ThemeChoice.DARK, ("/a/刃.dxf",), "AdnQ", "AAAA", "/a")
+    settings = Settings(ThemeChoice.DARK, ("/a/刃.dxf", "/a/\udcff.dxf"), "AdnQ", "AAAA", "/a")
     save_settings(settings)
     assert load_settings() == settings
 

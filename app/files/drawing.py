@@ -9,7 +9,10 @@ from app.errors import InputError
 from app.model.finding import Finding
 from app.model.part import Part, Units
 
-SUFFIXES = (".hito", ".dxf", ".svg", ".draw")
+PROJECTS = (".hito", ".hito~")
+"""A project, and the backup of one."""
+
+SUFFIXES = (*PROJECTS, ".dxf", ".svg", ".draw")
 """Suffixes of drawings that can be read, in lower case."""
 
 
@@ -54,7 +57,7 @@ def read_drawing(path_name: str, data: bytes, units: Units | None = None, layers
         from app.files.draw import read_draw
 
         return read_draw(data, name, units, layers)
-    if suffix == ".hito":
+    if suffix in PROJECTS:
         from app.files.project import project_drawing
 
         return project_drawing(data, name, units, layers)

@@ -6,7 +6,7 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-from app.atomic import keep_copy, write_atomically
+from app.atomic import write_atomically
 from app.errors import InputError
 from app.files.project import MOST_BYTES, Project, check_size, read_project, write_project
 
@@ -67,9 +67,7 @@ def save_project(path: Path, project: Project, known: Stamp | None = None, backu
     if known is not None and there is not None and there != known:
         raise ChangedElsewhere(f"{path.name} was changed by another program since it was opened or saved here.")
     check_size(path.name, data)
-    if backup and there is not None and path.is_file():
-        keep_copy(path, backup_of(path))
-    write_atomically(path, data)
+    write_atomically(path, data, backup_of(path) if backup else None)
     stamp = stamp_of(path)
     assert stamp is not None
     return stamp

@@ -55,12 +55,12 @@ def sample_path() -> Path:
 
 
 def _read(path: Path, units: Units | None, before: Job, progress: Progress) -> Opened:
-    from app.files.drawing import read_drawing  # imports the DXF reader: never on the window's thread
+    from app.files.drawing import PROJECTS, read_drawing  # imports the DXF reader: never on the window's thread
     from app.workflow.make import job_from_drawing
     from app.workflow.options import MakeOptions
 
     progress.step(0.05, f"Reading {path.name}")
-    if path.suffix.lower() == ".hito":
+    if path.suffix.lower() in PROJECTS:
         return _read_project(path)
     try:
         data = path.read_bytes()

@@ -102,13 +102,24 @@ class Saving(QObject):
         """Ask for a file, and save to that from now on."""
         path = self.choose_file("Save as", self._first_choice(""))
         if path is not None:
-            self._start(_Wish(path, then=then))
+            self._start_new(_Wish(path, then=then))
 
     def save_copy(self) -> None:
         """Ask for a file and write the document there; it stays that of its own file."""
         path = self.choose_file("Save a copy", self._first_choice(" copy"))
         if path is not None:
-            self._start(_Wish(path, copy=True))
+            self._start_new(_Wish(path, copy=True))
+
+    def _start_new(self, wish: _Wish) -> None:
+        """Save to a file that the user has named; one that would be none of ours gets our ending, and is not replaced unasked."""
+        if wish.path.suffix.lower() == SUFFIX:
+            self._start(wish)
+            return
+        wish = replace(wish, path=wish.path.with_name(wish.path.name + SUFFIX))
+        if wish.path.exists():
+            self._ask(f"{wish.path.name} is there already.", wish)
+        else:
+            self._start(wish)
 
     def _keep_backups(self, on: bool) -> None:
         self._window.settings = replace(self._window.settings, backups=on)
@@ -142,7 +153,7 @@ class Saving(QObject):
         saved = answer.value
         assert isinstance(saved, _Saved)
         if saved.elsewhere:
-            self._ask(saved)
+            self._ask(f"{saved.elsewhere} Saving would replace what it wrote.", saved.wish)
             return
         size = grouped(saved.stamp[1] / 1000, 1) if saved.stamp else ""
         if answer.revision == self._generation and not saved.wish.copy:
@@ -160,11 +171,11 @@ class Saving(QObject):
         elif saved.wish.then is not None:
             saved.wish.then()
 
-    def _ask(self, saved: _Saved) -> None:
-        wish, self._next = saved.wish, None
+    def _ask(self, why: str, wish: _Wish) -> None:
+        self._next = None
         self._window.notice.ask(
-            f"{saved.elsewhere} Saving would replace what it wrote.",
-            [("Replace it", lambda: self._start(_Wish(wish.path, None, wish.copy, wish.then))),
+            why,
+            [("Replace it", lambda: self._start(replace(wish, known=None))),
              ("Save as…", lambda: self.save_as(wish.then)), ("Do not save", lambda: None)], error=True, stays=True)
 
     def _on_failed(self, answer: Answer) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import PurePath
 
+from app.files.drawing import PROJECTS
 from app.workflow.options import MakeOptions
 
 
@@ -18,7 +19,7 @@ def with_own_job(name: str, data: bytes, options: MakeOptions) -> MakeOptions:
     Raises:
         InputError: it is a project file that cannot be read.
     """
-    if options.job is not None or PurePath(name).suffix.lower() != ".hito":
+    if options.job is not None or PurePath(name).suffix.lower() not in PROJECTS:
         return options
     from app.files.project import read_project
 

@@ -1,6 +1,8 @@
 """Project files on the disk: whole, with the version before, and not over another program's work."""
 
 import os
+import resource
+import signal
 from pathlib import Path
 
 import pytest
@@ -116,6 +118,28 @@ def test_a_picture_in_the_folder_moves_with_it_and_one_elsewhere_stays(tmp_path:
         place = load_project(tmp_path / "two" / "a.hito")[0].beside.underlay
         assert place is not None
         assert place.path == str(picture).replace("/one/", "/two/")
+
+
+def test_a_full_disk_leaves_file_and_backup(tmp_path: Path) -> None:
+    path = tmp_path / "a.hito"
+    for name in ("one", "two"):
+        save_project(path, named(name))
+    before = {each.name: each.read_bytes() for each in tmp_path.iterdir()}
+    handling, limits = signal.signal(signal.SIGXFSZ, signal.SIG_IGN), resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (500, limits[1]))
+    try:
+        with pytest.raises(InputError, match=r"Cannot write .*File too large"):
+            save_project(path, named("three"))
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        signal.signal(signal.SIGXFSZ, handling)
+    assert {each.name: each.read_bytes() for each in tmp_path.iterdir()} == before
+
+
+@pytest.mark.parametrize("name", ["a b.hito", "図面 穴.hito", "q'\"uote.hito", "x" * 250 + ".hito", "\udcff.hito", ".hito", "%s{}.hito"])
+def test_any_name_will_do(tmp_path: Path, name: str) -> None:
+    save_project(tmp_path / name, named("one"))
+    assert load_project(tmp_path / name)[0].state.job == named("one").state.job
 
 
 def test_what_could_not_be_read_again_is_not_written(tmp_path: Path) -> None:

@@ -127,6 +127,35 @@ def test_what_cannot_be_saved_is_told_and_stays_modified(qtbot, wiring, tmp_path
     assert "Cannot write" in caught.args[0] and wiring.document.modified
 
 
+def test_a_name_that_is_no_projects_gets_the_ending_and_replaces_nothing_unasked(qtbot, wiring, tmp_path):
+    wiring.document.run("circle 0,0 5")
+    (tmp_path / "plate.dxf").write_bytes(b"theirs")
+    save_to(qtbot, wiring, tmp_path / "plate.dxf")
+    assert (tmp_path / "plate.dxf").read_bytes() == b"theirs"
+    assert wiring.document.path == tmp_path / "plate.dxf.hito"
+    wiring.document.run("circle 0,0 6")
+    wiring.files.saving.choose_file = lambda title, first: tmp_path / "plate.dxf"
+    wiring.window_.actions_["save_as"].trigger()
+    assert "plate.dxf.hito is there already" in wiring.window_.notice.text.text()
+    assert len(kinds(tmp_path / "plate.dxf.hito")) == 1
+    with qtbot.waitSignal(wiring.files.saving.saved, timeout=WAIT_MS):
+        press(wiring, "Replace it")
+    assert len(kinds(tmp_path / "plate.dxf.hito")) == 2
+
+
+def test_the_backup_opens_and_saving_it_asks_for_the_file(qtbot, wiring, tmp_path):
+    wiring.document.run("circle 0,0 5")
+    save_to(qtbot, wiring, tmp_path / "a.hito")
+    wiring.document.run("circle 0,0 6")
+    save_to(qtbot, wiring, tmp_path / "a.hito")
+    open_it(qtbot, wiring, tmp_path / "a.hito~")
+    assert len(wiring.document.part.entities) == 1 and wiring.document.part.name == "a"
+    wanted: list[Path] = []
+    wiring.files.saving.choose_file = lambda title, first: wanted.append(first)
+    wiring.files.saving.save()
+    assert wanted[0] == tmp_path / "a.hito"
+
+
 def test_saving_twice_at_once_saves_the_last_state(qtbot, wiring, tmp_path):
     wiring.document.run("circle 0,0 5")
     save_to(qtbot, wiring, tmp_path / "a.hito")
