@@ -136,7 +136,8 @@ def make_parser() -> OptionParser:
         "Turn a drawing or a picture into tool paths for pockets, rests, contours and holes, and write them as an NC program, "
         "read back and proven the same.", EPILOG,
     )  # fmt: skip
-    parser.add_argument("drawing", metavar="DRAWING", type=Path, help="the drawing or project, .hito .dxf .svg .draw, or a picture, .png .jpg .bmp")
+    parser.add_argument("drawing", metavar="DRAWING", type=Path,
+                        help="the drawing or project, .hito .dxf .svg .draw, or a picture, .png .jpg .bmp")
     _file_options(parser.add_argument_group("files"))
     _tool_options(parser.add_argument_group("tools and cutting"))
     add_machining_options(parser.add_argument_group("how it is cut"), parser.add_argument_group("copies, tabs and clamps"))

@@ -71,7 +71,8 @@ def stages_command(argv: Sequence[str], stopped: threading.Event) -> int:
 def _parser() -> OptionParser:
     about = "Draw a drawing or a picture on a bitmap as in 1986, and write the display memory after every numbered step."
     parser = OptionParser("stages", ("drawing", "the drawing and the folder to write to"), about, EPILOG)
-    parser.add_argument("drawing", metavar="DRAWING", type=Path, help="the drawing or project, .hito .dxf .svg .draw, or a picture, .png .jpg .bmp")
+    parser.add_argument("drawing", metavar="DRAWING", type=Path,
+                        help="the drawing or project, .hito .dxf .svg .draw, or a picture, .png .jpg .bmp")
     parser.add_argument("-o", "--output", metavar="DIR", type=Path, required=True, help="the folder; made where there is none")
     parser.add_argument("--variant", choices=[each.value for each in Variant], default=Variant.SETTLED.value,
                         help="rules of the fill: those that are always right (default), or as published, with what they get wrong")

@@ -10,6 +10,9 @@ from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point
 from app.model.notes import Guide, Mark, Measure, Shape
 from app.tolerances import WELD
 
+_FARTHEST = 1e9
+"""From zero, mm: beyond it a double knows no micrometre, and repeated scaling would end in no number at all."""
+
 
 @dataclass(frozen=True, slots=True)
 class Similarity:
@@ -24,9 +27,15 @@ class Similarity:
     mirrored: bool = False
 
     def __call__(self, point: Point) -> Point:
-        """Return where a point goes."""
+        """Return where a point goes.
+
+        Raises:
+            InputError: farther away than a drawing reaches.
+        """
         z = complex(point[0], -point[1] if self.mirrored else point[1])
         to = self.a * z + self.b
+        if not abs(to) <= _FARTHEST:
+            raise InputError(f"This would lead {abs(to):g} mm away from zero; a drawing reaches {_FARTHEST:g} mm.")
         return (to.real, to.imag)
 
     def then(self, after: Similarity) -> Similarity:
@@ -85,6 +94,7 @@ def transformed(curve: Curve, to: Similarity) -> Curve:
     if isinstance(curve, Arc):
         return Arc(to(curve.start), to(curve.end), to(curve.centre), curve.ccw != to.mirrored)
     if isinstance(curve, Circle):
+        to((curve.centre[0] + curve.radius, curve.centre[1]))  # refuses what reaches too far
         return Circle(to(curve.centre), curve.radius * to.scale, curve.ccw != to.mirrored)
     if isinstance(curve, Ellipse):
         return _ellipse(curve, to)
@@ -109,6 +119,8 @@ def transformed_note(shape: Shape, to: Similarity) -> Shape:
 
 def _ellipse(curve: Ellipse, to: Similarity) -> Ellipse:
     major = replace(to, b=0j)(curve.major)
+    if major == (0.0, 0.0):
+        raise InputError("An ellipse would shrink to nothing.")
     if not to.mirrored:
         return replace(curve, centre=to(curve.centre), major=major)
     return replace(curve, centre=to(curve.centre), major=major, start_parameter=-curve.end_parameter,

@@ -13,6 +13,7 @@ from app.model.tool import FeedRow
 
 Value = TypeVar("Value")
 _MISSING = object()
+_LARGEST = 1e15
 
 
 @dataclass(frozen=True)
@@ -110,6 +111,8 @@ def read_number(value: Any) -> float:
     """
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise InputError("it must be a number, in mm, mm/min or rpm")
+    if not abs(value) <= _LARGEST:
+        raise InputError(f"it must be a number up to {_LARGEST:g}")
     return float(value)
 
 

@@ -191,6 +191,8 @@ def _layers(tree: dict[str, Any], lines: JobText) -> Iterator[Layer]:
         table.done("name, colour, visible, locked")
         if not re.fullmatch(r"(#[0-9a-fA-F]{6})?", table.taken.get("colour", "")):
             raise table.error("colour", "is no colour; write #rrggbb, or nothing for the ink of the theme")
+        if any(each.get("name", "0") == before.get("name", "0") for before in given[:index]):
+            raise table.error("name", "is that of another layer too; give each its own")
         yield Layer(**table.taken)
 
 

@@ -21,6 +21,11 @@ from app.model.part import Entity
 MOST_THINGS = 500_000
 """Curves and notes together; more than any drawing, and few enough for the memory."""
 
+FARTHEST = 1e15
+"""No number of a curve is greater; what the language draws ends far below, and a window can show it."""
+
+_HIGHEST, _MOST_TURN = 10**12, 100.0
+
 Made = TypeVar("Made")
 _LAYER = "layer "
 
@@ -71,6 +76,8 @@ def _quoted(name: str) -> str:
 
 
 def _number(value: float) -> str:
+    if not abs(value) <= FARTHEST:
+        raise InputError(f"A curve or a note goes to {value:g} mm, and a project holds up to {FARTHEST:g}; delete it.")
     return repr(float(value)).removesuffix(".0")
 
 
@@ -120,8 +127,8 @@ def _read(text: str, place: tuple[str, int], readers: Mapping[str, Callable[[lis
                 word, *rest = line.removesuffix("\r").split(" ")
                 number += 1
                 made = readers[word](rest)
-                if number < 1 or number in used:
-                    raise InputError(f"{name}:{row}: number {number} is there twice, or is none; {REMEDY}")
+                if not 0 < number < _HIGHEST or number in used:
+                    raise InputError(f"{name}:{row}: number {number} is there twice, or is too large or none; {REMEDY}")
                 used.add(number)
                 if len(used) > MOST_THINGS:
                     raise InputError(f"{name}:{row}: the drawing has more than {MOST_THINGS} curves; part it.")
@@ -147,8 +154,8 @@ def _layer(line: str) -> str:
 
 def _value(text: str) -> float:
     value = float(text)
-    if not math.isfinite(value):
-        raise ValueError(f"{text} is no length")
+    if not abs(value) <= FARTHEST:
+        raise ValueError(f"{text} is no length, or larger than {FARTHEST:g}")
     return value
 
 
@@ -195,7 +202,7 @@ def _ellipse(words: list[str]) -> Ellipse:
     if rest[:1] != ["from"]:
         return Ellipse(centre, major, ratio, ccw=_ccw(rest))
     first, last = _radians(rest[1]), _radians(rest[3])
-    _expect(rest[2] == "to" and last > first, "the part is: from start to end")
+    _expect(rest[2] == "to" and 0 < last - first <= _MOST_TURN, "the part is: from start to end, a few turns at most")
     return Ellipse(centre, major, ratio, first, last, _ccw(rest[4:]))
 
 

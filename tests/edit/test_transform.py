@@ -7,6 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from app.edit.document import Document
+from app.edit.sample import bounds
 from app.edit.shapes import middle_of
 from app.edit.transform import Similarity, mirroring, scaling, shift, transformed, turn
 from app.errors import InputError
@@ -51,3 +53,14 @@ def test_what_is_no_similarity_is_refused() -> None:
         scaling((0, 0), 0)
     with pytest.raises(InputError, match="two different points"):
         mirroring((1, 1), (1, 1))
+
+
+@pytest.mark.parametrize("drawn", ["rect 0,0 60,40", "circle 0,0 5", "ellipse 0,0 @10,0 5", "spline 0,0 1,1 2,0 3,1"])
+def test_scaling_again_and_again_ends_in_a_refusal_and_not_in_no_number(drawn: str) -> None:
+    document = Document()
+    document.run(drawn)
+    document.run("select all")
+    with pytest.raises(InputError, match="a drawing reaches"):
+        for _ in range(60):
+            document.run("scale 0,0 1e6")
+    assert all(math.isfinite(value) for entity in document.part.entities for value in bounds(entity.curve))

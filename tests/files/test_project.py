@@ -1,5 +1,6 @@
 """Project files: what is written is read back identical, and what is damaged is told with its place."""
 
+import math
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -9,11 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.edit.document import Document
+from app.edit.history import State
 from app.errors import InputError
 from app.files.job_toml import read_job
 from app.files.job_write import empty_lists, job_lines
 from app.files.project import MOST_HEAD, Look, Project, read_project, write_project
 from app.files.project_beside import MOST_TEXT, Beside
+from app.model.curves import Circle
 from app.model.job import Job
 from app.model.part import Part
 from tests.conftest import ROOT
@@ -115,6 +118,12 @@ TEXT = write_project(drawn()).decode()
     ('"define bolt(c)"', '"define bolt(c"', r"bolt in \[commands\] cannot be read"),
     ('"define bolt(c)"', '"define nut(c)"', r"bolt in \[commands\] is not one define"),
     ("scale = 12.5", "scale = 0", "scale is out of range"),
+    ("centre = [5.0, 6.25]", "centre = [inf, nan]", r"p.hito:\d+: centre is .*it must be a number up to 1e\+15"),
+    ("line 0,0 10,10", "line 0,0 1e308,10", "1e308 is no length, or larger than"),
+    ("line 0,0 10,10", "ellipse 0,0 @1,0 ratio 0.5 from 0rad to 1e9rad", "a few turns at most"),
+    ("line 0,0 10,10", "#9999999999999\nline 0,0 10,10", "too large or none"),
+    ('name = "holes"', 'name = "0"', r"p.hito:\d+: name is that of another layer"),
+    ("thickness = 10.0", "thickness = inf", "thickness is inf"),
     ("[names]", "[underlay]\norigin = [0, 0]\n[names]", r"p.hito:\d+: \[underlay\] names no picture"),
     ("[names]", '[underlay]\npath = "a.png"\nmm_per_px = 0\n[names]', r"p.hito:\d+: The picture a.png cannot lie there"),
     ("[names]", "[text]\nlines = 3\n[names]", r"p.hito:\d+: lines is 3: it must be a list of texts"),
@@ -132,6 +141,13 @@ def test_a_text_too_long_for_the_file_is_left_out_and_the_file_is_read() -> None
     kept, left_out = ("a" * count for count in (MOST_TEXT - 100, MOST_TEXT))
     for text, read in ((kept, kept), (left_out, "")):
         assert read_project("p.hito", write_project(Project(drawn().state, beside=Beside(text=text)))).beside.text == read
+
+
+@pytest.mark.parametrize("size", [1e16, math.nan, math.inf])
+def test_what_could_not_be_read_again_is_told_when_it_is_written(size: float) -> None:
+    part = Part().with_curves([Circle((0.0, 0.0), size)], "0")
+    with pytest.raises(InputError, match="a project holds up to 1e"):
+        write_project(Project(State(Job(part))))
 
 
 def test_windows_line_ends_are_read() -> None:
