@@ -138,6 +138,24 @@ def test_notes_are_snapped_to(hand: Hand) -> None:
     assert point == pytest.approx((20 + 5 / 3, 50), abs=1e-9)
 
 
+def test_the_origin_of_the_drawing_is_snapped_to_even_where_nothing_is_drawn(hand: Hand) -> None:
+    assert aimed(hand, (0.4, -0.3)) == (SnapKind.ORIGIN, (0, 0))
+    hand.click((0.4, -0.3))
+    assert aimed(hand, (0.4, 0.3))[0] is None
+    hand.canvas.set_snap(False)
+    assert aimed(hand, (0.4, -0.3), CanvasTool.CIRCLE)[0] is None
+
+
+def test_a_typed_length_gives_a_point_without_the_noise_of_its_digits(hand: Hand) -> None:
+    hand.canvas.set_tool(CanvasTool.LINE)
+    assert hand.canvas.type_text("80.1,25")
+    hand.move(40, 25)
+    assert hand.canvas.type_text("30.3")
+    hand.move(10, 25)
+    assert hand.canvas.type_text("49.8")
+    assert [line.command for line in hand.document.log] == ["line 80.1,25 49.8,25", "line 49.8,25 0,25"]
+
+
 def test_each_kind_has_a_word_a_name_and_a_mark_of_its_own(hand: Hand) -> None:
     assert set(SNAP_WORDS.values()) == set(CHOICES)
     pictures = set()

@@ -165,6 +165,9 @@ def test_notes_are_seen_picked_described_and_pulled(qtbot: QtBot) -> None:
     assert [w for w in words if w] == ["Point 1 · 30.000, 30.000 · layer 0", "Construction line 2 · 0.00° · layer 0",
                                        "Dimension 3 · 50 mm · layer 0"]
     assert [hand.canvas.picture.nearest(at, 1.0).id for at in ((30.2, 30), (70, 60.2), (50, 10.2))] == [1, 2, 3]
+    for at, number in (((30.2, 30), 1), ((70, 60.2), 2), ((50, 10.2), 3)):
+        hand.click(at)
+        assert hand.document.selection == {number}
     hand.document.run("hide 0")
     assert hand.canvas.picture.candidates((30.2, 30), 1.0) == []
 

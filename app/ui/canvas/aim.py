@@ -13,6 +13,7 @@ from app.ui.canvas.snap import SNAP_NAMES, USUAL, Snap, SnapKind, best, to_grid
 from app.ui.canvas.track import Acquired, Tracked, rays, tracked
 
 REACH_PX = 10.0
+ORIGIN: Point = (0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,5 +99,6 @@ def _snapped(at: Point, tool: DrawingTool, picture: PartPicture, rules: AimRules
     if rules.forced is not None:
         return forced(near, rules.forced, fixed)
     anchors = [Snap(p, SnapKind.END) for p in tool.anchors if p != tool.base]
+    origin = [Snap(ORIGIN, SnapKind.ORIGIN)] if tool.base != ORIGIN else []
     on = [snap for snap in (*fixed, *near_snaps(near, rules.kinds)) if snap.kind in rules.kinds]
-    return best([*on, *anchors], at, reach)
+    return best([*on, *anchors, *origin], at, reach)

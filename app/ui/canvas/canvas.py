@@ -66,7 +66,7 @@ class Canvas(Hands):
         self._look, self._mode = PathLook(theme), CanvasMode.DRAW
         self._program: ProgramPicture | None = None
         self.around = AroundPicture()
-        self._trial = Difference()
+        self._trial, self._trial_picture, self._preview_picture = Difference(), overlay.TrialPicture(), overlay.TrialPicture()
         self._findings: tuple[Finding, ...] = ()
         self._lit: int | Entity | Note | None = None
         self._lit_path = QPainterPath()
@@ -211,7 +211,7 @@ class Canvas(Hands):
         elif self._lit is not None and not self.runner.shows_change:
             overlay.paint_highlight(painter, self.view, self._lit_path, (theme.accent, theme.accent_text))
         overlay.paint_findings(painter, self.view, self._findings, theme)
-        overlay.paint_trial(painter, self.view, self._trial, theme)
+        self._trial_picture.paint(painter, self.view, self._trial, theme)
         if self._mode is CanvasMode.DRAW and self.tool is CanvasTool.SELECT:
             overlay.paint_grips(painter, self.view, self.grips.points, self._grip_under, theme)
         if self.runner.tool is not None:
@@ -276,7 +276,7 @@ class Canvas(Hands):
             for _ in self.picture.selected_steps(painter, self._carried_view(tool, self.aim.point), theme.accent, self.area):
                 pass
         preview = self.runner.preview(self.aim.point)
-        overlay.paint_trial(painter, self.view, preview.trial, theme)
+        self._preview_picture.paint(painter, self.view, preview.trial, theme)
         overlay.paint_preview(painter, self.view, preview, theme)
         overlay.paint_points(painter, self.view, [*tool.points[:1], *tool.points[-1:]], theme)
         if self.aim.snap is not None:

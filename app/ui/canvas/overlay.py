@@ -41,19 +41,34 @@ _MANY_TRIED = 500
 """More curves than these are tried with pens of one px, which Qt strokes far faster."""
 
 
-def paint_trial(painter: QPainter, view: View, trial: Difference, theme: Theme) -> None:
-    """Paint what a command would make: what comes in the accent, what goes in the colour of errors."""
-    paint_notes(painter, view, trial.notes, (theme.accent, 1.4), QRectF(painter.viewport()))
-    if not (trial.added or trial.gone):
-        return
-    painter.save()
-    painter.setTransform(view.transform(), True)
-    painter.setBrush(Qt.BrushStyle.NoBrush)
-    fine = len(trial.gone) + len(trial.added) > _MANY_TRIED
-    for entities, colour, width in ((trial.gone, theme.error, 2.2), (trial.added, theme.accent, 1.8)):
-        painter.setPen(screen_pen(painter, colour, FINE if fine else width))
-        painter.drawPath(curve_path(*(entity.curve for entity in entities)))
-    painter.restore()
+class TrialPicture:
+    """What a command would make, ready to paint: its paths are built once, not at every move of the mouse."""
+
+    def __init__(self) -> None:
+        """Begin with nothing."""
+        self._trial = Difference()
+        self._gone, self._added = QPainterPath(), QPainterPath()
+
+    def paths(self, trial: Difference) -> tuple[QPainterPath, QPainterPath]:
+        """Return the paths of what goes and of what comes, mm."""
+        if trial is not self._trial:
+            self._trial = trial
+            self._gone, self._added = (curve_path(*(entity.curve for entity in some)) for some in (trial.gone, trial.added))
+        return self._gone, self._added
+
+    def paint(self, painter: QPainter, view: View, trial: Difference, theme: Theme) -> None:
+        """Paint what comes in the accent, what goes in the colour of errors."""
+        paint_notes(painter, view, trial.notes, (theme.accent, 1.4), QRectF(painter.viewport()))
+        if not (trial.added or trial.gone):
+            return
+        painter.save()
+        painter.setTransform(view.transform(), True)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        fine = len(trial.gone) + len(trial.added) > _MANY_TRIED
+        for path, colour, width in zip(self.paths(trial), (theme.error, theme.accent), (2.2, 1.8), strict=True):
+            painter.setPen(screen_pen(painter, colour, FINE if fine else width))
+            painter.drawPath(path)
+        painter.restore()
 
 
 def paint_points(painter: QPainter, view: View, points: list[tuple[float, float]], theme: Theme) -> None:

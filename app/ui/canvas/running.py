@@ -16,6 +16,7 @@ from app.edit.values import Curves
 from app.errors import InputError
 from app.model.curves import Point
 from app.tolerances import WELD
+from app.ui.canvas.aim import tidy
 from app.ui.canvas.asking import Answer, AskingTool
 from app.ui.canvas.drawing_tool import Desk, DrawingTool, Pick, Preview, Want
 from app.ui.canvas.modes import CanvasTool
@@ -212,7 +213,7 @@ class ToolRunner:
         point = tool.number(value, self.cursor)
         if point is None:
             raise CommandError(f"'{text}' is a distance without a direction; write x,y or @dx,dy, or point with the mouse first.")
-        self.click(point)
+        self.click(tidy(point))
 
     def _pick(self, tool: AskingTool) -> None:
         under = self.under

@@ -27,6 +27,7 @@ class SnapKind(IntEnum):
     PERPENDICULAR = 7
     TANGENT = 8
     NEAREST = 9
+    ORIGIN = 10
 
 
 CHOICES = (SnapKind.END, SnapKind.MIDDLE, SnapKind.CENTRE, SnapKind.QUADRANT, SnapKind.NODE, SnapKind.INTERSECTION,
@@ -43,7 +44,7 @@ SNAP_WORDS = {"end": SnapKind.END, "mid": SnapKind.MIDDLE, "cen": SnapKind.CENTR
 SNAP_NAMES = {
     SnapKind.END: "End", SnapKind.MIDDLE: "Middle", SnapKind.CENTRE: "Centre", SnapKind.QUADRANT: "Quadrant", SnapKind.GRID: "",
     SnapKind.NODE: "Point", SnapKind.INTERSECTION: "Intersection", SnapKind.PERPENDICULAR: "Perpendicular",
-    SnapKind.TANGENT: "Tangent", SnapKind.NEAREST: "On curve",
+    SnapKind.TANGENT: "Tangent", SnapKind.NEAREST: "On curve", SnapKind.ORIGIN: "Origin",
 }
 
 

@@ -22,11 +22,12 @@ _STROKES: dict[SnapKind, _Strokes] = {
     SnapKind.PERPENDICULAR: (((-0.9, -1), (-0.9, 0.9), (1, 0.9)), ((-0.9, 0), (0, 0), (0, 0.9))),
     SnapKind.TANGENT: (((-1, -1), (1, -1)),),
     SnapKind.NEAREST: (((-0.9, -0.9), (0.9, -0.9), (-0.9, 0.9), (0.9, 0.9), (-0.9, -0.9)),),
+    SnapKind.ORIGIN: (((-1.2, 0), (1.2, 0)), ((0, -1.2), (0, 1.2))),
     SnapKind.GRID: (((-0.7, 0), (0.7, 0)), ((0, -0.7), (0, 0.7))),
 }
 """In halves of the mark, y down."""
 
-_RINGS = {SnapKind.CENTRE: 1.0, SnapKind.NODE: 1.0, SnapKind.TANGENT: 0.8}
+_RINGS = {SnapKind.CENTRE: 1.0, SnapKind.NODE: 1.0, SnapKind.TANGENT: 0.8, SnapKind.ORIGIN: 0.6}
 """Radius of a circle that belongs to the mark."""
 
 

@@ -94,7 +94,7 @@ class PropertiesSection(Section):
         self.head.addWidget(self.remark)
         self.head.addSpacing(4)
         self.layer = ListField("Layer", [])
-        self.layer.chosen.connect(lambda name: self.asked.emit(f"set {self._numbers()}layer {name_text(str(name))}", None))
+        self.layer.chosen.connect(self._ask_layer)
         self.fields: dict[str, NumberField | PointField] = {}
         self.figures: dict[str, Figure] = {}
         self._shown: object = None
@@ -107,6 +107,11 @@ class PropertiesSection(Section):
         self._column.setContentsMargins(EDGE, 0, EDGE, 0)
         self._column.setSpacing(0)
         self.rows.addWidget(self._body)
+
+    def _ask_layer(self, name: object) -> None:
+        """Put what is selected on a layer, unless all of it lies there."""
+        if self._selected.layers != (name,):
+            self.asked.emit(f"set {self._numbers()}layer {name_text(str(name))}", None)
 
     def refresh(self, extent: Box | None) -> None:
         """Show what is selected as it is now; `extent` is that of the whole drawing."""

@@ -127,6 +127,10 @@ def test_different_kinds_share_their_layer_and_their_length(page, document, qtbo
     assert page.properties.figures["Kinds"].value.text() == "1 line, 1 arc, 1 circle"
     page.properties.layer.box.activated.emit(1)
     assert last(document) == 'set layer "holes"' and {e.layer for e in document.part.entities} == {"holes"}
+    page.refresh()
+    before = document.revision
+    page.properties.layer.box.activated.emit(1)
+    assert document.revision == before
 
 
 def test_a_closed_contour_tells_its_area(page, document):
