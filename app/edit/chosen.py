@@ -19,5 +19,5 @@ def chosen_curves(words: Arguments, session: Session, verb: str) -> dict[int, Cu
     ids = ids or session.selection
     curves = {e.id: e.curve for e in session.part.entities if e.id in ids}
     if not curves:
-        raise InputError(f"No curve is selected; select what to {verb}, or write its numbers after the command.")
+        raise InputError(f"{'No curve' if ids else 'Nothing'} is selected; select what to {verb}, or write its numbers after the command.")
     return curves

@@ -139,18 +139,14 @@ def chamfer(a: Line, b: Line, sizes: tuple[float, float], near: tuple[Point, Poi
     return first, Line(p, q), second
 
 
-def parallel(curve: Curve, away: float, side: Point) -> Curve:
+def parallel(curve: Line | Arc | Circle, away: float, side: Point) -> Curve:
     """Return the parallel of a line, arc or circle at a distance, on the side of a point.
 
     Raises:
-        InputError: the curve is of another kind, or its inner parallel is none.
+        InputError: the inner parallel is none.
     """
-    if away < WELD:
-        raise InputError(f"The distance is {away:.3f} mm; it must be greater than 0.")
     if isinstance(curve, Line):
         return min(_beside(curve, away), key=lambda line: math.dist(_touch(line, side), side))
-    if not isinstance(curve, Arc | Circle):
-        raise InputError("Only lines, arcs and circles have parallels of their kind; contours with others are offset by the tool paths.")
     outside = math.dist(side, curve.centre) > curve.radius
     radius = curve.radius + (away if outside else -away)
     if radius < WELD:

@@ -5,12 +5,16 @@ from __future__ import annotations
 from itertools import combinations
 
 from app.edit.arguments import Arguments
+from app.edit.chains import Chain, chained
+from app.edit.chosen import chosen_curves
 from app.edit.command import Rework, Session
 from app.edit.drafting import broken, chamfer, extended, fillet, parallel, trimmed
 from app.edit.meet import foot
+from app.edit.offset_chain import chain_parallel
 from app.edit.shapes import middle_of
 from app.errors import InputError
-from app.model.curves import Arc, Curve, Line, Point
+from app.model.curves import Arc, Circle, Curve, Line, Point
+from app.tolerances import WELD
 
 
 def trim(words: Arguments, session: Session) -> Rework:
@@ -70,14 +74,31 @@ def chamfer_of(words: Arguments, session: Session) -> Rework:
 
 
 def offset(words: Arguments, session: Session) -> Rework:
-    """Draw parallels of lines, arcs, circles at a distance, on the side of a point."""
+    """Draw parallels at a distance, on the side of a point: of chains of curves as a whole, their corners joined."""
     away = words.length("the distance")
     side = words.point("a point on the side where the parallels go")
-    ids = words.ids() or tuple(sorted(session.selection))
-    if not ids:
-        raise InputError("Nothing is selected; select what to offset, or write its numbers after the command.")
-    made = tuple((number, parallel(_curve(session, number), away, side)) for number in ids)
-    return Rework({}, "Offset", f"{len(made)} drawn.", made)
+    curves = chosen_curves(words, session, "offset")
+    if away < WELD:
+        raise InputError(f"The distance is {away:.3f} mm; it must be greater than 0.")
+    rounded = bool(words.accept("round"))
+    made, nothing = list[tuple[int, Curve]](), list[InputError]()
+    for contour in chained(curves):
+        try:
+            made += _parallels(contour, away, side, rounded)
+        except InputError as error:
+            nothing.append(error)
+    if not made:
+        raise nothing[0]
+    return Rework({}, "Offset", f"{len(made)} drawn.", tuple(made))
+
+
+def _parallels(contour: Chain, away: float, side: Point, rounded: bool) -> list[tuple[int, Curve]]:
+    if len(contour.curves) == 1 and isinstance(contour.curves[0], Line | Arc | Circle):
+        return [(contour.numbers[0], parallel(contour.curves[0], away, side))]
+    made = list[tuple[int, Curve]](chain_parallel(contour, away, side, rounded))
+    if not made:
+        raise InputError(f"Nothing of the contour is {away:.3f} mm away on that side; use less, or point at the other side.")
+    return made
 
 
 def _curve(session: Session, number: int) -> Curve:
