@@ -172,6 +172,18 @@ def test_notes_are_seen_picked_described_and_pulled(qtbot: QtBot) -> None:
     assert hand.canvas.picture.candidates((30.2, 30), 1.0) == []
 
 
+def test_what_is_fitted_takes_in_dimensions_and_points_but_no_construction_line(plate: Hand) -> None:
+    assert plate.canvas.picture.box == (10, 10, 100, 70)
+    for line in ("dimension 10,10 60,10 place 35,-30", "point 140,0", "guide across 0,500"):
+        plate.document.run(line)
+    assert plate.canvas.picture.box == (10, -30, 140, 70)
+    plate.document.load(Job(Part().with_note(Dimension(Measure.ALIGNED, ((0, 0), (400, 0)), (200, 300)), "0")))
+    area, shown = plate.canvas.area, [plate.canvas.view.to_screen(at) for at in ((0, 0), (400, 0), (200, 300))]
+    assert all(area.contains(place) for place in shown)
+    plate.document.run("hide 0")
+    assert plate.canvas.picture.box is None
+
+
 def test_a_tool_in_hand_passes_grips_over(plate: Hand) -> None:
     plate.document.run("select 5")
     plate.canvas.set_tool(CanvasTool.LINE)

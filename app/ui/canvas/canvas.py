@@ -148,7 +148,7 @@ class Canvas(Hands):
 
     def fit(self) -> None:
         """Show the whole part, or the frame while nothing is drawn."""
-        self.glide_to_box(self.picture.lookup.box or self.frame.extent)
+        self.glide_to_box(self.picture.box or self.frame.extent)
 
     def go_to(self, x: float, y: float, closely: bool = False) -> None:
         """Bring a point in mm to the middle; with `closely` zoom in, too, unless it is seen larger already."""
@@ -325,7 +325,7 @@ class Canvas(Hands):
         """Look at a document just opened: with the frame when the part fills much of it, else at the part alone."""
         if not self.isVisible():
             return
-        whole = _with_frame(self.picture.lookup.box, self.frame.extent)
+        whole = _with_frame(self.picture.box, self.frame.extent)
         self.fit_to(whole)
         self._fresh = False
 

@@ -10,6 +10,7 @@ from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPolygonF
 
 from app.edit.dimension_lines import dimension_lines
 from app.edit.pull import note_grips
+from app.edit.sample import Box
 from app.model.curves import Curve, Line, Point
 from app.model.notes import Dimension, Guide, Mark, Note
 from app.model.part import Part
@@ -57,6 +58,14 @@ class NotesPicture:
         for note in self.notes:
             quiet = theme.ink if isinstance(note.shape, Mark) else theme.muted
             paint_note(painter, view, note, (QColor(self._colours.get(note.layer) or quiet), 1.2), area)
+
+    @property
+    def box(self) -> Box | None:
+        """The box of points and dimensions, mm; construction lines have no end and do not count."""
+        if not self._places:
+            return None
+        xs, ys = zip(*self._places, strict=True)
+        return min(xs), min(ys), max(xs), max(ys)
 
     def near_guides(self, at: Point, reach: float) -> list[Line]:
         """Return the construction lines that pass within reach of a point, mm."""

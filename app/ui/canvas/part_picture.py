@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 
-from app.edit.sample import Box
+from app.edit.sample import Box, union
 from app.model.curves import Curve, Line, Point
 from app.model.notes import Note
 from app.model.part import Entity, Part
@@ -61,6 +61,11 @@ class PartPicture:
         before, self._selected_boxes = self._selected_boxes, [_box(row) for row in self.lookup.boxes[rows].tolist()]
         noted, self._selected_notes = self._selected_notes, tuple(note for note in self.notes.notes if note.id in ids)
         return None if noted or self._selected_notes else before + self._selected_boxes
+
+    @property
+    def box(self) -> Box | None:
+        """The box of all that is seen of curves and notes, mm."""
+        return union([box for box in (self.lookup.box, self.notes.box) if box is not None])
 
     def count(self, box: Box) -> int:
         """Return how many elements of paths come into a box in mm."""
