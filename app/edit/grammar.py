@@ -7,7 +7,7 @@ line does, a backslash at the end of a line takes the next one along, `#` begins
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, ClassVar
 
@@ -25,7 +25,8 @@ block: (_END_OF_LINE | statement _END_OF_LINE)*
 
 let: LET NAME "=" value
 repeat: REPEAT sum (_AS NAME)? _END_OF_LINE block _END
-choose: IF sum comparison sum _END_OF_LINE block (_ELSE _END_OF_LINE block)? _END
+choose: IF sum comparison sum _END_OF_LINE block otherwise* (_ELSE _END_OF_LINE block)? _END
+otherwise: _ELSE IF sum comparison sum _END_OF_LINE block
 !comparison: "<" | ">" | "<=" | ">=" | "==" | "!="
 define: DEFINE NAME "(" (NAME ("," NAME)*)? ")" _END_OF_LINE block _END
 command: NAME (_BLANK (text | value))* (_BLANK label)?
@@ -76,7 +77,7 @@ _DEEPEST = 40
 _MOST_TERMS = 1000
 _OPERATORS = frozenset({"PLUS", "MINUS", "TIMES", "OVER"})
 _LONGEST = 20_000_000
-_LOOSE = frozenset({"LET", "REPEAT", "IF", "DEFINE"})
+_LOOSE = frozenset({"LET", "REPEAT", "IF", "DEFINE", "_ELSE"})
 _OPENING = frozenset({"REPEAT", "IF", "DEFINE"})
 _VALUE_ENDS = frozenset({"NUMBER", "UNIT", "NAME", "RPAR", "TEXT"})
 _VALUE_BEFORE = "let x="
@@ -105,7 +106,7 @@ class _Blanks:
             if terms > _MOST_TERMS:
                 raise _error(f"The expression has more than {_MOST_TERMS} terms; name parts of it with let.", token)
             signs += kind == "POWER" or (kind in ("MINUS", "PLUS") and before not in _VALUE_ENDS)
-            blocks += (kind in _OPENING) - (kind == "_END")
+            blocks += (kind in _OPENING and before != "_ELSE") - (kind == "_END")
             if before == "_END_OF_LINE":
                 loose = kind in _LOOSE
             if max(brackets, signs, blocks) > _DEEPEST:
@@ -202,7 +203,13 @@ class _Builder(Transformer[Token, Any]):
         return s.Repeat(parts[1], index, parts[-1], self._place(meta))
 
     def choose(self, meta: Any, parts: list[Any]) -> s.Choose:
-        return s.Choose(parts[1], parts[2], parts[3], parts[4], parts[5] if len(parts) > 5 else (), self._place(meta))
+        *others, last = parts[5:] if len(parts) > 5 and isinstance(parts[-1], tuple) else (*parts[5:], ())
+        for other in reversed(others):
+            last = (replace(other, other=last),)
+        return s.Choose(parts[1], parts[2], parts[3], parts[4], last, self._place(meta))
+
+    def otherwise(self, meta: Any, parts: list[Any]) -> s.Choose:
+        return s.Choose(parts[1], parts[2], parts[3], parts[4], (), self._place(meta))
 
     def comparison(self, meta: Any, parts: list[Any]) -> str:
         return str(parts[0])

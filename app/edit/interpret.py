@@ -88,9 +88,9 @@ class Interpreter:
             case s.Repeat():
                 return self._repeat(statement, session)
             case s.Choose():
-                left, right = number_of(statement.left, session.scope), number_of(statement.right, session.scope)
-                chosen = statement.body if _COMPARISONS[statement.comparison](left, right) else statement.other
-                return Outcome(self._all(chosen, session), "If", "Yes." if chosen is statement.body else "No.")
+                while not (holds := _holds(statement, session)) and len(statement.other) == 1 and isinstance(statement.other[0], s.Choose):
+                    statement = statement.other[0]
+                return Outcome(self._all(statement.body if holds else statement.other, session), "If", "Yes." if holds else "No.")
             case s.Define():
                 _check_name(statement.name)
                 commands = {**session.commands, statement.name.text.lower(): statement}
@@ -154,6 +154,11 @@ def value_text(value: Value) -> str:
     return point_text(value) if isinstance(value, tuple) else number_text(value)
 
 
+def _holds(statement: s.Choose, session: Session) -> bool:
+    left, right = number_of(statement.left, session.scope), number_of(statement.right, session.scope)
+    return _COMPARISONS[statement.comparison](left, right)
+
+
 def _labelled(written: s.Command, before: Session, after: Session) -> Session:
     if written.label is None:
         return after
@@ -173,7 +178,7 @@ def _check_name(name: s.Name) -> None:
 
 RESERVED = frozenset({
     "add", "all", "and", "arc", "as", "by", "ccw", "center", "centre", "close", "copy", "crossing", "cw", "define", "degree",
-    "diameter", "else", "end", "from", "if", "knots", "large", "let", "none", "on", "over", "pi", "polar", "radius", "remove",
+    "diameter", "else", "end", "font", "from", "if", "knots", "large", "let", "none", "on", "over", "pi", "polar", "radius", "remove",
     "repeat", "round", "side", "through", "times", "to", "weights", "window", "within",
 })
 """Words that commands look for among their arguments."""

@@ -173,3 +173,30 @@ def test_the_log_of_a_drawing_draws_it_again() -> None:
     again.run_script("\n".join(line.command for line in document.log))
     assert again.part == document.part
     assert again.session == document.session
+
+
+CHAIN = """let w = {w}
+if w < 1
+  circle 0,0 1
+else if w < 2
+  circle 0,0 2
+else  if w < 3 # so
+  circle 0,0 3
+else
+  circle 0,0 4
+end
+"""
+
+
+@pytest.mark.parametrize(("width", "radius"), [(0, 1), (1, 2), (2, 3), (3, 4)])
+def test_else_if_takes_the_first_that_holds(width: int, radius: int) -> None:
+    document = Document()
+    document.run_script(CHAIN.format(w=width))
+    assert [e.curve for e in document.part.entities] == [Circle((0, 0), radius)]
+
+
+def test_else_if_goes_on_and_on_and_may_have_no_else() -> None:
+    document = Document()
+    lines = "".join(f"else if w == {k}\n  circle 0,0 {k}\n" for k in range(1, 300))
+    document.run_script(f"let w = 299\nif w < 0\n  circle 9,9 9\n{lines}end\nif w < 0; circle 1,1 1; else if w < 1; circle 2,2 2; end\n")
+    assert [e.curve for e in document.part.entities] == [Circle((0, 0), 299)]
