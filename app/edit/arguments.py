@@ -10,6 +10,7 @@ from app.edit.errors import CommandError
 from app.edit.evaluate import number_of, point_of, value_of
 from app.edit.units import ANGLE_UNITS, LENGTH_UNITS
 from app.edit.values import Curves, Scope, kind_of, wrong
+from app.edit.words import number_text
 from app.model.curves import Curve, Point
 
 _RANGE = re.compile(r"([0-9]{1,9})(?:-([0-9]{1,9}))?")
@@ -115,7 +116,7 @@ class Arguments:
         place = self.place
         value = number_of(self._next(expected), replace(self._scope, units={}))
         if value != int(value) or not low <= value <= high:
-            raise wrong(f"This is {value:g}; {expected} is a whole number from {low} to {high}.", place)
+            raise wrong(f"This is {number_text(value)}; {expected} is a whole number from {low} to {high}.", place)
         return int(value)
 
     def name(self, expected: str) -> str:

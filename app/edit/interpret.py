@@ -129,7 +129,7 @@ class Interpreter:
     def _repeat(self, written: s.Repeat, session: Session) -> Outcome:
         times = number_of(written.times, session.scope)
         if times != int(times) or not 0 <= times <= MOST_STATEMENTS:
-            raise wrong(f"This is {times:g}; repeat wants a whole number from 0 to {MOST_STATEMENTS}.", written.times.place)
+            raise wrong(f"This is {number_text(times)}; repeat wants a whole number from 0 to {MOST_STATEMENTS}.", written.times.place)
         outside = session.names.get(written.index.text) if written.index else None
         for count in range(int(times)):
             self._count(written.place)  # a body may be empty
