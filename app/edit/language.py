@@ -14,6 +14,7 @@
     spline P P P … [close]                  sp    through points
     spline degree n P P … [knots k …] [weights w …]    by control points
     point P     guide P P | P angle | across P | up P     dimension P P place P [across|up] | CURVE place P | angle P P P place P
+    text P height "words" [font "name or file"] [angle a]
 
     select all | none | CURVES | window P P | crossing P P | layer NAME | chain CURVES     (before it: add, remove)
     delete [CURVES]     reverse [CURVES]     layer NAME [CURVES]     undo     redo     clear
@@ -25,7 +26,7 @@
     rotate P angle [copy] [CURVES]     scale P factor [copy] [CURVES]     mirror P P [copy] [CURVES]
     array n n @dx,dy [CURVES]     array polar P n [over angle] [CURVES]
 
-    trim CURVE P [by CURVES]     extend CURVE P [to CURVES]     break CURVE P [P]     offset d P [CURVES]
+    trim CURVE P [by CURVES]     extend CURVE P [to CURVES]     break CURVE P [P]     offset d P [CURVES] [round]
     join [within d] [CURVES]     explode [CURVES]     measure P P     measure [CURVES]
     fillet r CURVE [P] CURVE [P]     fillet r CURVES     chamfer d [and d] CURVE [P] CURVE [P]     chamfer d CURVES
 
@@ -54,6 +55,7 @@ from app.edit.join import join
 from app.edit.measuring import Measure, measure
 from app.edit.pull import Pull, pull
 from app.edit.read_set import SetProperty, set_property
+from app.edit.read_text import text
 from app.edit.select import Select
 from app.edit.values import wrong
 
@@ -94,7 +96,7 @@ def read(written: syntax.Command, session: Session) -> Command:
 _READERS: dict[str, Callable[[Arguments, Session], Command]] = {
     "line": draw.line, "polyline": draw.polyline, "arc": draw.arc, "circle": draw.circle_of, "rect": draw.rect,
     "polygon": draw.polygon_of, "slot": draw.slot_of, "ellipse": draw.ellipse_of, "spline": draw.spline_of,
-    "point": notes.point, "guide": notes.guide, "dimension": notes.dimension,
+    "point": notes.point, "guide": notes.guide, "dimension": notes.dimension, "text": text,
     "select": edit.select, "delete": edit.delete, "move": edit.move, "copy": edit.copy, "rotate": edit.rotate, "scale": edit.scale,
     "mirror": edit.mirror, "array": edit.array, "reverse": edit.reverse, "layer": edit.layer,
     "hide": edit.hide, "show": edit.show, "lock": edit.lock, "unlock": edit.unlock, "colour": edit.colour,

@@ -1,0 +1,150 @@
+"""Letters of outlines: TTF and OTF fonts of the system, or of a file."""
+
+from __future__ import annotations
+
+import difflib
+import os
+import sys
+from functools import lru_cache
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+from fontTools.pens.basePen import BasePen
+from fontTools.ttLib import TTFont, TTLibError
+
+from app.edit.lettering import Face, Glyph
+from app.errors import InputError
+from app.model.curves import Curve, Line, Point, Spline
+
+_KINDS = (".ttf", ".otf", ".ttc")
+_SHORT = 1e-9
+
+
+def outlined(name: str, words: str) -> Face:
+    """Return a face with the letters of some words, their contours closed.
+
+    Args:
+        name: a family or full name, the name of its file without the ending, or the path of a file.
+
+    Raises:
+        InputError: there is no such font, it cannot be read, or it lacks a letter.
+    """
+    path = _found(name)
+    try:
+        with TTFont(path, fontNumber=0, lazy=True) as font:
+            return _face(font, name, words)
+    except (OSError, TTLibError, KeyError, ValueError, AssertionError) as error:
+        raise InputError(f"The font {path.name} cannot be read ({error}); choose another one.") from error
+
+
+def _face(font: Any, name: str, words: str) -> Face:
+    letters, shapes, widths = font.getBestCmap() or {}, font.getGlyphSet(), font["hmtx"]
+    lacking = "".join(dict.fromkeys(letter for letter in words if ord(letter) not in letters))
+    if lacking:
+        raise InputError(f"The font {name} has no letter for {' '.join(lacking)}; choose other words or another font.")
+    glyphs = {}
+    for letter in dict.fromkeys(words):
+        pen = _Pen(shapes)
+        shapes[letters[ord(letter)]].draw(pen)
+        glyphs[letter] = Glyph(tuple(pen.curves), float(widths[letters[ord(letter)]][0]))
+    return Face(name, _capital(font, letters), 0.0, glyphs, _kerning(font, letters, words))
+
+
+def _capital(font: Any, letters: dict[int, str]) -> float:
+    """Return the height of the capitals, else of what rises highest, units."""
+    stated = float(getattr(font.get("OS/2"), "sCapHeight", 0) or 0)
+    if not stated and "glyf" in font and ord("H") in letters:
+        stated = float(font["glyf"][letters[ord("H")]].yMax)
+    return stated or float(font["hhea"].ascent or font["head"].unitsPerEm)
+
+
+def _kerning(font: Any, letters: dict[int, str], words: str) -> dict[tuple[str, str], float]:
+    """Return what the font's kerning table says of neighbours; that of newer layout tables is left aside."""
+    pairs = set(pairwise(words))
+    tables = [table.kernTable for table in font["kern"].kernTables if hasattr(table, "kernTable")] if "kern" in font else []
+    return {(a, b): float(table[key]) for table in tables for a, b in pairs if (key := (letters[ord(a)], letters[ord(b)])) in table}
+
+
+class _Pen(BasePen):  # type: ignore[misc, unused-ignore]
+    """Gathers the curves of closed contours."""
+
+    def __init__(self, shapes: Any) -> None:
+        super().__init__(shapes)
+        self.curves: list[Curve] = []
+        self._first: Point = (0.0, 0.0)
+
+    def _moveTo(self, pt: Any) -> None:  # noqa: N802
+        self._first = _point(pt)
+
+    def _lineTo(self, pt: Any) -> None:  # noqa: N802
+        start, end = _point(self._getCurrentPoint()), _point(pt)
+        if abs(end[0] - start[0]) + abs(end[1] - start[1]) > _SHORT:
+            self.curves.append(Line(start, end))
+
+    def _curveToOne(self, pt1: Any, pt2: Any, pt3: Any) -> None:  # noqa: N802
+        self._bezier(pt1, pt2, pt3)
+
+    def _qCurveToOne(self, pt1: Any, pt2: Any) -> None:  # noqa: N802
+        self._bezier(pt1, pt2)
+
+    def _bezier(self, *points: Any) -> None:
+        controls = (_point(self._getCurrentPoint()), *map(_point, points))
+        degree = len(points)
+        if len(set(controls)) > 1:
+            self.curves.append(Spline(degree, controls, (0.0,) * (degree + 1) + (1.0,) * (degree + 1)))
+
+    def _closePath(self) -> None:  # noqa: N802
+        self._lineTo(self._first)
+
+
+def _point(at: Any) -> Point:
+    return (float(at[0]), float(at[1]))
+
+
+def _found(name: str) -> Path:
+    path = Path(name).expanduser()
+    if path.suffix.lower() in _KINDS:
+        if path.is_file():
+            return path
+        raise InputError(f"There is no font file {name}; give its whole path, or the name of an installed font.")
+    fonts, wanted = _installed(), _plain(name)
+    if wanted not in fonts:
+        near = difflib.get_close_matches(wanted, fonts, 5, 0.5) or [other for other in fonts if wanted and wanted in other][:5]
+        known = list(dict.fromkeys(fonts[each].stem for each in near))
+        hint = f"near it: {', '.join(known)}" if known else "give the path of a .ttf or .otf file"
+        raise InputError(f"There is no font '{name}' here; {hint}.")
+    return fonts[wanted]
+
+
+@lru_cache(1)
+def _installed() -> dict[str, Path]:
+    """Return the fonts of this machine by every name they go by, without blanks and in lower case."""
+    paths = sorted(path for folder in _folders() if folder.is_dir() for path in folder.rglob("*") if path.suffix.lower() in _KINDS)
+    found: dict[str, Path] = {}
+    plain: dict[str, Path] = {}
+    for path in paths:
+        try:
+            with TTFont(path, fontNumber=0, lazy=True) as font:
+                names = font["name"]
+                family, style = names.getBestFamilyName() or path.stem, names.getBestSubFamilyName() or ""
+        except (OSError, TTLibError, KeyError, ValueError, AssertionError):
+            continue
+        found.setdefault(_plain(path.stem), path)
+        found.setdefault(_plain(family + style), path)
+        if _plain(style) in ("regular", "book", "roman", "normal", "medium", "") or _plain(family) not in plain:
+            plain[_plain(family)] = path
+    return plain | {name: path for name, path in found.items() if name not in plain}
+
+
+def _plain(name: str) -> str:
+    return "".join(letter for letter in name.lower() if letter.isalnum())
+
+
+def _folders() -> tuple[Path, ...]:
+    home = Path.home()
+    if sys.platform == "win32":
+        return (Path(os.environ.get("WINDIR", r"C:\Windows")) / "Fonts", home / "AppData/Local/Microsoft/Windows/Fonts")
+    if sys.platform == "darwin":
+        return (Path("/System/Library/Fonts"), Path("/Library/Fonts"), home / "Library/Fonts")
+    return (Path("/usr/share/fonts"), Path("/usr/local/share/fonts"), home / ".local/share/fonts", home / ".fonts")
