@@ -79,7 +79,7 @@ def test_what_is_said_later_is_looked_up_before_it_is_seen(qtbot, japanese) -> N
     japanese.files.ask_new()
     QApplication.processEvents()
     window.grab()
-    assert window.notice.text.text() == "新しい図面を始めますか。 この図面の変更はどのファイルにも保存されていません。"
+    assert window.notice.text.text() == "新しい図面を始めますか。 この図面はまだどのファイルにも保存されていません。"
     assert "作図を続ける" in [button.text() for button in window.notice.buttons]
     japanese.cancel()
     japanese.showing.show_hovered("Cancelled; nothing has changed.")
