@@ -145,7 +145,9 @@ def _nothing(name: str, findings: tuple[Finding, ...]) -> str:
         return f"{name}: there is no closed contour to machine; draw one, or choose other layers."
     telling = sorted(findings, key=lambda finding: (not finding.counts, finding.kind is not FindingKind.OPEN_CONTOUR))
     more = f" ({len(findings) - NAMED} more findings)" if len(findings) > NAMED else ""
-    return f"{name}: nothing can be cut. {' '.join(finding.text for finding in telling[:NAMED])}{more}"
+    counting = {finding.kind for finding in findings if finding.counts}
+    why = "there is no closed contour, so nothing can be cut." if counting == {FindingKind.OPEN_CONTOUR} else "nothing can be cut."
+    return f"{name}: {why} {' '.join(finding.text for finding in telling[:NAMED])}{more}"
 
 
 def export(job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[Finding, ...] = (), machine: Machine | None = None) -> Made:
