@@ -61,7 +61,8 @@ def extended(curve: Curve, at: Point, edges: Iterable[Curve]) -> Curve:
         raise InputError("Only lines and arcs can be extended; draw on from the end of other curves.")
     forward = math.dist(at, curve.end) <= math.dist(at, curve.start)
     found = [p for edge in edges for p in _met_ahead(curve, edge) if not _between(curve, p)]
-    ahead = [(way, p) for p in found if (way := _way_ahead(curve, p, forward)) > WELD]
+    ends = curve.start, curve.end  # an arc that went on to its own other end would be a circle
+    ahead = [(way, p) for p in found if (way := _way_ahead(curve, p, forward)) > WELD and min(math.dist(p, end) for end in ends) > WELD]
     if not ahead:
         raise InputError(f"No edge lies ahead of the end at {shown(curve.end if forward else curve.start)}; draw one, or give the length.")
     to = min(ahead)[1]
@@ -109,7 +110,7 @@ def fillet(a: Line | Arc, b: Line | Arc, radius: float, near: tuple[Point, Point
     """
     found = []
     for centre in _centres(a, b, radius):
-        touch = _touch(a, centre), _touch(b, centre)
+        touch = _touch(a, centre, radius), _touch(b, centre, radius)
         kept = _shortened(a, touch[0], near[0]), _shortened(b, touch[1], near[1])
         if kept[0] is None or kept[1] is None or math.dist(*touch) < WELD:
             continue
@@ -225,11 +226,16 @@ def _beside(line: Line, away: float) -> tuple[Line, Line]:
     return Line((ax + ox, ay + oy), (bx + ox, by + oy)), Line((ax - ox, ay - oy), (bx - ox, by - oy))
 
 
-def _touch(curve: Line | Arc, centre: Point) -> Point:
-    """Return the point of the endless line or whole circle that is nearest to a centre."""
+def _touch(curve: Line | Arc, centre: Point, radius: float = 0.0) -> Point:
+    """Return the point of the endless line or whole circle that is nearest to a centre.
+
+    Of a circle that another of `radius` about the centre holds within itself it is the farthest point: there they touch.
+    """
     if isinstance(curve, Arc):
         away = math.dist(centre, curve.centre)
         (x, y), r = curve.centre, curve.radius
+        if abs(away + r - radius) < abs(abs(away - r) - radius):
+            r = -r
         return (x + (centre[0] - x) / away * r, y + (centre[1] - y) / away * r) if away > 0 else curve.start
     dx, dy = curve.end[0] - curve.start[0], curve.end[1] - curve.start[1]
     along = ((centre[0] - curve.start[0]) * dx + (centre[1] - curve.start[1]) * dy) / (dx * dx + dy * dy)
@@ -251,11 +257,11 @@ def _shortened(curve: Line | Arc, at: Point, near: Point) -> Line | Arc | None:
         return Line(at, far) if onward else Line(far, at)
     keeps_end = _way_ahead(curve, at, False) if not has(curve, at) else 0.0
     if has(curve, at):
-        pieces = split(curve, [at])
-        kept = min(pieces, key=lambda p: math.dist(foot(p, near), near))
+        kept = min(split(curve, [at]), key=lambda p: math.dist(foot(p, near), near), default=None)
         return kept if isinstance(kept, Arc) else None
     to_end = _way_ahead(curve, at, True)
-    return Arc(at, curve.end, curve.centre, curve.ccw) if keeps_end < to_end else Arc(curve.start, at, curve.centre, curve.ccw)
+    start, end = (at, curve.end) if keeps_end < to_end else (curve.start, at)
+    return Arc(start, end, curve.centre, curve.ccw) if math.dist(start, end) > WELD else None
 
 
 def _heading(curve: Line | Arc, at: Point) -> complex:

@@ -107,6 +107,8 @@ def _bent(arc: Arc, start: Point, end: Point) -> Arc:
     """Return the arc of the same sweep between other ends."""
     old, new = complex(*arc.end) - complex(*arc.start), complex(*end) - complex(*start)
     _line(start, end)  # refuses ends that are the same
+    if old == 0:
+        raise InputError("This arc is a whole turn, whose ends cannot be parted; break it at two points first.")
     centre = complex(*start) + (complex(*arc.centre) - complex(*arc.start)) * new / old
     return arc_about(start, end, (centre.real, centre.imag), arc.ccw)
 

@@ -12,9 +12,9 @@ from app.errors import InputError
 from app.model.part import Part
 
 _HEEDLESS = frozenset({
-    "clear", "line", "polyline", "arc", "circle", "rect", "polygon", "slot", "ellipse", "spline", "point", "guide", "dimension", "text",
+    "line", "polyline", "arc", "circle", "rect", "polygon", "slot", "ellipse", "spline", "point", "guide", "dimension", "text",
 })
-"""Commands that look at no selection."""
+"""Commands that look at no selection and leave it as it is."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,8 +48,8 @@ class Recorded:
         lines = [] if steps and _clears(steps[0].line) else _base_lines(self.base)
         chosen: frozenset[int] = frozenset()
         for step in steps:
-            heedless = command_word(step.line) in _HEEDLESS
-            if step.chosen != chosen and not heedless:
+            clears, heedless = _clears(step.line), _is_heedless(step.line)
+            if step.chosen != chosen and not (clears or heedless):
                 lines.append(f"select {ids_text(step.chosen) or 'none'}")
             line = _without_clear(step.line)
             lines += [line] if line else []
@@ -65,6 +65,11 @@ class Recorded:
                 break
             at = at.before
         return reversed(found)
+
+
+def _is_heedless(line: str) -> bool:
+    """Return whether a line surely looks at no selection and leaves it as it is; of a block nothing is sure."""
+    return ";" not in line and "\n" not in line and command_word(line) in _HEEDLESS
 
 
 def _clears(line: str) -> bool:

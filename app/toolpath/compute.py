@@ -84,9 +84,9 @@ def followed_lines(job: Job, parts: Drawn) -> tuple[Contour, ...]:
 
 def about_drawing(job: Job, parts: Drawn, lines: Sequence[Contour]) -> list[Finding]:
     """Return what is to say of a drawing; that lines are open, or cross, counts for nothing where they are but followed."""
-    followed = {line.entity_ids for line in lines}
+    followed = {number for line in lines for number in line.entity_ids}
     kept = [each for each in across_holes(parts.findings, job, parts)
-            if each.kind is not FindingKind.OPEN_CONTOUR or each.entity_ids not in followed]  # fmt: skip
+            if each.kind is not FindingKind.OPEN_CONTOUR or not (each.entity_ids and followed.issuperset(each.entity_ids))]  # fmt: skip
     if any(operation.cut.enabled and not follows_lines(operation) for operation in job.operations):
         return kept
     return [replace(each, counts=False) if each.kind is FindingKind.SELF_INTERSECTION else each for each in kept]

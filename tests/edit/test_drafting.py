@@ -113,6 +113,26 @@ def test_a_fillet_touches_both_curves(opening: float, radius: float, round_radiu
     assert abs(made.sweep) < math.pi
 
 
+@given(st.floats(0.5, 4), st.floats(0.5, 12), st.floats(-6, 6), st.floats(0.3, 6), st.floats(0, 6))
+def test_a_fillet_may_hold_a_smaller_arc(small: float, radius: float, height: float, sweep: float, turn: float) -> None:
+    line = Line((-30, height), (30, height))
+    arc = Arc((small * math.cos(turn), small * math.sin(turn)), (small * math.cos(turn + sweep), small * math.sin(turn + sweep)), (0, 0))
+    for near in ((-15.0, height), (15.0, height)):
+        try:
+            _, made, _ = fillet(line, arc, radius, (near, arc.end))
+        except InputError:
+            continue
+        assert math.dist(made.start, made.centre) == pytest.approx(radius) and math.dist(made.end, made.centre) == pytest.approx(radius)
+        assert abs(made.centre[1] - height) == pytest.approx(radius)
+        away = math.hypot(*made.centre)
+        assert min(abs(away - small - radius), abs(abs(radius - small) - away)) < 1e-7
+
+
+def test_an_arc_never_goes_on_to_its_own_other_end() -> None:
+    with pytest.raises(InputError, match="No edge lies ahead"):
+        after("arc 5,0 0,5 centre 0,0\nline 5,-9 5,0\nextend 1 0,5 to 2")
+
+
 @pytest.mark.parametrize(("line", "made"), [
     ("offset 2 5,5 1", Line((0, 2), (10, 2))), ("offset 2 5,-5 1", Line((0, -2), (10, -2))), ("offset 1 30,0 2", Circle((20, 0), 6)),
     ("offset 1 20,1 2", Circle((20, 0), 4)), ("offset 1 0,0 3", Arc((4, 0), (0, 4), (0, 0))),

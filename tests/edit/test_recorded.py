@@ -52,6 +52,18 @@ def test_what_was_selected_by_hand_is_told_before_what_needs_it() -> None:
     assert document.recorded.text() == "line 0,0 5,5\ncircle 3,3 1\ncircle 9,9 1\nselect 2\ndelete\n"
 
 
+def test_blocks_that_begin_anew_or_with_a_drawing_command_heed_the_selection() -> None:
+    for block in ("clear; circle 1,1 1; line 5,5 9,9", "line 5,5 9,9; delete", "clear; line 0,0 1,1; select 1"):
+        document = Document()
+        document.run("rect 0,0 4,4")
+        document.select({2, 3})
+        document.run(block)
+        document.run("line 0,9 9,9")
+        if document.selection:
+            document.run("move @0,1")
+        assert drawn_again(document) == document.part, block
+
+
 def test_undo_of_a_tool_leaves_the_lines() -> None:
     document = Document()
     document.run("line 0,0 5,5")

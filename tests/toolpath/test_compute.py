@@ -207,6 +207,12 @@ def test_that_lines_are_open_is_nothing_to_say_of_an_engraving() -> None:
     assert FindingKind.OPEN_CONTOUR in {finding.kind for finding in compute(inside).findings}
 
 
+def test_that_many_lines_are_open_is_nothing_to_say_of_an_engraving_either() -> None:
+    part = Part().with_entities(tuple(Entity(n, Line((0.0, 5.0 * n), (30.0, 5.0 * n))) for n in range(1, 60)))
+    program = compute(Job(part, (Tool(1, 2.0),), (ContourOperation(Cut(1), Side.ON),)))
+    assert FindingKind.OPEN_CONTOUR not in {finding.kind for finding in program.findings}
+
+
 def test_metal_under_a_clamp_in_the_middle_of_a_pocket_is_told() -> None:
     clamp = [Entity(50 + k, curve, "clamps") for k, curve in enumerate(circle(4.0, 20.0, 15.0).primitives)]
     task = job_of([square(40.0)])
