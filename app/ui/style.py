@@ -96,6 +96,8 @@ QListWidget { background: transparent; border: 0; outline: 0; padding: 0 4px; }
 QListWidget::item { padding: 3px 8px; border-radius: 4px; }
 QListWidget::item:hover { background: $hover; }
 QListWidget::item:selected { background: $chosen; color: $ink; }
+QListWidget[role="rows"] { padding: 0; }
+QListWidget[role="rows"]::item { padding: 3px 13px; border-radius: 0; }
 QTreeWidget { background: transparent; border: 0; outline: 0; }
 QTreeWidget::item { padding: 4px 8px; }
 QTreeWidget::item:hover { background: $hover; }

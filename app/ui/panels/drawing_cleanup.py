@@ -71,6 +71,7 @@ class CleanUpSection(Section):
     def _lay_out(self) -> None:
         self.words.setWordWrap(True)
         self.list.setAccessibleName("Faults: Enter goes to the place")
+        self.list.setProperty("role", "rows")
         self.list.setUniformItemSizes(True)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.bar.setFixedHeight(4)

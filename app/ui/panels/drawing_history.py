@@ -33,6 +33,7 @@ class HistorySection(Section):
         self.head.addSpacing(4)
         self.list = QListWidget()
         self.list.setAccessibleName("History: Enter goes to a step")
+        self.list.setProperty("role", "rows")
         self.list.setUniformItemSizes(True)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setMinimumHeight(LEAST_PX)
