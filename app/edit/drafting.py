@@ -104,10 +104,39 @@ def fillet(a: Line | Arc, b: Line | Arc, radius: float, near: tuple[Point, Point
 
     Args:
         near: where each curve was pointed at; these sides stay, and of all arcs that touch the one nearest to them is taken.
+            Places so near the corner that the arc cuts them off stand for their sides of the corner.
 
     Raises:
         InputError: no arc of this radius touches both on these sides.
     """
+    found = _fillets(a, b, radius, near) or _fillets(a, b, radius, _beyond_corner(a, b, near))
+    if not found:
+        raise InputError(f"No arc of radius {radius:.3f} mm touches both curves here; use a smaller radius, or point at other sides.")
+    _, first, arc, second = min(found, key=lambda each: each[0])
+    return first, arc, second
+
+
+def _beyond_corner(a: Line | Arc, b: Line | Arc, near: tuple[Point, Point]) -> tuple[Point, Point]:
+    """Return the ends, away from the corner of two curves, of the sides that were pointed at; the places themselves without a corner."""
+    corners = meets(a, b, extended=True)
+    if not corners:
+        return near
+    corner = min(corners, key=lambda p: math.dist(p, near[0]) + math.dist(p, near[1]))
+    first, second = (_far_end(curve, corner, at) for curve, at in zip((a, b), near, strict=True))
+    return first, second
+
+
+def _far_end(curve: Line | Arc, corner: Point, near: Point) -> Point:
+    side: Curve = curve
+    if _between(curve, corner):
+        side = min(split(curve, [corner]), key=lambda piece: math.dist(foot(piece, near), near))
+    return max((side.start, side.end), key=lambda p: math.dist(p, corner))
+
+
+def _fillets(
+    a: Line | Arc, b: Line | Arc, radius: float, near: tuple[Point, Point]
+) -> list[tuple[float, Line | Arc, Arc, Line | Arc]]:
+    """Return (how far from the places pointed at, first, arc, second) of every fillet on these sides."""
     found = []
     for centre in _centres(a, b, radius):
         touch = _touch(a, centre, radius), _touch(b, centre, radius)
@@ -117,10 +146,7 @@ def fillet(a: Line | Arc, b: Line | Arc, radius: float, near: tuple[Point, Point
         arc = Arc(touch[0], touch[1], centre, _turns_left(kept[0], touch[0], centre))
         if abs(arc.sweep) < math.pi - _CLOSE and _goes_on(kept[1], arc):
             found.append((math.dist(touch[0], near[0]) + math.dist(touch[1], near[1]), kept[0], arc, kept[1]))
-    if not found:
-        raise InputError(f"No arc of radius {radius:.3f} mm touches both curves here; use a smaller radius, or point at other sides.")
-    _, first, arc, second = min(found, key=lambda each: each[0])
-    return first, arc, second
+    return found
 
 
 def chamfer(a: Line, b: Line, sizes: tuple[float, float], near: tuple[Point, Point]) -> tuple[Line, Line, Line]:

@@ -128,6 +128,14 @@ def test_a_fillet_may_hold_a_smaller_arc(small: float, radius: float, height: fl
         assert min(abs(away - small - radius), abs(abs(radius - small) - away)) < 1e-7
 
 
+def test_places_near_a_corner_stand_for_their_sides_of_it() -> None:
+    first, made, second = fillet(Line((10, 10), (90, 10)), Line((10, 10), (10, 60)), 12, ((20, 10), (10, 15)))
+    assert (first, second) == (Line((22, 10), (90, 10)), Line((10, 22), (10, 60))) and made.centre == (22, 22)
+    cross = fillet(Line((-50, 0), (50, 0)), Line((0, -50), (0, 50)), 8, ((-3, 0), (0, 2)))
+    assert cross[0].start == (-50, 0) and cross[0].end == pytest.approx((-8, 0), abs=1e-9)
+    assert cross[2].start == pytest.approx((0, 8), abs=1e-9) and cross[2].end == (0, 50)
+
+
 def test_an_arc_never_goes_on_to_its_own_other_end() -> None:
     with pytest.raises(InputError, match="No edge lies ahead"):
         after("arc 5,0 0,5 centre 0,0\nline 5,-9 5,0\nextend 1 0,5 to 2")

@@ -11,6 +11,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from itertools import chain
 from pathlib import Path
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
@@ -26,6 +27,7 @@ from app.ui.nc.motion_shapes import Side
 from app.ui.start import build
 from app.ui.views import View
 from app.ui.wiring import Wiring
+from tests.ui.drawing_states import DrawingStates
 from tests.ui.stages.scan import scan
 
 SIZES = ((1280, 800), (1920, 1080))
@@ -171,6 +173,19 @@ def stage_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
             "fitted": lambda: step(406), "letters": letters, "picture": picture}
 
 
+def take_drawing(wiring: Wiring, folder: Path) -> None:
+    """Take every tool, page and menu of the drawing workstation; what was open is not kept."""
+    states = DrawingStates(wiring, wait)
+    for theme in (ThemeChoice.LIGHT, ThemeChoice.DARK):
+        choose_theme(wiring.window_, theme)
+        for width, height in SIZES:
+            wiring.window_.resize(width, height)
+            states.begin()
+            for name in chain(states.tools(), states.pages(), states.over(), states.printing()):
+                take(wiring, folder / f"draw-{name}-{theme.value}-{width}.png")
+            states.windows(folder, f"{theme.value}.png")
+
+
 def main() -> None:
     """Take the pictures."""
     os.environ["HITOFUDE_CONFIG"] = tempfile.mkdtemp()
@@ -207,6 +222,7 @@ def main() -> None:
                 take(wiring, folder / f"cut-{name}-{theme.value}-{width}.png")
             wiring.cutting.back()
             wiring.nc.back()
+    take_drawing(wiring, folder)
     wiring.window_.close()
     application.quit()
 
