@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from app.edit.arguments import Arguments
-from app.edit.command import Session, SetLayer
+from app.edit.command import Session, SetLayer, check_ids
 from app.edit.properties import WORDS, Kind, Value, properties_of, with_property
 from app.edit.shapes import shown
 from app.errors import InputError
@@ -69,7 +69,7 @@ def set_property(words: Arguments, session: Session) -> SetProperty | SetLayer:
     ids = frozenset(found) or session.selection
     if not ids:
         raise InputError("Nothing is selected; select what to set, or write its numbers after set.")
-    _check_ids(session.part, ids)
+    check_ids(session.part, ids)
     if word == "layer":
         return SetLayer(words.name("the name of a layer"), ids)
     return SetProperty(ids, word, _value(words, session.part, (ids, word)))
@@ -90,9 +90,3 @@ def _present(part: Part, ids: frozenset[int], word: str) -> Point | None:
     shapes: Iterable[Curve | Shape] = (*(e.curve for e in part.entities if e.id in ids), *(n.shape for n in part.notes if n.id in ids))
     known = [properties_of(shape)[word].read(shape) for shape in shapes if word in properties_of(shape)]
     return known[0] if len(known) == 1 and isinstance(known[0], tuple) else None
-
-
-def _check_ids(part: Part, ids: frozenset[int]) -> None:
-    missing = sorted(ids - {e.id for e in part.entities} - {n.id for n in part.notes})
-    if missing:
-        raise InputError(f"The drawing has no entity {', '.join(map(str, missing[:5]))}; select what to set and repeat without numbers.")
