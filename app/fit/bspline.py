@@ -1,0 +1,261 @@
+"""Method E's curve: a least-squares B-spline with as few spans as keep it, proven, in the tube round its points.
+
+Spans in which the proof fails are halved, until it holds everywhere; then spans whose points are nearer than they need be
+are joined again as far as the proof allows. Along the way every point's place on the curve is moved to the nearest one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.fit.bezier import cut_at_knots
+from app.fit.space_curve import raised
+from app.fit.tube import Tube
+from app.model.motion import Nurbs
+from app.progress import NO_PROGRESS, Progress
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+_SPAN = 32
+"""Chords of a span to begin with."""
+_ROUNDS = 40
+_BETWEEN = np.array([0.25, 0.5, 0.75])
+"""Where on a chord the curve is drawn to it, lightly, so that it does not swing out between points."""
+_LIGHT = 0.05
+_IDLE = 0.5
+"""Spans whose curve uses less of the tolerance may be joined."""
+_JOININGS = 8
+_SPREADINGS = 5
+_MENDINGS = 6
+_USE = 0.7
+"""How much of the tolerance a span is to use up."""
+_STRETCH = (0.4, 1.3)
+"""How much denser breaks may become at once."""
+
+
+@dataclass(frozen=True, eq=False)
+class SplineFit:
+    """A B-spline in the tube round its points.
+
+    Attributes:
+        curve: its ends are the outer points; smooth of the second order (degree 3) or the fourth (degree 5) within.
+        feet: (n,) places on its Bézier pieces that answer to the points, in [0, number of pieces].
+    """
+
+    curve: Nurbs
+    feet: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class _State:
+    """A spline on its way.
+
+    Attributes:
+        breaks: (m + 1,) parameters between spans.
+        places: (s,) parameters of the samples.
+        control, pieces: of the spline and of its spans.
+        bad: (n - 1,) chords that are not proven.
+    """
+
+    breaks: Floats
+    places: Floats
+    control: Floats
+    pieces: Floats
+    feet: Floats
+    bad: Mask
+
+
+class _Samples:
+    """Points to fit: the given ones, and lighter ones on their chords."""
+
+    def __init__(self, points: Floats) -> None:
+        n = len(points)
+        share = np.concatenate([[0.0], _BETWEEN])
+        chords = points[:-1, None] + (points[1:] - points[:-1])[:, None] * share[None, :, None]
+        self.points = np.ascontiguousarray(np.concatenate([chords.reshape(-1, 3), points[-1:]]))
+        self.own = np.arange(n) * len(share)
+        self.weights = np.full(len(self.points), _LIGHT)
+        self.weights[self.own] = 1.0
+        steps = np.sqrt(np.sum(np.diff(self.points, axis=0) ** 2, axis=1))
+        self.along = np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def fit_spline(points: Floats, tube: Tube, degree: int = 3, progress: Progress = NO_PROGRESS) -> SplineFit | int:
+    """Return a spline in the tube round points; where there is none, the number of the point at which a corner is needed.
+
+    Args:
+        points: (n, 3) mm, n >= 3, no two in a row alike.
+        tube: region round their chords.
+        degree: 3 or 5.
+        progress: told of rounds; may cancel.
+    """
+    work = _Work(points, tube, degree, progress)
+    state = work.halved()
+    if isinstance(state, int):
+        return state
+    state = work.joined(work.spread(state))
+    knots = work.knots(state.breaks)
+    return SplineFit(Nurbs(state.control, np.ones(len(state.control)), knots, degree), state.feet)
+
+
+class _Work:
+    """One stretch of points and what its spline has to keep to."""
+
+    def __init__(self, points: Floats, tube: Tube, degree: int, progress: Progress) -> None:
+        self._points = np.ascontiguousarray(points, np.float64)
+        self._samples, self._degree, self._progress = _Samples(self._points), degree, progress
+        self._tube, self._squares = tube, tube.squares(1e-9)
+
+    def knots(self, breaks: Floats) -> Floats:
+        """Return the knots of spans that end at breaks."""
+        return np.concatenate([np.repeat(breaks[0], self._degree), breaks, np.repeat(breaks[-1], self._degree)])
+
+    def halved(self) -> _State | int:
+        """Return a proven spline, made by halving spans that fail; or where a corner is needed."""
+        along, count = self._samples.along, len(self._points) - 1
+        at = np.unique(np.linspace(0, len(along) - 1, max(1, round(count / _SPAN)) + 1).astype(np.int64))
+        breaks, places = along[at], along
+        for k in range(_ROUNDS):
+            self._progress.step(0.0, f"fitting a curve: round {k + 1}")
+            state = self._solved(breaks, places)
+            if not state.bad.any():
+                return state
+            places = state.places
+            finer = self._finer(state)
+            if finer is None:
+                break
+            breaks = finer
+        return self._corner(state)
+
+    def _corner(self, state: _State) -> int:
+        """Return the inner point of an unproven chord where the path turns the most."""
+        steps = np.diff(self._points, axis=0)
+        steps /= np.linalg.norm(steps, axis=1)[:, None]
+        turn = np.zeros(len(self._points))
+        turn[1:-1] = 1.0 - np.einsum("ij,ij->i", steps[:-1], steps[1:])
+        near = np.zeros(len(turn), bool)
+        near[:-1] |= state.bad
+        near[1:] |= state.bad
+        near[0] = near[-1] = False
+        return int(np.argmax(np.where(near, turn, -1.0))) if near.any() else len(turn) // 2
+
+    def _finer(self, state: _State) -> Floats | None:
+        """Return breaks with each span halved that holds an unproven chord; None where nothing can be halved."""
+        inner = state.feet
+        low = np.clip(inner[:-1].astype(np.int64), 0, len(state.pieces) - 1)
+        high = np.clip(np.ceil(inner[1:]).astype(np.int64) - 1, low, len(state.pieces) - 1)
+        failed = np.zeros(len(state.pieces) + 1, np.int64)
+        np.add.at(failed, low[state.bad], 1)
+        np.add.at(failed, high[state.bad] + 1, -1)
+        spans = np.flatnonzero(np.cumsum(failed)[:-1] > 0)
+        first = np.searchsorted(state.places, state.breaks[spans], side="right")
+        last = np.searchsorted(state.places, state.breaks[spans + 1], side="left") - 1
+        some = last - first >= 1
+        if not some.any():
+            return None
+        at = state.places[(first[some] + last[some]) // 2]
+        return np.unique(np.concatenate([state.breaks, at]))
+
+    def _solved(self, breaks: Floats, places: Floats) -> _State:
+        """Return the least-squares spline over breaks, its samples' places moved to the nearest, and what is not proven."""
+        from app.fit import bspline_kernels, tube_feet_kernels
+
+        samples, knots = self._samples, self.knots(breaks)
+        control = np.empty((len(breaks) - 1 + self._degree, 3))
+        bspline_kernels.solve(knots, self._degree, samples.points, places, samples.weights, control)
+        pieces = np.ascontiguousarray(raised(cut_at_knots(control, knots, self._degree)))
+        span = np.clip(np.searchsorted(breaks, places, side="right") - 1, 0, len(pieces) - 1)
+        feet = span + (places - breaks[span]) / np.diff(breaks)[span]
+        tube_feet_kernels.settle(pieces, samples.points, feet)
+        span = np.clip(feet.astype(np.int64), 0, len(pieces) - 1)
+        moved = breaks[span] + (feet - span) * np.diff(breaks)[span]
+        bad, own = np.empty(len(self._points) - 1, np.bool_), np.ascontiguousarray(feet[samples.own])
+        bspline_kernels.failing(pieces, self._points, own, *self._squares, bad)
+        return _State(breaks, moved, control, pieces, own, bad)
+
+    def spread(self, state: _State) -> _State:
+        """Return a proven spline with spans as long as lets their curves be equally far from the points, if it has fewer."""
+        for _ in range(_SPREADINGS):
+            self._progress.step(0.4, f"fitting a curve: {len(state.pieces)} spans")
+            made = self._halved_from(self._evened(state), state.places)
+            if made is None or len(made.pieces) >= len(state.pieces):
+                break
+            state = made
+        return state
+
+    def _evened(self, state: _State) -> Floats:
+        """Return breaks so that every span is expected to use up the same share of the tolerance (after de Boor's newknot)."""
+        use = self._off(state) / (_USE * self._tube.radius)
+        density = np.clip(use ** (1 / (self._degree + 1)), *_STRETCH)
+        total = np.concatenate([[0.0], np.cumsum(density)])
+        goals = np.linspace(0.0, total[-1], max(1, int(np.ceil(total[-1]))) + 1)
+        breaks: Floats = np.interp(goals, total, state.breaks)
+        return breaks
+
+    def _halved_from(self, breaks: Floats, places: Floats) -> _State | None:
+        """Return a proven spline made from breaks by halving spans that fail; None where it takes too much."""
+        for _ in range(_MENDINGS):
+            made = self._solved(breaks, places)
+            if not made.bad.any():
+                return made
+            places, finer = made.places, self._finer(made)
+            if finer is None:
+                return None
+            breaks = finer
+        return None
+
+    def joined(self, state: _State) -> _State:
+        """Return a proven spline with fewer spans."""
+        locked: Floats = np.empty(0)
+        for k in range(_JOININGS):
+            self._progress.step(0.5, f"fitting a curve: {len(state.pieces)} spans")
+            chosen = self._idle(state, locked, k % 2)
+            if not chosen.any():
+                if k % 2:
+                    break
+                continue
+            better, kept = self._without(state, chosen)
+            locked = np.concatenate([locked, kept])
+            state = state if better is None else better
+        return state
+
+    def _without(self, state: _State, chosen: Mask) -> tuple[_State | None, Floats]:
+        """Return a proven spline without chosen breaks, and those that had to stay; None where even these do not help."""
+        breaks, kept = state.breaks, np.zeros(len(chosen), bool)
+        places = state.places
+        for _ in range(4):
+            made = self._solved(breaks[~chosen | kept], places)
+            if not made.bad.any():
+                return made, breaks[kept]
+            places = made.places
+            at = self._samples.own[:-1][made.bad]
+            lost = chosen & ~kept
+            near = np.searchsorted(breaks, places[at])
+            for off in range(-2, 3):
+                kept[np.clip(near + off, 0, len(breaks) - 1)] = True
+            kept &= chosen
+            if not (lost & kept).any():
+                kept |= lost & (np.cumsum(lost) % 2 == 0)
+        return None, breaks[chosen]
+
+    def _idle(self, state: _State, locked: Floats, phase: int) -> Mask:
+        """Return which breaks may go: between spans that are nearer than need be, no two neighbours."""
+        off = self._off(state)
+        free = np.zeros(len(state.breaks), bool)
+        free[1:-1] = (np.maximum(off[:-1], off[1:]) < _IDLE * self._tube.radius) & ~np.isin(state.breaks[1:-1], locked)
+        index = np.arange(len(free))
+        chosen: Mask = free & (index % 2 == phase)
+        return chosen
+
+    def _off(self, state: _State) -> Floats:
+        """Return how far the curve of each span is found from its chords, mm."""
+        from app.fit import tube_feet_kernels
+
+        off = np.empty(len(state.pieces))
+        tube_feet_kernels.off_chords(state.pieces, self._points, state.feet, off)
+        return off
