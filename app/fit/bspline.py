@@ -85,8 +85,8 @@ class _Samples:
         self.along = np.concatenate([[0.0], np.cumsum(steps)])
 
 
-def fit_spline(points: Floats, tube: Tube, degree: int = 3, progress: Progress = NO_PROGRESS) -> SplineFit | int:
-    """Return a spline in the tube round points; where there is none, the number of the point at which a corner is needed.
+def fit_spline(points: Floats, tube: Tube, degree: int = 3, progress: Progress = NO_PROGRESS) -> SplineFit | Ints:
+    """Return a spline in the tube round points; where there is none, the numbers of the points at which it needs corners.
 
     Args:
         points: (n, 3) mm, n >= 3, no two in a row alike.
@@ -96,7 +96,7 @@ def fit_spline(points: Floats, tube: Tube, degree: int = 3, progress: Progress =
     """
     work = _Work(points, tube, degree, progress)
     state = work.halved()
-    if isinstance(state, int):
+    if not isinstance(state, _State):
         return state
     state = work.joined(work.spread(state))
     knots = work.knots(state.breaks)
@@ -115,8 +115,8 @@ class _Work:
         """Return the knots of spans that end at breaks."""
         return np.concatenate([np.repeat(breaks[0], self._degree), breaks, np.repeat(breaks[-1], self._degree)])
 
-    def halved(self) -> _State | int:
-        """Return a proven spline, made by halving spans that fail; or where a corner is needed."""
+    def halved(self) -> _State | Ints:
+        """Return a proven spline, made by halving spans that fail; or where corners are needed."""
         along, count = self._samples.along, len(self._points) - 1
         at = np.unique(np.linspace(0, len(along) - 1, max(1, round(count / _SPAN)) + 1).astype(np.int64))
         breaks, places = along[at], along
@@ -130,19 +130,21 @@ class _Work:
             if finer is None:
                 break
             breaks = finer
-        return self._corner(state)
+        return self._corners(state)
 
-    def _corner(self, state: _State) -> int:
-        """Return the inner point of an unproven chord where the path turns the most."""
+    def _corners(self, state: _State) -> Ints:
+        """Return the inner points of unproven chords where the path turns the most: one of each run of such chords."""
         steps = np.diff(self._points, axis=0)
         steps /= np.linalg.norm(steps, axis=1)[:, None]
-        turn = np.zeros(len(self._points))
+        turn = np.full(len(self._points), -1.0)
         turn[1:-1] = 1.0 - np.einsum("ij,ij->i", steps[:-1], steps[1:])
-        near = np.zeros(len(turn), bool)
-        near[:-1] |= state.bad
-        near[1:] |= state.bad
-        near[0] = near[-1] = False
-        return int(np.argmax(np.where(near, turn, -1.0))) if near.any() else len(turn) // 2
+        near = np.zeros(len(turn) + 1, bool)
+        near[1:-1] = state.bad
+        touched = near[1:] | near[:-1]
+        touched[0] = touched[-1] = False
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], touched, [False]]).astype(np.int8)))
+        at = [first + int(np.argmax(turn[first:stop])) for first, stop in edges.reshape(-1, 2).tolist()]
+        return np.array(at or [len(turn) // 2])
 
     def _finer(self, state: _State) -> Floats | None:
         """Return breaks with each span halved that holds an unproven chord; None where nothing can be halved."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,14 +49,19 @@ def _motions(start: Floats, end: Floats, kind: NDArray[np.uint8], splines: dict[
 
 def chained(parts: Sequence[FittedPath]) -> FittedPath:
     """Return paths one after the other as one; the point where one ends is the first of the next."""
-    motions, base, rows = [part.motions for part in parts], 0, 0
-    last, splines = [], {}
+    base, rows = 0, 0
+    last: list[Ints] = []
+    splines: dict[int, Nurbs] = {}
     for part in parts:
         last.append(part.last + base)
         splines |= {row + rows: spline for row, spline in part.motions.splines.items()}
         base, rows = int(last[-1][-1]), rows + len(part.motions)
-    columns = {
-        name: np.concatenate([getattr(each, name) for each in motions])
-        for name in ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
-    }
-    return FittedPath(Motions(**columns, splines=splines), np.concatenate(last))
+
+    def joined(name: str) -> NDArray[Any]:
+        return np.concatenate([getattr(part.motions, name) for part in parts])
+
+    motions = Motions(
+        joined("start"), joined("end"), joined("centre"), joined("kind"), joined("plane"), joined("turns"), joined("feed"),
+        joined("line"), joined("state"), splines,
+    )  # fmt: skip
+    return FittedPath(motions, np.concatenate(last))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -89,6 +89,14 @@ def curve_of_motions(motions: Motions, first: int = 0, stop: int | None = None) 
     owner = np.concatenate([rows for rows, _, _ in parts])
     order = np.argsort(owner, kind="stable")
     return SpaceCurve(np.concatenate([control for _, control, _ in parts])[order], owner[order], max(slack for _, _, slack in parts))
+
+
+def joined(curves: Sequence[SpaceCurve]) -> SpaceCurve:
+    """Return curves one after the other as one."""
+    return SpaceCurve(
+        np.concatenate([curve.control for curve in curves]), np.concatenate([curve.owner for curve in curves]),
+        max(curve.slack for curve in curves),
+    )  # fmt: skip
 
 
 def _parts(motions: Motions, first: int, stop: int) -> Iterator[tuple[NDArray[np.int64], Floats, float]]:

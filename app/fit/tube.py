@@ -130,7 +130,7 @@ def judge(curve: SpaceCurve, points: Floats, tube: Tube, feet: Floats | None = N
         kernels.step_back(curve.control, points, end, swell, ways, counts, feet)
         if kernels.proven(curve.control, points, feet, end, swell)[0] != INSIDE:
             return _refused(curve, points, (end, swell), (0, 0.0))
-    return _proven(curve, points, feet)
+    return _proven(curve, points, feet, tube.widest)
 
 
 def _checked(curve: SpaceCurve, points: Floats) -> Floats:
@@ -142,14 +142,15 @@ def _checked(curve: SpaceCurve, points: Floats) -> Floats:
     return points
 
 
-def _proven(curve: SpaceCurve, points: Floats, feet: Floats) -> Judgement:
+def _proven(curve: SpaceCurve, points: Floats, feet: Floats, widest: float) -> Judgement:
     from app.fit import tube_feet_kernels as kernels
 
     bound, found, at, back, worst = kernels.apart(curve.control, points, feet, _SHARE)
     if back > found:
         at = float(feet[int(worst)])
     chord = min(max(int(np.searchsorted(feet, at, side="right")) - 1, 0), len(points) - 2)
-    return Judgement(Answer.INSIDE, bound + curve.slack, found, back, at, _place(curve, at), chord, feet)
+    bound = min(bound + curve.slack, widest)
+    return Judgement(Answer.INSIDE, bound, found, back, at, _place(curve, at), chord, feet)
 
 
 def _refused(curve: SpaceCurve, points: Floats, squares: tuple[float, float], left: tuple[int, float]) -> Judgement:

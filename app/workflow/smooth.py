@@ -1,0 +1,275 @@
+"""`hitofude smooth`: straight feed moves of any NC program become lines, arcs or splines within a proven tolerance.
+
+What goes out is read back from its own bytes, and each stretch that was written anew is judged against the moves it stands
+for. One that does not pass, or takes more blocks than it had, stays as it was.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from enum import Enum
+
+import numpy as np
+
+from app.errors import InputError, ParameterError
+from app.fit.fitted import FittedPath
+from app.fit.proven_curve import SplineOptions, fit_splines
+from app.fit.smoothness import Smoothness, of_curve, of_points
+from app.fit.space_curve import SpaceCurve, curve_of_motions, joined
+from app.fit.tube import Answer, Judgement, Tube, judge
+from app.model.motion import Floats, Motions, Nurbs
+from app.nc.blocks import Blocks
+from app.nc.curve_blocks import Spelling, curve_blocks
+from app.nc.linuxcnc_biarcs import driven
+from app.nc.post import NurbsForm, Post
+from app.nc.posts import load_post
+from app.nc.read.dialect import Dialect
+from app.nc.read.guess import guess_dialect
+from app.nc.read.options import PATIENT, ReadOptions
+from app.nc.read.program import NcProgram
+from app.nc.read.reader import read_program
+from app.nc.read.text import Text
+from app.nc.rewrite import Rewritten, rewrite
+from app.nc.stretches import Found, Stretch, find_stretches
+from app.progress import NO_PROGRESS, Progress
+from app.workflow.smooth_report import certificate
+
+TOLERANCES = (1e-4, 10.0)
+"""mm; what a tolerance may be."""
+
+
+class Form(Enum):
+    """What stretches are written as."""
+
+    LINES = "lines"
+    ARCS = "arcs"
+    NURBS = "nurbs"
+
+
+@dataclass(frozen=True)
+class SmoothOptions:
+    """How to smooth.
+
+    Attributes:
+        tolerance: by how much curve and moves may be apart, both ways, mm.
+        form: what is written.
+        middle: half way between two points the curve may be so far away, mm; None: no farther than at them.
+        degree: of splines, 3 or 5.
+        corner: bends of more than this are kept exactly, radians.
+        post: in whose words; None = those of the control that the text looks to be for.
+        dialect: how the program is read; None = as the text looks.
+    """
+
+    tolerance: float = 0.01
+    form: Form = Form.ARCS
+    middle: float | None = None
+    degree: int = 3
+    corner: float = math.radians(30.0)
+    post: Post | None = None
+    dialect: Dialect | None = None
+
+    def __post_init__(self) -> None:
+        if not TOLERANCES[0] <= self.tolerance <= TOLERANCES[1]:
+            raise ParameterError(f"the tolerance is {self.tolerance:g} mm; use {TOLERANCES[0]:g} to {TOLERANCES[1]:g} mm.")
+        if self.degree not in (3, 5):
+            raise ParameterError(f"a spline of degree {self.degree}; use 3 or 5.")
+        if not 0 < self.corner <= math.pi:
+            raise ParameterError(f"a corner of {math.degrees(self.corner):g} degrees; use more than 0 and not more than 180.")
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """One stretch, before and after.
+
+    Attributes:
+        stretch: of the program that came in.
+        points: its places, none twice in a row, mm.
+        blocks: that it had and has.
+        curve: what the written text drives along; None where the stretch stayed as it was.
+        judgement: of that curve against the points; None where it stayed.
+        kept: why it stayed, or "".
+        before, after: how smooth it is.
+    """
+
+    stretch: Stretch
+    points: Floats
+    blocks: tuple[int, int]
+    curve: SpaceCurve | None
+    judgement: Judgement | None
+    kept: str
+    before: Smoothness
+    after: Smoothness
+
+
+@dataclass(frozen=True, eq=False)
+class Smoothed:
+    """A program, smoothed.
+
+    Attributes:
+        name: of the file that came in.
+        options: what was asked.
+        before, after: the program as it was, and as it was written and read back.
+        data: the new text.
+        pieces: every stretch, in the order of the text.
+        found: stretches, and what is in none.
+    """
+
+    name: str
+    options: SmoothOptions
+    before: NcProgram
+    after: NcProgram
+    data: bytes
+    pieces: tuple[Piece, ...]
+    found: Found
+
+    @property
+    def bound(self) -> float:
+        """Proven: nowhere are curve and moves farther apart than this, mm."""
+        return max((piece.judgement.bound for piece in self.pieces if piece.judgement), default=0.0)
+
+
+_POSTS = {Dialect.LINUXCNC: "linuxcnc", Dialect.FANUC: "fanuc", Dialect.HAAS: "haas", Dialect.GRBL: "grbl", Dialect.MACH3: "mach3"}
+
+
+def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = NO_PROGRESS) -> Smoothed:
+    """Return a program whose stretches of straight feed moves are written anew.
+
+    Args:
+        name: of the file, for messages.
+        data: its bytes.
+        options: tolerance and form.
+        progress: told of how much is done.
+
+    Raises:
+        InputError: the program cannot be read to its end, or has nothing that can be smoothed.
+        Cancelled: the job was asked to stop.
+    """
+    dialect = options.dialect or guess_dialect(data)
+    post = options.post or load_post(_POSTS.get(dialect, "linuxcnc"))
+    read = ReadOptions(dialect, limits=PATIENT)
+    before = read_program(data, read, progress.part(0.0, 0.1))
+    if before.error is not None:
+        raise InputError(f"{before.error.told(name)} Mend it there; check tells more.")
+    found = find_stretches(before, Text(data), progress.part(0.1, 0.15))
+    work = _Work(options, post, before, found)
+    blocks, kept = work.written(progress.part(0.15, 0.7))
+    while True:
+        new = rewrite(data, found.stretches, blocks, ())
+        after = read_program(new.data, read, progress.part(0.7, 0.8))
+        judged = work.judged(after, new, progress.part(0.8, 1.0))
+        failed = [k for k, (_, judgement) in judged.items() if judgement.answer is not Answer.INSIDE]
+        if not failed:
+            break
+        for k in failed:
+            del blocks[k]
+            kept[k] = "as it was written it is not proven to keep to the tolerance"
+    pieces = tuple(work.piece(k, judged.get(k), kept.get(k, ""), len(blocks.get(k, ()))) for k in range(len(found.stretches)))
+    done = Smoothed(name, options, before, after, new.data, pieces, found)
+    return replace(done, data=rewrite(data, found.stretches, blocks, _comments(done, post, before)).data)
+
+
+def _comments(done: Smoothed, post: Post, program: NcProgram) -> list[str]:
+    """Return the certificate as comment lines."""
+    head = Blocks(post, program.states[0].units)
+    for line in certificate(done):
+        head.comment(line)
+    return head.lines
+
+
+class _Work:
+    """A program's stretches, on their way."""
+
+    def __init__(self, options: SmoothOptions, post: Post, program: NcProgram, found: Found) -> None:
+        self._options, self._post, self._program, self._found = options, post, program, found
+        self._points = [_without_repeats(stretch.points) for stretch in found.stretches]
+        self._tube = Tube(options.tolerance, options.middle)
+
+    def written(self, progress: Progress) -> tuple[dict[int, tuple[str, ...]], dict[int, str]]:
+        """Return the new blocks of stretches, and why others stay."""
+        blocks: dict[int, tuple[str, ...]] = {}
+        kept: dict[int, str] = {}
+        count = len(self._found.stretches)
+        for k, stretch in enumerate(self._found.stretches):
+            progress.step(k / count, f"Stretch {k + 1} of {count}")
+            if len(self._points[k]) < 3:
+                kept[k] = "it is too short"
+                continue
+            path = self._fitted(k, progress.part(k / count, (k + 1) / count))
+            state = self._program.states[self._program.motions.state[stretch.first]]
+            made = curve_blocks(path.motions, Spelling(self._post, state, stretch.feed))
+            if len(made) >= stretch.stop - stretch.first:
+                kept[k] = "it would not take fewer blocks"
+            else:
+                blocks[k] = made
+        return blocks, kept
+
+    def _fitted(self, k: int, progress: Progress) -> FittedPath:
+        points = self._points[k]
+        state = self._program.states[self._program.motions.state[self._found.stretches[k].first]]
+        step = 10.0 ** -self._post.digits(state.units).X * state.units.value
+        slack = 2.0 * step
+        if not self._options.tolerance > 2 * slack:
+            raise InputError(f"the tolerance of {self._options.tolerance:g} mm is too near to the last decimal of {self._post.title}, "
+                             f"{step:g} mm; use {5 * step:g} mm or more, or a post with more decimals.")
+        tube = Tube(self._tube.radius - slack, None if self._tube.middle is None else self._tube.middle - slack)
+        form, nurbs = self._options.form, self._post.nurbs.form
+        if form is Form.NURBS and nurbs is not NurbsForm.NONE:
+            level = nurbs is NurbsForm.BEZIER
+            return fit_splines(points, SplineOptions(tube, 3, self._options.corner, _quarters if level else _knots, level), progress)
+        from app.fit.arc_fit import ArcOptions, fit_arcs, fit_lines
+
+        if form is Form.LINES:
+            return fit_lines(points, tube.radius)
+        return fit_arcs(points, ArcOptions(tube.radius, self._options.corner))
+
+    def judged(self, after: NcProgram, new: Rewritten, progress: Progress) -> dict[int, tuple[SpaceCurve, Judgement]]:
+        """Return what each stretch that was written anew has become, and the judge's answer."""
+        lines, answers = after.motions.line, {}
+        for n, (k, (first, last)) in enumerate(new.lines.items()):
+            progress.step(n / len(new.lines), "Proving what was written")
+            rows = np.flatnonzero((lines >= first) & (lines <= last))
+            curve = self._driven(after.motions, int(rows[0]), int(rows[-1]) + 1)
+            answers[k] = (curve, judge(curve, self._points[k], self._tube))
+        return answers
+
+    def _driven(self, motions: Motions, first: int, stop: int) -> SpaceCurve:
+        """Return what the control drives along in some motions of the written text."""
+        if self._post.nurbs.form is not NurbsForm.BEZIER or not motions.splines:
+            return curve_of_motions(motions, first, stop)
+        rows = sorted(row for row in motions.splines if first <= row < stop)
+        parts, at = [], first
+        for row in rows:
+            parts += [curve_of_motions(motions, at, row)] if row > at else []
+            parts.append(curve_of_motions(driven(motions.splines[row])))
+            at = row + 1
+        parts += [curve_of_motions(motions, at, stop)] if stop > at else []
+        return joined(parts)
+
+    def piece(self, k: int, judged: tuple[SpaceCurve, Judgement] | None, kept: str, blocks: int) -> Piece:
+        """Return one stretch, before and after."""
+        from app.fit.corners import corners
+
+        stretch, points = self._found.stretches[k], self._points[k]
+        count = stretch.stop - stretch.first
+        at = corners(points, self._options.corner, 4 * self._tube.widest) if len(points) > 2 else np.array([0])
+        before = of_points(points, points[at])
+        if judged is None:
+            return Piece(stretch, points, (count, count), None, None, kept, before, before)
+        curve, judgement = judged
+        return Piece(stretch, points, (count, blocks), curve, judgement, "", before, of_curve(curve, points[at]))
+
+
+def _knots(curve: Nurbs) -> int:
+    """Blocks of a spline with knots."""
+    return len(curve.knots) + 1
+
+
+def _quarters(curve: Nurbs) -> int:
+    """Blocks of a spline as cubic pieces."""
+    return 5 * len(np.unique(curve.knots)) - 4
+
+
+def _without_repeats(points: Floats) -> Floats:
+    kept = np.concatenate([[True], np.any(np.diff(points, axis=0) != 0, axis=1)])
+    return np.ascontiguousarray(points[kept])

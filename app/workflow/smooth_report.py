@@ -1,0 +1,101 @@
+"""What smoothing did: the certificate, as JSON and as comments of the program."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import TYPE_CHECKING, Any
+
+from app.model.finding import Finding, FindingKind
+
+if TYPE_CHECKING:
+    from app.workflow.smooth import Piece, Smoothed
+
+Json = dict[str, Any]
+LISTED = 1000
+"""Stretches that the report lists singly, those that changed first."""
+
+
+def certificate(done: Smoothed) -> tuple[str, ...]:
+    """Return the proof in a few sentences, for the program's head."""
+    changed = _changed(done)
+    came, left = _blocks(done)
+    told = f"hitofude smooth: {len(changed)} of {len(done.pieces)} stretches written anew as {done.options.form.value}"
+    if not changed:
+        return (told,)
+    bend, step = _most(done, "bend"), _most(done, "curvature_step")
+    return (
+        f"{told}, {came} blocks before, {left} after",
+        f"tolerance {done.options.tolerance:g} mm; proven both ways, as written: {done.bound:.6f} mm; found: curve to moves "
+        f"{max(piece.judgement.from_curve for piece in changed if piece.judgement):.6f} mm, moves to curve "
+        f"{max(piece.judgement.from_points for piece in changed if piece.judgement):.6f} mm",
+        f"largest bend {math.degrees(bend[0]):.3f} deg before, {math.degrees(bend[1]):.3f} after; curvature step {step[0]:.4g} per mm "
+        f"before, {step[1]:.4g} after; corners above {math.degrees(done.options.corner):g} deg kept",
+        "the control may add what its own blending allows",
+    )
+
+
+def findings(done: Smoothed) -> tuple[Finding, ...]:
+    """Return what somebody has to know: stretches whose curve could not be proven."""
+    lost = [piece for piece in done.pieces if piece.kept.startswith("as it was written")]
+    return tuple(
+        Finding(FindingKind.TOLERANCE, f"Lines {piece.stretch.first_line} to {piece.stretch.last_line} stay as they were: {piece.kept}.")
+        for piece in lost
+    )
+
+
+def report(done: Smoothed) -> Json:
+    """Return everything that smoothing found, lengths in mm, angles in degrees."""
+    came, left = _blocks(done)
+    bend, step = _most(done, "bend"), _most(done, "curvature_step")
+    changed = _changed(done)
+    listed = sorted(done.pieces, key=lambda piece: (piece.judgement is None, piece.stretch.first_line))[:LISTED]
+    return {
+        "program": done.name,
+        "as": done.options.form.value,
+        "tolerance": {
+            "asked_mm": done.options.tolerance, "middle_mm": done.options.middle, "proven_mm": done.bound,
+            "curve_to_moves_found_mm": max((piece.judgement.from_curve for piece in changed if piece.judgement), default=0.0),
+            "moves_to_curve_found_mm": max((piece.judgement.from_points for piece in changed if piece.judgement), default=0.0),
+        },
+        "blocks": {"before": came, "after": left, "moves_left_alone": {reason.value: n for reason, n in done.found.left.items() if n}},
+        "largest_bend_deg": {"before": math.degrees(bend[0]), "after": math.degrees(bend[1])},
+        "largest_curvature_step_per_mm": {"before": step[0], "after": step[1]},
+        "corner_deg": math.degrees(done.options.corner),
+        "stretches": {"found": len(done.pieces), "changed": len(changed), "listed": [_listed(piece) for piece in listed]},
+    }  # fmt: skip
+
+
+def report_text(done: Smoothed) -> str:
+    """Return the report as JSON."""
+    return json.dumps(report(done), indent=1) + "\n"
+
+
+def _listed(piece: Piece) -> Json:
+    told: Json = {
+        "lines": [piece.stretch.first_line, piece.stretch.last_line],
+        "blocks": {"before": piece.blocks[0], "after": piece.blocks[1]},
+    }
+    if piece.judgement is None:
+        return told | {"kept": piece.kept}
+    judgement = piece.judgement
+    x, y, z = judgement.place
+    return told | {
+        "proven_mm": judgement.bound, "curve_to_moves_found_mm": judgement.from_curve, "moves_to_curve_found_mm": judgement.from_points,
+        "farthest": {"x": x, "y": y, "z": z, "chord": judgement.chord},
+    }  # fmt: skip
+
+
+def _changed(done: Smoothed) -> list[Piece]:
+    return [piece for piece in done.pieces if piece.judgement is not None]
+
+
+def _blocks(done: Smoothed) -> tuple[int, int]:
+    return sum(piece.blocks[0] for piece in done.pieces), sum(piece.blocks[1] for piece in done.pieces)
+
+
+def _most(done: Smoothed, name: str) -> tuple[float, float]:
+    """Return the largest value before and after, of the stretches that changed."""
+    changed = _changed(done)
+    before, after = ([getattr(getattr(piece, side), name) for piece in changed] for side in ("before", "after"))
+    return max(before, default=0.0), max(after, default=0.0)
