@@ -13,6 +13,7 @@ from enum import Enum
 import numpy as np
 
 from app.errors import InputError, ParameterError
+from app.fit.arc_fit import ArcOptions, fit_arcs
 from app.fit.fitted import FittedPath
 from app.fit.proven_curve import SplineOptions, fit_splines
 from app.fit.smoothness import Smoothness, of_curve, of_points
@@ -37,6 +38,9 @@ from app.workflow.smooth_report import certificate
 
 TOLERANCES = (1e-4, 10.0)
 """mm; what a tolerance may be."""
+
+LARGEST_RADIUS = 10_000.0
+"""mm; what is flatter is written as a line."""
 
 
 class Form(Enum):
@@ -217,11 +221,8 @@ class _Work:
         if form is Form.NURBS and nurbs is not NurbsForm.NONE:
             level = nurbs is NurbsForm.BEZIER
             return fit_splines(points, SplineOptions(tube, 3, self._options.corner, _quarters if level else _knots, level), progress)
-        from app.fit.arc_fit import ArcOptions, fit_arcs, fit_lines
-
-        if form is Form.LINES:
-            return fit_lines(points, tube.radius)
-        return fit_arcs(points, ArcOptions(tube.radius, self._options.corner))
+        largest = min(self._post.arcs.largest_radius_mm, LARGEST_RADIUS)
+        return fit_arcs(points, ArcOptions(tube.radius, self._options.corner, largest, form is not Form.LINES))
 
     def judged(self, after: NcProgram, new: Rewritten, progress: Progress) -> dict[int, tuple[SpaceCurve, Judgement]]:
         """Return what each stretch that was written anew has become, and the judge's answer."""
