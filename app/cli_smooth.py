@@ -102,5 +102,5 @@ def _options(arguments: argparse.Namespace) -> SmoothOptions:
 def _lines(done: Smoothed) -> list[str]:
     """Return what was done, for people."""
     head, *rest = certificate(done)
-    kept = [f"  - {n} moves left alone: {reason.value}" for reason, n in done.found.left.items() if n]
+    kept = [f"  - {n} move{'s' if n > 1 else ''} left alone: {reason.value}" for reason, n in done.found.left.items() if n]
     return [f"{done.name}: {head.partition(': ')[2]}", *(f"  {line}" for line in rest), *kept, *finding_lines(findings(done))]

@@ -1,0 +1,137 @@
+"""`hitofude smooth` on real programs: proven as written, never more blocks, everything else as it was."""
+
+import json
+import math
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.cli import main
+from app.model.motion import MotionKind
+from app.model.motion_path import arc_paths
+from app.nc.read.dialect import Dialect
+from app.nc.read.options import ReadOptions
+from app.nc.read.program import NcProgram
+from app.nc.read.reader import read_program
+from tests.fit.test_tube import off_chords
+
+HEAD = "G21 G90 G17 G94 G40 G49 G80\nT1 M6\nS8000 M3\nG0 X50 Y0\nG0 Z2\nG1 Z-1 F200\n"
+TAIL = "G0 Z5\nM5\nM2\n"
+
+
+def ring(count: int = 720, radius: float = 50.0) -> str:
+    angle = np.linspace(0, 2 * np.pi, count + 1)[1:]
+    lines = [f"X{radius * math.cos(a):.4f} Y{radius * math.sin(a):.4f}" for a in angle]
+    return "\n".join(["G1 " + lines[0] + " F600", *lines[1:], ""])
+
+
+def smoothed(folder: Path, text: str, *options: str, status: int = 0) -> tuple[str, dict[str, object]]:
+    source, out, report = folder / "in.ngc", folder / "out.ngc", folder / "r.json"
+    source.write_text(text)
+    assert main(["smooth", str(source), "-o", str(out), "--report", str(report), "--quiet", *options]) == status
+    return out.read_text(), json.loads(report.read_text())
+
+
+def assert_paths_near(before: NcProgram, after: NcProgram, limit: float) -> None:
+    """By samples, on whatever the reader makes of both: no place of either is farther from the other's path."""
+    places, old = [], np.vstack([before.motions.start[1:2], before.motions.end[1:]])
+    arcs = arc_paths(after.motions)
+    inner = arcs.points(np.linspace(0, 1, 65))
+    row_of = {int(row): k for k, row in enumerate(arcs.rows)}
+    for row in range(1, len(after.motions)):
+        assert after.motions.kind[row] != MotionKind.SPLINE
+        places.append(inner[row_of[row]] if row in row_of else after.motions.end[[row]])
+    new = np.vstack([old[:1], *places])
+    assert off_chords(new, old).max() <= limit + 1e-9
+    assert off_chords(old, new).max() <= limit + 50 * (1 - math.cos(2 * math.pi / 64 / 2))
+
+
+def test_a_ring_of_chords_becomes_two_arcs_and_all_else_stays(tmp_path: Path) -> None:
+    text, report = smoothed(tmp_path, HEAD + ring() + TAIL, "--tolerance", "0.01")
+    lines = text.splitlines()
+    for line in (HEAD + TAIL).splitlines():
+        assert line in lines
+    assert report["blocks"]["before"] == 720 and report["blocks"]["after"] <= 5  # type: ignore[index]
+    assert report["tolerance"]["proven_mm"] <= 0.01  # type: ignore[index]
+    before, after = (read_program(part.encode()) for part in (HEAD + ring() + TAIL, text))
+    assert after.error is None
+    assert np.sum(after.motions.kind >= MotionKind.ARC_CW) == 2
+    assert_paths_near(before, after, 0.01)
+    assert np.nanmax(np.abs(after.motions.feed[after.motions.kind >= MotionKind.ARC_CW] - 600)) == 0
+
+
+@pytest.mark.parametrize("form", ["lines", "arcs", "nurbs"])
+def test_a_real_engraving_takes_fewer_blocks_and_is_proven(tmp_path: Path, data: Path, form: str) -> None:
+    source = (data / "nc" / "jsdc.gcode").read_text()
+    text, report = smoothed(tmp_path, source, "--tolerance", "0.05", "--as", form)
+    most = {"lines": 190, "arcs": 81, "nurbs": 500}[form]
+    assert report["blocks"]["after"] <= most < report["blocks"]["before"]  # type: ignore[index]
+    assert report["tolerance"]["proven_mm"] <= 0.05  # type: ignore[index]
+    again, _ = smoothed(tmp_path, text, "--tolerance", "0.05", "--as", form)
+    assert len(again.splitlines()) <= len(text.splitlines()) + 8, "smoothing twice never adds motions"
+    if form != "nurbs":
+        assert_paths_near(read_program(source.encode()), read_program(text.encode()), 0.05)
+
+
+@pytest.mark.parametrize("post", ["linuxcnc", "fanuc", "haas", "grbl", "mach3"])
+@pytest.mark.parametrize("form", ["arcs", "nurbs"])
+def test_every_control_reads_back_what_is_written_for_it(tmp_path: Path, post: str, form: str) -> None:
+    head = HEAD.replace("T1 M6\n", "") if post == "grbl" else HEAD
+    text, report = smoothed(tmp_path, head + ring() + TAIL, "--post", post, "--dialect", post, "--as", form)
+    assert read_program(text.encode(), ReadOptions(Dialect(post))).error is None
+    assert report["blocks"]["after"] < 70  # type: ignore[index]
+
+
+def test_inches_and_a_work_offset_and_other_planes(tmp_path: Path) -> None:
+    angle = np.linspace(0, np.pi, 181)[1:]
+    lines = "\n".join(f"G1 X{1 - math.cos(a):.5f} Z{-0.2 + 0.5 * math.sin(a):.5f}" for a in angle)
+    text = f"G20 G90 G17 G94\nG10 L2 P2 X1 Y2 Z0\nG55\nT1 M6\nS5000 M3\nG0 X0 Y0 Z1\nG1 Z-0.2 F20\n{lines}\nG0 Z1\nM2\n"
+    out, report = smoothed(tmp_path, text, "--tolerance", "0.001in")
+    assert "G18" in out and "G17" in out.split("G18", 1)[1], "the plane in force comes back"
+    assert report["blocks"]["after"] < 20  # type: ignore[index]
+    before, after = (read_program(part.encode()) for part in (text, out))
+    assert np.allclose(before.motions.end[-1], after.motions.end[-1])
+
+
+@pytest.mark.parametrize(
+    ("stretch", "reason"),
+    [
+        ("G91\n" + "G1 X0.1 Y0.01\n" * 50 + "G90\n", "its line says more"),
+        ("G93\n" + "".join(f"G1 X{50 + k} F2\n" for k in range(1, 50)) + "G94\n", "feed in inverse time"),
+        ("".join(f"G1 X{50 + k} (note {k})\n" for k in range(1, 50)), "its line says more"),
+        ("o1 repeat [3]\nG1 X51 F200\nX52\nX53\nX50\no1 endrepeat\n", "done more than once"),
+        ("G41.1 D2\nG1 X60 Y0 F200\nX70\nX80\nX90 Y10\nX100\nG40\nG1 X110 Y30\n", "its line says more"),
+    ],
+)
+def test_lines_that_nobody_can_vouch_for_stay(tmp_path: Path, stretch: str, reason: str) -> None:
+    text = HEAD + stretch + TAIL
+    out, report = smoothed(tmp_path, text, "--tolerance", "0.01")
+    assert [line for line in out.splitlines() if not line.startswith("(hitofude")] == text.splitlines()
+    assert any(reason in told for told in report["blocks"]["moves_left_alone"])  # type: ignore[index]
+
+
+def test_feeds_keep_their_places(tmp_path: Path) -> None:
+    angle = np.linspace(0, 1, 200)
+    words = [f"X{50 * math.cos(a):.4f} Y{50 * math.sin(a):.4f}" for a in angle]
+    text = HEAD + "\n".join(f"G1 {word} F{300 if k < 100 else 900}" for k, word in enumerate(words)) + "\n" + TAIL
+    out, _ = smoothed(tmp_path, text)
+    before, after = (read_program(part.encode()) for part in (text, out))
+    changes = [[(tuple(p.motions.end[k].round(3)), p.motions.feed[k + 1]) for k, (a, b) in enumerate(pairwise(p.motions.feed)) if a != b and b > 0]
+               for p in (before, after)]  # fmt: skip
+    assert changes[0] == changes[1]
+
+
+def test_bad_input_is_told_in_a_line_and_nothing_is_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    source, out = tmp_path / "in.ngc", tmp_path / "out.ngc"
+    source.write_text(HEAD + "G1 X\n")
+    for options, said in (
+        ([], "in.ngc:7"), (["--tolerance", "0"], "tolerance"), (["--tolerance", "1e-4"], "too near to the last decimal"),
+        (["--region", "cone"], "no region"), (["--corner", "200"], "180"), (["--degree", "4"], "degree"),
+    ):  # fmt: skip
+        if options == ["--tolerance", "1e-4"]:
+            source.write_text(HEAD + ring() + TAIL)
+        assert main(["smooth", str(source), "-o", str(out), *options]) == 2
+        assert said in capsys.readouterr().err
+        assert not out.exists()
