@@ -118,8 +118,10 @@ def test_feeds_keep_their_places(tmp_path: Path) -> None:
     text = HEAD + "\n".join(f"G1 {word} F{300 if k < 100 else 900}" for k, word in enumerate(words)) + "\n" + TAIL
     out, _ = smoothed(tmp_path, text)
     before, after = (read_program(part.encode()) for part in (text, out))
-    changes = [[(tuple(p.motions.end[k].round(3)), p.motions.feed[k + 1]) for k, (a, b) in enumerate(pairwise(p.motions.feed)) if a != b and b > 0]
-               for p in (before, after)]  # fmt: skip
+    changes = [
+        [(tuple(p.motions.end[k].round(3)), b) for k, (a, b) in enumerate(pairwise(p.motions.feed.tolist())) if a != b and b > 0]
+        for p in (before, after)
+    ]
     assert changes[0] == changes[1]
 
 
