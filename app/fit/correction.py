@@ -54,7 +54,7 @@ class CorrectionOptions:
     """How points are corrected.
 
     Attributes:
-        limit: the share of RATIO, in [0, 1], or the distance of DISTANCE, mm, >= 0.
+        limit: the share of RATIO, in [0, 1] (at 1 all are), or the distance of DISTANCE, mm, >= 0.
         select: which points between effective ones are corrected.
         before: effective points before the first of a gap that its curve goes by, 0 to 50.
         after: effective points after it, 1 to 50; the second of the gap is one of them.
@@ -62,7 +62,7 @@ class CorrectionOptions:
         move: where points move to.
     """
 
-    limit: float = 0.5
+    limit: float = 1.0
     select: Select = Select.RATIO
     before: int = 2
     after: int = 3
