@@ -15,6 +15,8 @@ _WIDEST = 4.0
 """Largest sweep of one arc, radians: well below a full turn, which an arc with nearly the same ends may be taken for."""
 _HIGHEST = 2.0
 """Tangent of a quarter of a sweep, a little more than the widest has."""
+_LAG = 0.02
+"""Along a chord and along its arc the normal rises alike but for so much, times its rise and the squared angle."""
 _PATIENCE = 8
 """Arcs are tried up to so many times as far as a line goes, though none shorter holds: noise hides what short pieces are."""
 
@@ -37,25 +39,21 @@ def line_holds(points, i, j, limit):  # type: ignore[no-untyped-def]
     return True
 
 
-@kernel("float64(float64, float64)", counts=False)
-def _height_through(x, y):  # type: ignore[no-untyped-def]
-    """Return the height of the arc over (-1, 0) to (1, 0) through a point: t with y t^2 + (1 - x^2 - y^2) t - y = 0."""
-    b = 1.0 - x * x - y * y
-    return 2.0 * y / (b + math.sqrt(b * b + 4.0 * y * y)) if b > 0.0 or y != 0.0 else 0.0
-
-
 @kernel("UniTuple(float64, 2)(float64, float64, float64)", counts=False)
 def _heights(x, y, off):  # type: ignore[no-untyped-def]
     """Return between which heights an arc over the chord from (-1, 0) to (1, 0) passes a point within `off` of it.
 
-    The circle of height t passes (x, y) where x^2 + y^2 + y (1 / t - t) = 1; its distance from a point near it is that
-    equation's error over its slope, which is near enough here: what is found is measured.
+    A circle of height t has the centre (0, (t - 1 / t) / 2) and the radius (t + 1 / t) / 2. The point is `off` above or below
+    it where (y +- off) t^2 + (1 + off^2 - x^2 - y^2) t - (y -+ off) = 0: two equations of one discriminant.
     """
-    rest = 1.0 - x * x
-    if rest <= 0.0:
+    if (abs(x) - 1.0) ** 2 + y * y <= off * off:
         return -_HIGHEST, _HIGHEST
-    low, high = y - off, y + off
-    return _height_through(x, low), _height_through(x, high)
+    b = 1.0 + off * off - x * x - y * y
+    square = b * b + 4.0 * (y * y - off * off)
+    if square < 0.0 or (b <= 0.0 and abs(y) <= off):  # beside an end: what is found is measured
+        return -_HIGHEST, _HIGHEST
+    root = b + math.sqrt(square)
+    return 2.0 * (y - off) / root, 2.0 * (y + off) / root
 
 
 @kernel("float64(float64[:, ::1], int64, float64, float64)", counts=False)
@@ -87,7 +85,7 @@ def _holds(points, i, j, limit, largest, height, found):  # type: ignore[no-unty
         return False
     ax, ay = points[i, 0] - cx, points[i, 1] - cy
     before, rise = 0.0, points[j, 2] - points[i, 2]
-    square, near = limit * limit, radius
+    beside = 0.0
     for k in range(i + 1, j + 1):
         px, py = points[k, 0] - cx, points[k, 1] - cy
         angle = turn * math.atan2(ax * py - ay * px, ax * px + ay * py)
@@ -97,13 +95,13 @@ def _holds(points, i, j, limit, largest, height, found):  # type: ignore[no-unty
         fx = cx + math.cos(turn * here) * ax - math.sin(turn * here) * ay
         fy = cy + math.sin(turn * here) * ax + math.cos(turn * here) * ay
         ox, oy, oz = points[k, 0] - fx, points[k, 1] - fy, points[k, 2] - points[i, 2] - rise * here / sweep
-        if ox * ox + oy * oy + oz * oz > square:
+        if ox * ox + oy * oy + oz * oz > limit * limit:
             return False
-        near = _nearest(points, k - 1, cx, cy)
-        rest = limit * limit - oz * oz
-        if radius - near > math.sqrt(max(rest, 0.0)):
+        lag = max(beside, abs(oz)) + _LAG * (here - before) ** 2 * abs(points[k, 2] - points[k - 1, 2])
+        bulge = max(radius - _nearest(points, k - 1, cx, cy), 0.0)
+        if bulge * bulge + lag * lag > limit * limit:
             return False
-        before = here
+        before, beside = here, abs(oz)
     found[0] = height
     return True
 
@@ -137,43 +135,53 @@ def arc_holds(points, i, j, limit, largest, found):  # type: ignore[no-untyped-d
     return _holds(points, i, j, limit, largest, 0.5 * (low + high) * half, found)
 
 
-@kernel("UniTuple(int64, 2)(float64[:, ::1], int64, int64, float64, float64, int64, float64[::1])", counts=False)
-def farthest(points, i, stop, limit, largest, kinds, found):  # type: ignore[no-untyped-def]
-    """Return the last point that one line (or, with kinds 1, arc) from point i can end at, and which of both it is.
+@kernel("boolean(float64[:, ::1], int64, int64, int64, float64, float64, float64[::1])", counts=False)
+def holds(points, i, j, kind, limit, largest, found):  # type: ignore[no-untyped-def]
+    """Tell whether a line, or an arc in the points' plane, stands for points i to j."""
+    if kind == LINE:
+        return line_holds(points, i, j, limit)
+    return arc_holds(points, i, j, limit, largest, found)
 
-    Looked for in doubled steps, then by halving; the height of an arc is written to `found`.
+
+@kernel("int64(float64[:, ::1], int64, int64, int64, int64, float64, float64, float64[::1])", counts=False)
+def _reach(points, i, stop, least, kind, limit, largest, found):  # type: ignore[no-untyped-def]
+    """Return the last point beyond `least` that one line or arc from point i can end at, or `least`; an arc's height to `found[1]`.
+
+    Looked for all the way first: noise may hide from shorter pieces what holds for all. Then in doubled steps, then by halving.
     """
-    best, kind, height = i + 1, LINE, 0.0
-    for which in range(kinds + 1):
-        good, bad = i + 1, stop + 1
-        step = 2 if which == LINE else max(_LEAST_CHORDS, best - i)
-        patience = _PATIENCE * step
-        j = good
-        while j < stop:
-            j = min(i + step, stop)
-            held = line_holds(points, i, j, limit) if which == LINE else arc_holds(points, i, j, limit, largest, found)
-            if held:
-                good, step = j, step * 2
-                if which == ARC and j > best:
-                    best, kind, height = j, ARC, found[0]
-            elif which == ARC and good == i + 1 and step < patience:
-                step *= 2
-            else:
-                bad = j
-                break
-        while bad - good > 1:
-            j = (good + bad) // 2
-            held = line_holds(points, i, j, limit) if which == LINE else arc_holds(points, i, j, limit, largest, found)
-            if held:
-                good = j
-                if which == ARC and j > best:
-                    best, kind, height = j, ARC, found[0]
-            else:
-                bad = j
-        if which == LINE and good > best:
-            best, kind = good, LINE
-    found[0] = height
-    return best, kind
+    if least < stop and holds(points, i, stop, kind, limit, largest, found):
+        found[1] = found[0]
+        return stop
+    good, bad = least, stop
+    step = 2 if kind == LINE else max(_LEAST_CHORDS, least - i)
+    patience = _PATIENCE * step
+    while i + step < stop:
+        j = i + step
+        if holds(points, i, j, kind, limit, largest, found):
+            good, found[1] = j, found[0]
+        elif kind == LINE or good > least or step >= patience:
+            bad = j
+            break
+        step *= 2
+    while bad - good > 1:
+        j = (good + bad) // 2
+        if holds(points, i, j, kind, limit, largest, found):
+            good, found[1] = j, found[0]
+        else:
+            bad = j
+    return good
+
+
+@kernel("UniTuple(int64, 3)(float64[:, :, ::1], int64, int64, float64, float64, int64, float64[::1])", counts=False)
+def farthest(planes, i, stop, limit, largest, kinds, found):  # type: ignore[no-untyped-def]
+    """Return the last point that one line (or, with kinds 1, arc) from point i can end at, its kind and plane; its height to `found[1]`."""
+    best, kind, plane, height = _reach(planes[0], i, stop, i + 1, LINE, limit, largest, found), LINE, 0, 0.0
+    for p in range(kinds * len(planes)):
+        j = _reach(planes[p], i, stop, best, ARC, limit, largest, found)
+        if j > best:
+            best, kind, plane, height = j, ARC, p, found[1]
+    found[1] = height
+    return best, kind, plane
 
 
 @kernel("int64(float64[:, :, ::1], int64, int64, float64, float64, int64, int64[:, ::1], float64[::1])")
@@ -184,14 +192,9 @@ def greedy(planes, first, stop, limit, largest, kinds, rows, heights):  # type: 
         planes: (p, n, 3) the points, seen in so many planes.
         rows: (n, 3) out: the last point, kind and plane of each. heights: (n,) out: of the arcs over their chords.
     """
-    count, i, found = 0, first, np.empty(1)
+    count, i, found = 0, first, np.zeros(2)
     while i < stop:
-        best = i
-        for p in range(len(planes)):
-            j, kind = farthest(planes[p], i, stop, limit, largest, kinds, found)
-            if j > best:
-                best = j
-                rows[count, 0], rows[count, 1], rows[count, 2], heights[count] = j, kind, p, found[0]
-        i = best
+        i, kind, plane = farthest(planes, i, stop, limit, largest, kinds, found)
+        rows[count, 0], rows[count, 1], rows[count, 2], heights[count] = i, kind, plane, found[1]
         count += 1
     return count
