@@ -82,6 +82,21 @@ def test_points_of_a_polygon_come_back_to_its_circle(move: Move, rise: float) ->
         assert np.abs(np.einsum("ij,ij->i", (after.places - points)[state == V], chords)).max() < 1e-9
 
 
+def test_final_curves_of_both_embodiments_keep_to_the_circle() -> None:
+    """The spline through all points swings with the polygon's sides; those of S12 are a hundredfold nearer."""
+
+    def off_along(places: Floats) -> float:
+        at = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(places, axis=0), axis=1))))
+        return off_circle(CubicSpline(at, places)(np.linspace(0, at[-1], 100_001)))
+
+    points = on_polygon(circle(40), 6)
+    found = effective_points(points, EffectiveOptions(1e-6))
+    second = corrected(points, found.state, CorrectionOptions(0.3))
+    assert off_along(points) > 0.09
+    assert off_along(points[found.passed]) < 1e-3
+    assert off_along(second.places[second.passed]) < 1e-3
+
+
 def test_effective_points_move_by_least_squares_alone() -> None:
     """Corners that lie off a circle by noise: the curve through them keeps them, the one near them brings them nearer."""
     corners = circle(240)
