@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.fit.bezier import cut_at_knots
-from app.fit.space_curve import raised
+from app.fit.space_curve import DEGREE
 from app.fit.tube import Tube
 from app.model.motion import Nurbs
 from app.progress import NO_PROGRESS, Progress
@@ -78,7 +77,8 @@ class _Samples:
         share = np.concatenate([[0.0], _BETWEEN])
         chords = points[:-1, None] + (points[1:] - points[:-1])[:, None] * share[None, :, None]
         self.points = np.ascontiguousarray(np.concatenate([chords.reshape(-1, 3), points[-1:]]))
-        self.own = np.arange(n) * len(share)
+        self.every = len(share)
+        self.own = np.arange(n) * self.every
         self.weights = np.full(len(self.points), _LIGHT)
         self.weights[self.own] = 1.0
         steps = np.sqrt(np.sum(np.diff(self.points, axis=0) ** 2, axis=1))
@@ -165,20 +165,15 @@ class _Work:
 
     def _solved(self, breaks: Floats, places: Floats) -> _State:
         """Return the least-squares spline over breaks, its samples' places moved to the nearest, and what is not proven."""
-        from app.fit import bspline_kernels, tube_feet_kernels
+        from app.fit import bspline_kernels
 
-        samples, knots = self._samples, self.knots(breaks)
-        control = np.empty((len(breaks) - 1 + self._degree, 3))
-        bspline_kernels.solve(knots, self._degree, samples.points, places, samples.weights, control)
-        pieces = np.ascontiguousarray(raised(cut_at_knots(control, knots, self._degree)))
-        span = np.clip(np.searchsorted(breaks, places, side="right") - 1, 0, len(pieces) - 1)
-        feet = span + (places - breaks[span]) / np.diff(breaks)[span]
-        tube_feet_kernels.settle(pieces, samples.points, feet)
-        span = np.clip(feet.astype(np.int64), 0, len(pieces) - 1)
-        moved = breaks[span] + (feet - span) * np.diff(breaks)[span]
-        bad, own = np.empty(len(self._points) - 1, np.bool_), np.ascontiguousarray(feet[samples.own])
-        bspline_kernels.failing(pieces, self._points, own, *self._squares, bad)
-        return _State(breaks, moved, control, pieces, own, bad)
+        samples, spans = self._samples, len(breaks) - 1
+        control, pieces = np.empty((spans + self._degree, 3)), np.empty((spans, DEGREE + 1, 3))
+        feet, moved, bad = np.empty(len(self._points)), np.empty(len(places)), np.empty(len(self._points) - 1, np.bool_)
+        bspline_kernels.tried(
+            breaks, self._degree, samples.points, places, samples.weights, samples.every, *self._squares, control, pieces, feet, moved, bad
+        )
+        return _State(breaks, moved, control, pieces, feet, bad)
 
     def spread(self, state: _State) -> _State:
         """Return a proven spline with spans as long as lets their curves be equally far from the points, if it has fewer."""

@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from app.fit.tube_kernels import first_exit, holds_point, point_at
+from app.fit.tube_feet_kernels import settle
+from app.fit.tube_kernels import P, first_exit, holds_point, point_at
 from app.jit import kernel
 
 _STIFF = 1e-9
@@ -125,3 +126,72 @@ def failing(control, points, feet, end, swell, bad):  # type: ignore[no-untyped-
             bad[i] = first_exit(control, feet[i], feet[i + 1], points[i], points[i + 1], end, swell) < feet[i + 1]
         count += bad[i]
     return count
+
+
+@kernel("void(float64[::1], int64, float64[:, ::1], float64[:, :, ::1])")
+def cut(knots, degree, control, pieces):  # type: ignore[no-untyped-def]
+    """Write the Bézier pieces (m, 6, 3) of a spline with clamped ends and single knots within, raised to degree 5.
+
+    Control point j of a span is the blossom at its ends, taken p - j and j times.
+    """
+    p, b = degree, np.empty((P + 1, 3))
+    for k in range(len(pieces)):
+        span = k + p
+        low, high = knots[span], knots[span + 1]
+        for j in range(p + 1):
+            for i in range(p + 1):
+                for axis in range(3):
+                    b[i, axis] = control[span - p + i, axis]
+            for level in range(1, p + 1):
+                t = high if level <= j else low
+                for i in range(p - level + 1):
+                    first = knots[span - p + level + i]
+                    share = (t - first) / (knots[span + 1 + i] - first)
+                    for axis in range(3):
+                        b[i, axis] = (1.0 - share) * b[i, axis] + share * b[i + 1, axis]
+            for axis in range(3):
+                pieces[k, j, axis] = b[0, axis]
+        for raised in range(p, P):  # point i of one degree more is between points i - 1 and i
+            for i in range(raised + 1, -1, -1):
+                share = i / (raised + 1)
+                for axis in range(3):
+                    before = pieces[k, i - 1, axis] if i > 0 else 0.0
+                    behind = pieces[k, i, axis] if i <= raised else 0.0
+                    pieces[k, i, axis] = share * before + (1.0 - share) * behind
+
+
+@kernel(
+    "void(float64[::1], int64, float64[:, ::1], float64[::1], float64[::1], int64, float64, float64, "
+    "float64[:, ::1], float64[:, :, ::1], float64[::1], float64[::1], boolean[::1])"
+)
+def tried(breaks, degree, samples, places, weights, every, end, swell, control, pieces, feet, moved, bad):  # type: ignore[no-untyped-def]
+    """Fit a spline over breaks to samples and see where it is proven.
+
+    Args:
+        breaks: (m + 1,) between its spans. degree: p.
+        samples: (s, 3). places, weights: of each.
+        every: each so many samples is a point; what lies between is on chords.
+        end, swell: region, as in `holds_point`.
+        control: (m + p, 3) out. pieces: (m, 6, 3) out. feet: (n,) out: of the points, on the pieces.
+        moved: (s,) out: places nearer to the samples. bad: (n - 1,) out: chords that are not proven.
+    """
+    count = len(breaks)
+    knots = np.empty(count + 2 * degree)
+    knots[:degree], knots[degree + count:] = breaks[0], breaks[count - 1]
+    knots[degree:degree + count] = breaks
+    solve(knots, degree, samples, places, weights, control)
+    cut(knots, degree, control, pieces)
+    on, span = np.empty(len(samples)), 0
+    for i in range(len(samples)):
+        while span < count - 2 and places[i] >= breaks[span + 1]:
+            span += 1
+        on[i] = span + (places[i] - breaks[span]) / (breaks[span + 1] - breaks[span])
+    settle(pieces, samples, on)
+    for i in range(len(samples)):
+        span = min(int(on[i]), count - 2)
+        moved[i] = breaks[span] + (on[i] - span) * (breaks[span + 1] - breaks[span])
+    points = np.empty((len(feet), 3))
+    for i in range(len(feet)):
+        feet[i] = on[i * every]
+        points[i] = samples[i * every]
+    failing(pieces, points, feet, end, swell, bad)
