@@ -139,8 +139,8 @@ def test_noise_below_the_tolerance_on_a_line_is_one_line() -> None:
 def test_no_arc_over_a_long_side_with_crumbs() -> None:
     """Crumbs at both ends of a side lie on a circle that the side itself does not follow."""
     crumb = 0.2 * np.arange(6)
-    left = np.column_stack([crumb, 0.05 * (crumb - crumb[-1]), 0 * crumb])
-    right = np.column_stack([60 + crumb, -0.05 * crumb, 0 * crumb])
+    left = np.column_stack([crumb, 0.2 * (crumb - crumb[-1]), 0 * crumb])
+    right = np.column_stack([60 + crumb, -0.2 * crumb, 0 * crumb])
     points = np.concatenate([left, right])
     path = fitted(points)
     owner = int(np.searchsorted(path.last, 6))
