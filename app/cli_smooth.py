@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from app.atomic import write_together
+from app.cli_effective import add_effective_options, effective_method
 from app.cli_files import check_outputs, read_input, shown_progress
 from app.cli_options import OptionParser, number, typed
 from app.cli_output import finding_lines, helped, tell
@@ -72,6 +73,7 @@ def _parser() -> OptionParser:
     parser.add_argument("--post", metavar="NAME", type=typed(load_post),
                         help="the control's words (default: those of the program's control)")
     parser.add_argument("--dialect", choices=list(CONTROLS), help="the control's language (default: as the text looks)")
+    add_effective_options(parser)
     parser.add_argument("--report", metavar="R.json", type=Path, help="the certificate and every stretch, as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
     return parser
@@ -96,7 +98,10 @@ def _angle(text: str) -> float:
 def _options(arguments: argparse.Namespace) -> SmoothOptions:
     post: Post | None = arguments.post
     dialect = Dialect(arguments.dialect) if arguments.dialect else None
-    return SmoothOptions(arguments.tolerance, Form(arguments.form), arguments.region, arguments.degree, arguments.corner, post, dialect)
+    effective = effective_method(arguments)
+    return SmoothOptions(
+        arguments.tolerance, Form(arguments.form), arguments.region, arguments.degree, arguments.corner, post, dialect, effective
+    )
 
 
 def _lines(done: Smoothed) -> list[str]:

@@ -130,6 +130,8 @@ def test_bad_input_is_told_in_a_line_and_nothing_is_written(tmp_path: Path, caps
     source.write_text(HEAD + "G1 X\n")
     for options, said in (
         ([], "in.ngc:7"), (["--tolerance", "0"], "tolerance"), (["--tolerance", "1e-4"], "too near to the last decimal"),
+        (["--epsilon", "0.01"], "--method"), (["--method", "effective-points"], "--epsilon"),
+        (["--method", "effective-points", "--epsilon", "0.01", "--before", "2"], "--embodiment 2"),
         (["--region", "cone"], "no region"), (["--corner", "200"], "180"), (["--degree", "4"], "degree"),
     ):  # fmt: skip
         if options == ["--tolerance", "1e-4"]:
@@ -137,3 +139,21 @@ def test_bad_input_is_told_in_a_line_and_nothing_is_written(tmp_path: Path, caps
         assert main(["smooth", str(source), "-o", str(out), *options]) == 2
         assert said in capsys.readouterr().err
         assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    "embodiment", [["--embodiment", "1", "--ends", "ratio:0.1"], ["--embodiment", "2", "--before", "2", "--after", "3"]]
+)
+def test_points_within_facets_are_left_out_or_moved_within_the_tolerance(tmp_path: Path, embodiment: list[str]) -> None:
+    corner = np.linspace(0, 2 * np.pi, 61)
+    inner = np.linspace(0, 1, 12, endpoint=False)
+    places = [50 * ((1 - t) * np.array([math.cos(a), math.sin(a)]) + t * np.array([math.cos(b), math.sin(b)]))
+              for a, b in pairwise(corner) for t in inner]  # fmt: skip
+    lines = "G1 F600 " + "".join(f"X{x:.4f} Y{y:.4f}\n" for x, y in [*places[1:], places[0]])
+    options = ["--method", "effective-points", "--epsilon", "0.005", "--tolerance", "0.2", *embodiment]
+    text, report = smoothed(tmp_path, HEAD + lines + TAIL, *options)
+    assert report["tolerance"]["proven_mm"] <= 0.2  # type: ignore[index]
+    after = read_program(text.encode()).motions
+    cut = after.kind >= MotionKind.ARC_CW
+    radius = np.hypot(*(after.end - after.centre)[cut, :2].T)
+    assert np.sum(cut) <= 6 and np.abs(radius - 50).max() < 0.08, "a circle again, and not the polygon"

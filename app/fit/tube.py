@@ -145,7 +145,8 @@ def _checked(curve: SpaceCurve, points: Floats) -> Floats:
 def _proven(curve: SpaceCurve, points: Floats, feet: Floats, widest: float) -> Judgement:
     from app.fit import tube_feet_kernels as kernels
 
-    bound, found, at, back, worst = kernels.apart(curve.control, points, feet, _SHARE)
+    found, at, back, worst = kernels.found_apart(curve.control, points, feet)
+    bound, found, at = kernels.bound_apart(curve.control, points, feet, _SHARE, (found, at, back))
     if back > found:
         at = float(feet[int(worst)])
     chord = min(max(int(np.searchsorted(feet, at, side="right")) - 1, 0), len(points) - 2)

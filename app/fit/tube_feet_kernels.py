@@ -197,20 +197,15 @@ def step_back(control, points, end, swell, ways, counts, feet):  # type: ignore[
                 break
 
 
-@kernel("UniTuple(float64, 5)(float64[:, :, ::1], float64[:, ::1], float64[::1], float64)")
-def apart(control, points, feet, share):  # type: ignore[no-untyped-def]
-    """Return how far curve and polyline are apart: a bound, the largest found from the curve and where, from a point and which.
-
-    Args:
-        share: the bound is not more than so much larger than the largest found, as a part of it.
-    """
-    piece, work, here = np.empty((6, 3)), np.empty((65, 6, 3)), np.empty(3)
-    back, worst_point, found, where = 0.0, 0.0, 0.0, 0.0
+@kernel("UniTuple(float64, 4)(float64[:, :, ::1], float64[:, ::1], float64[::1])")
+def found_apart(control, points, feet):  # type: ignore[no-untyped-def]
+    """Return the largest distance found from the curve and where, of three places a chord; and from a point and which."""
+    here, back, which, found, where = np.empty(3), 0.0, 0.0, 0.0, 0.0
     for i in range(len(points)):
         point_at(control, feet[i], here)
         off = math.sqrt(squared_off_chord(here, points[i], points[i]))
         if off > back:
-            back, worst_point = off, float(i)
+            back, which = off, float(i)
     for i in range(len(points) - 1):
         for k in range(1, 4):
             u = feet[i] + (feet[i + 1] - feet[i]) * k / 4
@@ -218,40 +213,53 @@ def apart(control, points, feet, share):  # type: ignore[no-untyped-def]
             off = math.sqrt(squared_off_chord(here, points[i], points[i + 1]))
             if off > found:
                 found, where = off, u
-    bound, level, depths = max(found, back), np.empty(65), np.empty((65, 2))
+    return found, where, back, which
+
+
+@kernel("float64(float64[:, ::1], float64[::1], float64[::1])", counts=False)
+def _most_off(piece, a, b):  # type: ignore[no-untyped-def]
+    """Return a distance from a chord that no place of a piece exceeds: that of its farthest control point."""
+    most = 0.0
+    for k in range(len(piece)):
+        most = max(most, squared_off_chord(piece[k], a, b))
+    return math.sqrt(most)
+
+
+@kernel("UniTuple(float64, 3)(float64[:, :, ::1], float64[:, ::1], float64[::1], float64, UniTuple(float64, 3))")
+def bound_apart(control, points, feet, share, start):  # type: ignore[no-untyped-def]
+    """Return a proven bound of how far curve and polyline are apart, the largest distance found from the curve, and where.
+
+    Args:
+        share: the bound is not more than so much larger than the largest found, as a part of it.
+        start: what was found before: from the curve and where, and from a point.
+    """
+    work, ends, level = np.empty((66, 6, 3)), np.empty((66, 2)), np.empty(66)
+    found, where, back = start
+    bound = max(found, back)
     for i in range(len(points) - 1):
         low = feet[i]
         while low < feet[i + 1]:
             high = min(math.floor(low) + 1.0, feet[i + 1])
             portion(control, low, high, work[0])
-            depths[0, 0], depths[0, 1], level[0], depth = low, high, 0.0, 1
+            ends[0, 0], ends[0, 1], level[0], depth = low, high, 0.0, 1
             while depth > 0:
                 depth -= 1
-                first, last = depths[depth, 0], depths[depth, 1]
-                piece[:] = work[depth]
-                most = 0.0
-                for k in range(6):
-                    most = max(most, squared_off_chord(piece[k], points[i], points[i + 1]))
-                most = math.sqrt(most)
-                if most <= max(found, back) * (1.0 + share) + 1e-12:
+                most = _most_off(work[depth], points[i], points[i + 1])
+                if most <= max(found, back) * (1.0 + share) + 1e-12 or level[depth] >= 60.0:
                     bound = max(bound, most)
                     continue
-                middle = 0.5 * (first + last)
-                halved(piece, work[depth], work[depth + 1])
+                first, middle, last = ends[depth, 0], 0.5 * (ends[depth, 0] + ends[depth, 1]), ends[depth, 1]
+                work[65] = work[depth]
+                halved(work[65], work[depth], work[depth + 1])
                 off = math.sqrt(squared_off_chord(work[depth + 1, 0], points[i], points[i + 1]))
                 if off > found:
                     found, where = off, middle
-                    bound = max(bound, off)
-                if level[depth] >= 60.0:
-                    bound = max(bound, most)
-                    continue
-                depths[depth, 0], depths[depth, 1] = first, middle
-                depths[depth + 1, 0], depths[depth + 1, 1] = middle, last
+                ends[depth, 0], ends[depth, 1], ends[depth + 1, 0], ends[depth + 1, 1] = first, middle, middle, last
                 level[depth] += 1.0
                 level[depth + 1] = level[depth]
                 depth += 2
             low = high
-    return bound, found, where, back, worst_point
+    return max(bound, found), found, where
 
 
 @kernel("float64(float64[::1], float64[:, ::1], int64)", counts=False)

@@ -15,7 +15,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from app.model.motion import Floats, MotionKind
+from app.model.motion import Floats, MotionKind, Motions
 from app.nc.read.program import FeedMode, NcProgram
 from app.nc.read.text import Text
 from app.progress import NO_PROGRESS, Progress
@@ -94,7 +94,7 @@ def find_stretches(program: NcProgram, text: Text, progress: Progress = NO_PROGR
             row += 1
             continue
         stop = row + 1
-        while stop < len(motions) and why[stop] is None and _goes_on(program, row, stop, gaps, lines, feeds):
+        while stop < len(motions) and why[stop] is None and not feeds[stop] and _goes_on(motions, row, stop, gaps):
             stop += 1
         if stop - row >= 2:
             points = np.vstack([motions.start[row : row + 1], motions.end[row:stop]])
@@ -106,15 +106,14 @@ def find_stretches(program: NcProgram, text: Text, progress: Progress = NO_PROGR
     return Found(tuple(stretches), left)
 
 
-def _goes_on(program: NcProgram, row: int, stop: int, gaps: NDArray[np.int64], lines: NDArray[np.int64], feeds: list[str]) -> bool:
+def _goes_on(motions: Motions, row: int, stop: int, gaps: NDArray[np.int64]) -> bool:
     """Tell whether a motion may be in the stretch of the one before it that began at `row`."""
-    motions = program.motions
+    line, before = motions.line[stop], motions.line[stop - 1]
     return bool(
         motions.state[stop] == motions.state[row]
         and motions.feed[stop] == motions.feed[row]
-        and not feeds[stop]
-        and lines[stop] > lines[stop - 1]
-        and gaps[lines[stop] - 1] == gaps[lines[stop - 1]]
+        and line > before
+        and gaps[line - 1] == gaps[before]
         and np.array_equal(motions.start[stop], motions.end[stop - 1])
     )
 

@@ -11,9 +11,13 @@ from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.errors import InputError, ParameterError
 from app.fit.arc_fit import ArcOptions, fit_arcs
+from app.fit.corners import corners
+from app.fit.correction import CorrectionOptions, corrected
+from app.fit.effective_points import EffectiveOptions, effective_points
 from app.fit.fitted import FittedPath
 from app.fit.proven_curve import SplineOptions, fit_splines
 from app.fit.smoothness import Smoothness, of_curve, of_points
@@ -39,6 +43,9 @@ from app.workflow.smooth_report import certificate
 TOLERANCES = (1e-4, 10.0)
 """mm; what a tolerance may be."""
 
+_REACH = 4.0
+"""Corners are looked for over so many tolerances of the path."""
+
 LARGEST_RADIUS = 10_000.0
 """mm; what is flatter is written as a line."""
 
@@ -49,6 +56,27 @@ class Form(Enum):
     LINES = "lines"
     ARCS = "arcs"
     NURBS = "nurbs"
+
+
+@dataclass(frozen=True)
+class EffectiveMethod:
+    """Method D: curves go by the points that lie on the true shape, and not by those within facets.
+
+    Attributes:
+        choose: which points these are.
+        correct: how the others, and these, are moved first (second embodiment); None: the others are left out (first).
+    """
+
+    choose: EffectiveOptions
+    correct: CorrectionOptions | None = None
+
+    def passed(self, points: Floats, corners: NDArray[np.int64]) -> tuple[Floats, float]:
+        """Return the places (m, 3) that the final curve goes by, and how far the given points lie from their path at most, mm."""
+        effective = effective_points(points, self.choose, corners.tolist())
+        if self.correct is None:
+            return np.ascontiguousarray(points[effective.passed]), self.choose.epsilon
+        moved = corrected(points, effective.state, self.correct, corners.tolist())
+        return _without_repeats(moved.places[moved.passed]), self.choose.epsilon + float(moved.moved.max())
 
 
 @dataclass(frozen=True)
@@ -63,6 +91,7 @@ class SmoothOptions:
         corner: bends of more than this are kept exactly, radians.
         post: in whose words; None = those of the control that the text looks to be for.
         dialect: how the program is read; None = as the text looks.
+        effective: method D; None: the curve goes by all points.
     """
 
     tolerance: float = 0.01
@@ -72,6 +101,7 @@ class SmoothOptions:
     corner: float = math.radians(30.0)
     post: Post | None = None
     dialect: Dialect | None = None
+    effective: EffectiveMethod | None = None
 
     def __post_init__(self) -> None:
         if not TOLERANCES[0] <= self.tolerance <= TOLERANCES[1]:
@@ -209,13 +239,21 @@ class _Work:
         return blocks, kept
 
     def _fitted(self, k: int, progress: Progress) -> FittedPath:
-        points = self._points[k]
-        state = self._program.states[self._program.motions.state[self._found.stretches[k].first]]
+        points, stretch = self._points[k], self._found.stretches[k]
+        state = self._program.states[self._program.motions.state[stretch.first]]
         step = 10.0 ** -self._post.digits(state.units).X * state.units.value
         slack = 2.0 * step
         if not self._options.tolerance > 2 * slack:
             raise InputError(f"the tolerance of {self._options.tolerance:g} mm is too near to the last decimal of {self._post.title}, "
                              f"{step:g} mm; use {5 * step:g} mm or more, or a post with more decimals.")
+        if self._options.effective is not None:
+            points, spent = self._options.effective.passed(points, corners(points, self._options.corner, _REACH * self._tube.widest))
+            slack += spent
+            if not self._tube.radius > slack:
+                raise InputError(
+                    f"Points of lines {stretch.first_line} to {stretch.last_line} are up to {spent:.4g} mm off the path by the effective "
+                    f"ones, which leaves nothing of the tolerance; use a smaller epsilon, or more than {slack:.4g} mm."
+                )
         tube = Tube(self._tube.radius - slack, None if self._tube.middle is None else self._tube.middle - slack)
         form, nurbs = self._options.form, self._post.nurbs.form
         if form is Form.NURBS and nurbs is not NurbsForm.NONE:
@@ -249,11 +287,9 @@ class _Work:
 
     def piece(self, k: int, judged: tuple[SpaceCurve, Judgement] | None, kept: str, blocks: int) -> Piece:
         """Return one stretch, before and after."""
-        from app.fit.corners import corners
-
         stretch, points = self._found.stretches[k], self._points[k]
         count = stretch.stop - stretch.first
-        at = corners(points, self._options.corner, 4 * self._tube.widest) if len(points) > 2 else np.array([0])
+        at = corners(points, self._options.corner, _REACH * self._tube.widest) if len(points) > 2 else np.array([0])
         before = of_points(points, points[at])
         if judged is None:
             return Piece(stretch, points, (count, count), None, None, kept, before, before)

@@ -53,7 +53,7 @@ def test_a_million_samples_find_nothing_outside_of_what_is_stated(degree: int, t
     assert judgement.answer is Answer.INSIDE and judgement.bound <= tube.widest
     feet = judgement.feet
     assert feet is not None
-    for k in range(0, len(points) - 1):  # in order: each stretch beside its own chord
+    for k in range(len(points) - 1):  # in order: each stretch beside its own chord
         places = curve.at(np.linspace(feet[k], feet[k + 1], 333))
         assert off_chords(places, points[k : k + 2]).max() <= judgement.bound + 1e-9
     assert len(curve) < len(points) / 25
