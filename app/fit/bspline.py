@@ -21,7 +21,10 @@ Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 _SPAN = 32
-"""Chords of a span to begin with."""
+"""Chords of a span to begin with, at least."""
+_ANGLE, _LEAST = 0.8, 4
+"""A span to begin with turns by so much, radians; so many spans are tried however little the path turns."""
+_SEEN = 4096
 _ROUNDS = 40
 _BETWEEN = np.array([0.25, 0.5, 0.75])
 """Where on a chord the curve is drawn to it, lightly, so that it does not swing out between points."""
@@ -118,8 +121,8 @@ class _Work:
     def halved(self) -> _State | Ints:
         """Return a proven spline, made by halving spans that fail; or where corners are needed."""
         along, count = self._samples.along, len(self._points) - 1
-        at = np.unique(np.linspace(0, len(along) - 1, max(1, round(count / _SPAN)) + 1).astype(np.int64))
-        breaks, places = along[at], along
+        spans = max(1, min(round(count / _SPAN), round(self._turn() / _ANGLE) + _LEAST))
+        breaks, places = np.linspace(0.0, along[-1], spans + 1), along
         for k in range(_ROUNDS):
             self._progress.step(0.0, f"fitting a curve: round {k + 1}")
             state = self._solved(breaks, places)
@@ -131,6 +134,13 @@ class _Work:
                 break
             breaks = finer
         return self._corners(state)
+
+    def _turn(self) -> float:
+        """Return by how much the path turns in all, seen at some thousand points at most, radians."""
+        some = self._points[:: max(1, len(self._points) // _SEEN)]
+        steps = np.diff(some, axis=0)
+        steps /= np.maximum(np.linalg.norm(steps, axis=1), 1e-300)[:, None]
+        return float(np.sum(np.arccos(np.clip(np.einsum("ij,ij->i", steps[:-1], steps[1:]), -1.0, 1.0))))
 
     def _corners(self, state: _State) -> Ints:
         """Return the inner points of unproven chords where the path turns the most: one of each run of such chords."""
