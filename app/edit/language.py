@@ -43,6 +43,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.edit import layers, syntax
+from app.edit import read_corners as corners
 from app.edit import read_draw as draw
 from app.edit import read_edit as edit
 from app.edit import read_notes as notes
@@ -100,7 +101,7 @@ _READERS: dict[str, Callable[[Arguments, Session], Command]] = {
     "select": edit.select, "delete": edit.delete, "move": edit.move, "copy": edit.copy, "rotate": edit.rotate, "scale": edit.scale,
     "mirror": edit.mirror, "array": edit.array, "reverse": edit.reverse, "layer": edit.layer,
     "hide": edit.hide, "show": edit.show, "lock": edit.lock, "unlock": edit.unlock, "colour": edit.colour,
-    "trim": rework.trim, "extend": rework.extend, "break": rework.break_at, "fillet": rework.fillet_of, "chamfer": rework.chamfer_of,
+    "trim": rework.trim, "extend": rework.extend, "break": rework.break_at, "fillet": corners.fillet_of, "chamfer": corners.chamfer_of,
     "offset": rework.offset, "join": join, "explode": explode, "measure": measure,
     "pull": pull, "set": set_property, "rename": layers.rename, "remove": layers.remove, "heal": heal,
     "clear": lambda words, session: Clear(), "undo": lambda words, session: Undo(), "redo": lambda words, session: Redo(),
