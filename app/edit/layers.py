@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from app.edit.arguments import Arguments
-from app.edit.command import Session
+from app.edit.command import Session, counted
 from app.errors import InputError
 from app.model.job import Job
 from app.model.part import Layer, Part
@@ -98,8 +98,10 @@ def remove(words: Arguments, session: Session) -> RemoveLayer:
     if not words.accept("layer"):
         raise words.wrong("Write remove layer NAME; curves are taken away with delete.")
     name = words.name("the name of a layer")
-    on_it = sum(e.layer == name for e in session.part.entities)
-    return RemoveLayer(name, f"Layer {name} removed, with {on_it} {'curve' if on_it == 1 else 'curves'} on it.")
+    curves = sum(e.layer == name for e in session.part.entities)
+    notes = sum(n.layer == name for n in session.part.notes)
+    on_it = counted(curves, "curve") + (f" and {counted(notes, 'note')}" if notes else "")
+    return RemoveLayer(name, f"Layer {name} removed, with {on_it} on it.")
 
 
 def with_layer_renamed(job: Job, old: str, new: str) -> Job:

@@ -31,6 +31,7 @@ def test_every_sample_draws_closed_contours(name: str, curves: int, contours: in
     assert len(part.entities) == curves
     chained = chain(part.entities, 0.01)
     assert len(chained.contours) == contours and all(contour.closed for contour in chained.contours)
+    assert chained.findings == ()
 
 
 def test_a_drawing_written_in_words_is_read_as_itself() -> None:

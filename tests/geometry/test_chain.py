@@ -93,6 +93,12 @@ def test_arcs_stay_true_arcs_when_ends_move() -> None:
     assert made.contours[0].primitives[1] == slot[1]
 
 
+def test_an_end_that_is_off_by_a_last_digit_makes_no_piece_of_its_own() -> None:
+    a, b = (0.7154601088530916, 25.990154228719767), (-0.7154601088530883, 25.990154228719767)
+    made = chained([Line((0, 0), (a[0], math.nextafter(a[1], 99))), Arc(a, b, (0, 0)), Line(b, (0, 0))])
+    assert shape(made) == [(True, 3)] and not made.findings
+
+
 def test_nearly_full_arc_is_bridged_not_bent() -> None:
     """The ends are 0.4 mm apart and each has to go 0.004 mm: moving them would shift the centre by a multiple of that."""
     a, b = (5 * math.cos(0.04), 5 * math.sin(0.04)), (5 * math.cos(0.04), -5 * math.sin(0.04))
