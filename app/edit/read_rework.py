@@ -5,11 +5,13 @@ from __future__ import annotations
 from app.edit.arguments import Arguments
 from app.edit.chains import Chain, chained
 from app.edit.chosen import chosen_curves
-from app.edit.command import Rework, Session
+from app.edit.command import Rework, Session, check_ids
 from app.edit.drafting import broken, extended, parallel, trimmed
 from app.edit.offset_chain import chain_parallel
 from app.errors import InputError
 from app.model.curves import Arc, Circle, Curve, Line, Point
+from app.model.notes import Guide, Note
+from app.model.part import Entity
 from app.tolerances import WELD
 
 
@@ -30,8 +32,17 @@ def extend(words: Arguments, session: Session) -> Rework:
 
 
 def _edges(words: Arguments, session: Session, number: int, word: str) -> list[Curve]:
+    """Return what ends a trim or an extension: the curves and construction lines named, else all that are seen."""
+    part = session.part
     chosen = frozenset(words.ids()) if words.accept(word) else None
-    return [e.curve for e in session.part.entities if e.id != number and (chosen is None or e.id in chosen)]
+    check_ids(part, chosen or frozenset())
+    seen = {layer.name for layer in part.layers if layer.visible}
+
+    def counts(item: Entity | Note) -> bool:
+        return item.id != number and (item.layer in seen if chosen is None else item.id in chosen)
+
+    guides = [note.shape.line for note in part.notes if isinstance(note.shape, Guide) and counts(note)]
+    return [e.curve for e in part.entities if counts(e)] + guides
 
 
 def break_at(words: Arguments, session: Session) -> Rework:

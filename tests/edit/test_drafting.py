@@ -54,6 +54,14 @@ def test_extending_goes_to_the_first_edge_ahead(line: str, curve: Curve) -> None
         assert drawn[number] == curve
 
 
+def test_construction_lines_are_edges_and_what_is_hidden_is_none() -> None:
+    assert after("line 0,0 30,0\nguide up 10,5\nguide 20,0 90\ntrim 1 15,1") == {1: Line((0, 0), (10, 0)), 4: Line((20, 0), (30, 0))}
+    assert after("line 0,0 5,0\nguide up 10,5\nguide up 20,0\nextend 1 5,0 to 3") == {1: Line((0, 0), (20, 0))}
+    hidden = "layer a\nline 10,-5 10,5\nlayer b\nline 20,-5 20,5\nline 0,0 30,0\nhide a\ntrim 3 12,0"
+    assert after(hidden)[3] == Line((20, 0), (30, 0))
+    assert after(hidden + " by 1")[3] == Line((0, 0), (10, 0))
+
+
 def test_breaking_at_one_point_and_between_two() -> None:
     assert after("line 0,0 10,0\nbreak 1 4,1") == {1: Line((0, 0), (4, 0)), 2: Line((4, 0), (10, 0))}
     assert after("line 0,0 10,0\nbr 1 7,0 4,1") == {1: Line((0, 0), (4, 0)), 2: Line((7, 0), (10, 0))}
@@ -200,7 +208,7 @@ def test_parallels_lie_on_the_side_of_the_point(line: str, made: Curve) -> None:
     ("fillet 9 2 4", "No arc"), ("fillet 0 2 3", "do not meet"), ("fillet 1 1", "Two curves"),
     ("fillet 1 1-4", "No two"),
     ("chamfer 50 1 2", "use less"), ("chamfer 1 2 3", "Parallel"), ("offset 9 100,50 4", "nearer"), ("offset 1 0,0 9", "no entity 9"),
-    ("trim 9 0,0", "no longer"),
+    ("trim 9 0,0", "no longer"), ("trim 1 0,0 by 9", "no entity 9"),
     ("offset 0 5,5 1", "greater than 0"), ("offset 1 5,5", "Nothing is selected"),
 ])
 def test_what_cannot_be_done_is_told(line: str, says: str) -> None:
