@@ -24,6 +24,7 @@ class Session:
         selection: ids that `delete` and `move` mean when none are written.
         names: what `let` and `as` have named. commands: what `define` has made.
         renamed: layers that have another name since (old, new), for whoever else calls them by it.
+        plain: what a length counts in that is written without a unit, mm.
     """
 
     part: Part = field(default_factory=Part)
@@ -33,11 +34,12 @@ class Session:
     names: Mapping[str, Value] = field(default_factory=dict)
     commands: Mapping[str, Define] = field(default_factory=dict)
     renamed: tuple[tuple[str, str], ...] = ()
+    plain: float = 1.0
 
     @property
     def scope(self) -> Scope:
         """What its expressions may refer to."""
-        return Scope(self.names, self.last, self.part)
+        return Scope(self.names, self.last, self.part, plain=self.plain)
 
     def with_part(self, part: Part) -> Session:
         """Return the session with another drawing; what has gone is no longer selected."""
@@ -251,7 +253,7 @@ class Clear:
 
     def carried_out(self, session: Session) -> Session:
         """Return the session of an empty drawing of the same name and units."""
-        return Session(Part(units=session.part.units, name=session.part.name))
+        return Session(Part(units=session.part.units, name=session.part.name), plain=session.plain)
 
 
 @dataclass(frozen=True, slots=True)

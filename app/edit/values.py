@@ -18,6 +18,10 @@ class Curves:
     ids: tuple[int, ...]
 
 
+class Length(float):
+    """A number that is known to be a length, mm; one that is not counts, wherever a length is wanted, in the unit of the text."""
+
+
 Value = float | Point | Curves
 """What a name can stand for; lengths in mm, angles in degrees."""
 
@@ -31,12 +35,18 @@ class Scope:
         last: the point that relative coordinates start from, mm.
         part: the drawing that curves are looked up in.
         units: that may stand behind a number, with their sizes.
+        plain: what a length counts in that is written without a unit, mm.
     """
 
     names: Mapping[str, Value] | None = None
     last: Point = (0.0, 0.0)
     part: Part = field(default_factory=Part)
     units: Mapping[str, float] | None = None
+    plain: float = 1.0
+
+    def length(self, value: float) -> Length:
+        """Return a value as a length, mm."""
+        return value if isinstance(value, Length) else Length(value * self.plain)
 
     def curve(self, value: Curves, place: s.Place) -> Curve:
         """Return the one curve that a value stands for.

@@ -1,10 +1,11 @@
-"""Millimetres or inches on rulers, raster and status bar; drawings and the lines that make them stay in mm."""
+"""Millimetres or inches: on rulers, raster and status bar, at the mouse, and for what is typed; a drawing is in mm."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
 
+from app.edit.unit_of_line import in_unit
 from app.settings import ShownUnits
 from app.ui.canvas.viewport import Viewport
 from app.ui.main_window import MainWindow
@@ -23,6 +24,10 @@ class UnitChoice:
         for units in ShownUnits:
             window.actions_[f"units_{units.value}"].triggered.connect(partial(self._choose, units))
         self._show(window.settings.units)
+
+    def meant(self, line: str) -> str:
+        """Return a typed line of the shape language so that it says in which unit it is meant, where that is not mm."""
+        return line if self._window.settings.units is ShownUnits.MM else in_unit(line, "in")
 
     def _choose(self, units: ShownUnits, *_: object) -> None:
         self._window.settings = replace(self._window.settings, units=units)

@@ -1,8 +1,10 @@
-"""Inches or millimetres: rulers, raster and status bar follow; the drawing and what is written of it stay in mm."""
+"""Inches or millimetres: rulers, raster, status bar, the mouse and what is typed follow; the drawing stays in mm."""
 
 import pytest
 from PySide6.QtCore import Qt
 
+from app.edit.document import Document
+from app.model.curves import Circle
 from app.settings import ShownUnits, load_settings
 from app.ui.canvas.grid import grid_steps
 from app.ui.canvas.modes import CanvasTool
@@ -64,3 +66,52 @@ def test_the_choice_is_remembered(inches: Wiring) -> None:
     assert window.canvas.unit == 25.4
     window.close()
     window.deleteLater()
+
+
+def typed(wiring: Wiring, *texts: str) -> None:
+    for text in texts:
+        wiring.window_.command_line.entered.emit(text)
+
+
+def test_what_a_tool_asks_for_is_typed_in_inches(inches: Wiring) -> None:
+    typed(inches, "circle", "1,2", "0.5", "fillet")
+    circle = inches.document.part.entities[-1].curve
+    assert isinstance(circle, Circle)
+    assert (circle.centre, circle.radius) == ((25.4, 50.8), pytest.approx(12.7))
+    typed(inches, "radius 1/4")
+    assert "radius 0.25 in" in inches.window_.canvas.runner.prompt
+    typed(inches, "radius 3mm")
+    assert "radius 0.1181 in" in inches.window_.canvas.runner.prompt
+
+
+def test_angles_counts_and_factors_stay_what_they_are(inches: Wiring) -> None:
+    typed(inches, "line 1,0 2,0", "select 1", "rotate", "0,0", "90")
+    assert inches.document.log[-1].command == "rotate 0,0 90"
+    typed(inches, "scale", "0,0", "2")
+    assert inches.document.log[-1].command == "scale 0,0 2"
+    inches.window_.canvas.set_tool(CanvasTool.POLYGON)
+    typed(inches, "5", "0,0", "1,0")
+    assert inches.document.log[-1].command == "polygon 5 0,0 25.4,0"
+
+
+def test_a_whole_line_says_in_the_log_that_it_is_in_inches_and_its_text_draws_the_same(inches: Wiring) -> None:
+    typed(inches, "rect 0,0 4,2 round 1/8", "circle 1,1 0.25", "layer holes", "repeat 3 as k; circle (1 + k),0.5 3mm; end", "undo", "redo")
+    lines = [line.command for line in inches.document.log]
+    assert lines[:3] == ["units in; rect 0,0 4,2 round 1/8; end", "units in; circle 1,1 0.25; end", "layer holes"]
+    assert lines[-2:] == ["undo", "redo"]
+    again = Document()
+    again.run_script(inches.document.recorded.text())
+    assert again.part == inches.document.part
+
+
+def test_in_millimetres_a_line_stays_as_it_was_typed(wiring: Wiring) -> None:
+    typed(wiring, "circle 1,1 0.25")
+    assert wiring.document.log[-1].command == "circle 1,1 0.25"
+
+
+def test_the_measures_at_the_mouse_are_in_inches(inches: Wiring) -> None:
+    runner = inches.window_.canvas.runner
+    typed(inches, "line", "0,0")
+    assert runner.preview((25.4, 0.0)).label.startswith("L 1.0000 in")
+    inches.window_.actions_["units_mm"].trigger()
+    assert runner.preview((25.4, 0.0)).label.startswith("L 25.400 ")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -267,6 +266,11 @@ class Canvas(Hands):
         if self.marking is not None:
             overlay.paint_points(painter, self.view, list(self.marking.places()), self._look.theme)
 
+    def set_unit(self, unit: float) -> None:
+        """Count in another unit, of so many mm; typed lengths, too."""
+        self.runner.set_unit(unit)
+        super().set_unit(unit)
+
     def _paint_tool(self, painter: QPainter) -> None:
         tool, theme = self.runner.tool, self._look.theme
         if tool is None or self.aim is None or self.mouse is None:
@@ -283,8 +287,7 @@ class Canvas(Hands):
             paint_snap(painter, self.view, self.aim.snap, theme)
         base = self.view.to_screen(tool.base) if tool.base is not None else None
         place = overlay.LabelPlace(self.mouse, base, self.area)
-        far = math.dist(tool.base, self.aim.point) / self.unit if tool.base is not None and self.unit != 1.0 else 0.0
-        overlay.paint_label(painter, [preview.label, f"{far:.4f} in from the last point" if far else "", self.aim.word], place, theme)
+        overlay.paint_label(painter, [preview.label, self.aim.word], place, theme)
 
     def _carried_view(self, tool: CarryTool, to: Point) -> View:
         """Return the view that shows the selection where it is carried to."""

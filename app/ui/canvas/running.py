@@ -32,6 +32,7 @@ class ToolRunner:
     Attributes:
         kind: which tool runs. tool: the tool itself, None for SELECT.
         cursor: where the tool aims, mm. under: the curve that a click would pick, or None.
+        unit: what lengths are typed and shown in, mm.
     """
 
     def __init__(self, document: Document, say: Callable[[str], None]) -> None:
@@ -40,6 +41,7 @@ class ToolRunner:
         self.kind = CanvasTool.SELECT
         self.tool: DrawingTool | None = None
         self.cursor: Point = (0.0, 0.0)
+        self.unit = 1.0
         self.under: Pick | None = None
         self._desk, self._trials = Desk(document, {}), Trials(document)
         self._last = CanvasTool.LINE
@@ -74,17 +76,24 @@ class ToolRunner:
         """The tool that Enter begins again."""
         return self._last
 
+    def set_unit(self, unit: float) -> None:
+        """Count in another unit, of so many mm."""
+        self.unit = unit
+        if self.tool is not None:
+            self.tool.unit = unit
+
     def start(self, kind: CanvasTool) -> None:
         """Begin a tool; an unfinished shape is given up. One that has nothing to ask does its work at once."""
         self.kind, self.under = kind, None
         self.tool = TOOLS[kind]() if kind in TOOLS else None
         if self.tool is not None:
-            self._last = kind
+            self._last, self.tool.unit = kind, self.unit
             self._run(self.tool.begin(self._desk))
 
     def hold(self, tool: DrawingTool) -> None:
         """Take a tool in hand for one point, beside SELECT."""
         self.kind, self.tool = CanvasTool.SELECT, tool
+        tool.unit = self.unit
 
     def aim_at(self, point: Point, under: Pick | None = None) -> None:
         """See the mouse aim at a point, mm, and at a curve that can be picked there."""
@@ -198,13 +207,15 @@ class ToolRunner:
         return True
 
     def _place(self, tool: DrawingTool, text: str) -> None:
-        scope = replace(self._document.session.scope, last=tool.base or self._document.last_point)
+        scope = replace(self._document.session.scope, last=tool.base or self._document.last_point, plain=self.unit)
         value = value_of(read_value(text), scope)
         if isinstance(value, tuple):
             self.click(value)
             return
         if isinstance(value, Curves):
             raise CommandError(f"'{text}' is a curve; a point or a length is wanted.")
+        if tool.takes_length:
+            value = float(scope.length(value))
         before = self._answers(tool)
         line = tool.typed(value)
         if line is not None:
