@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from app.edit.sample import spline_points
+from app.edit.sample import derivative, spline_points
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline, reversed_curve
 from app.tolerances import WELD
 
@@ -72,14 +72,10 @@ def _of_spline(curve: Spline) -> float | None:
     """Integrate span by span with Gauss' points, as many as make a polynomial of the degree exact."""
     if curve.weights:
         return None
-    p, knots, control = curve.degree, np.asarray(curve.knots), np.asarray(curve.control_points)
-    width = knots[p + 1:-1] - knots[1:-p - 1]
-    steps = p * np.diff(control, axis=0) / np.where(width > 0, width, 1.0)[:, None]
-    slope = Spline(p - 1, tuple((float(x), float(y)) for x, y in steps), curve.knots[1:-1])
-    at, share = np.polynomial.legendre.leggauss(p)
-    spans = np.unique(knots)
+    at, share = np.polynomial.legendre.leggauss(curve.degree)
+    spans = np.unique(curve.knots)
     low, high = spans[:-1, None], spans[1:, None]
     u = (low + high) / 2 + (high - low) / 2 * at
-    points, slopes = spline_points(curve, u.ravel()), spline_points(slope, u.ravel())
+    points, slopes = spline_points(curve, u.ravel()), spline_points(derivative(curve), u.ravel())
     turning = (points[:, 0] * slopes[:, 1] - points[:, 1] * slopes[:, 0]).reshape(u.shape)
     return float((turning * share * (high - low) / 2).sum() / 2)

@@ -22,7 +22,8 @@ class Function:
     """One function.
 
     Attributes:
-        takes: one letter an argument: n number, l length, p point, c curve; a last "+" repeats the letter before it.
+        takes: one letter an argument: n number, l length, p point, c curve, e curve or construction line;
+            a last "+" repeats the letter before it.
         shown: how it is written, for errors and help.
         gives_length: its number is a length; a number of lengths alone is one anyway where `keeps_length`.
     """
@@ -83,8 +84,8 @@ FUNCTIONS: Mapping[str, Function] = {
     "centre": Function("c", "centre(curve)", centre_of),
     "radius": Function("c", "radius(curve)", radius_of, gives_length=True),
     "length": Function("c", "length(curve)", curve_length, gives_length=True),
-    "foot": Function("pc", "foot(point, curve)", lambda p, c: foot(c, p)),
-    "meet": Function("ccp", "meet(curve, curve, near)", lambda a, b, near: _nearest(meets(a, b), near, "place where both curves meet")),
+    "foot": Function("pe", "foot(point, curve)", lambda p, c: foot(c, p)),
+    "meet": Function("eep", "meet(curve, curve, near)", lambda a, b, near: _nearest(meets(a, b), near, "place where both curves meet")),
     "tangent": Function("pcp", "tangent(from, curve, near)",
                         lambda p, c, near: _nearest(tangent_points(c, p), near, "tangent from this point")),
 }
@@ -122,6 +123,13 @@ def _alike(values: list[Value], scope: Scope) -> list[Value]:
     return [scope.length(value) if isinstance(value, float) else value for value in values]
 
 
+def _named_curve(value: Value) -> Curves | None:
+    """Return the curves that a name or a number stands for."""
+    if isinstance(value, float):
+        return Curves((int(value),)) if value >= 1 and value == int(value) else None
+    return value if isinstance(value, Curves) else None
+
+
 def _taken(function: Function, written: s.Call, values: list[Value], scope: Scope) -> list[Given]:
     """Return the arguments as the function takes them; two numbers in a row may stand for a point."""
     places = [argument.place for argument in written.arguments]
@@ -137,8 +145,8 @@ def _taken(function: Function, written: s.Call, values: list[Value], scope: Scop
             given.append(scope.length(value))
         elif (wanted == "n" and isinstance(value, float)) or (wanted == "p" and isinstance(value, tuple)):
             given.append(value)
-        elif wanted == "c" and isinstance(value, Curves):
-            given.append(scope.curve(value, place))
+        elif wanted in "ce" and (named := _named_curve(value)) is not None:
+            given.append(scope.curve(named, place) if wanted == "c" else scope.edge(named, place))
         else:
             raise wrong(f"{function.shown}: this is {kind_of(value)}.", place)
     if values or len(given) < len(takes):
