@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from enum import Flag, auto
 from pathlib import Path
 
-from app.edit.command import Session
+from app.edit.command import Session, counted
 from app.edit.errors import CommandError
 from app.edit.grammar import read_script
 from app.edit.history import History, State
@@ -335,7 +335,7 @@ def _evaluated(statements: tuple[Statement, ...], session: Session, interpreter:
     if alone:
         return outcome
     words, curves = f"{len(statements)} statements", len(outcome.session.part.entities)
-    return replace(outcome, name=words, reply=f"{words}; the drawing has {curves} curve{'s' * (curves != 1)}.")
+    return replace(outcome, name=words, reply=f"{words}; the drawing has {counted(curves, 'curve')}.")
 
 
 def _step_of(statements: tuple[Statement, ...]) -> tuple[bool, int] | None:

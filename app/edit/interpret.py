@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from app.edit import syntax as s
-from app.edit.command import Redo, Session, Undo
+from app.edit.command import Redo, Session, Undo, counted
 from app.edit.errors import CommandError
 from app.edit.evaluate import number_of, value_of
 from app.edit.language import COMMANDS, read
@@ -117,7 +117,7 @@ class Interpreter:
     def _call(self, own: s.Define, written: s.Command, session: Session) -> Outcome:
         if len(written.arguments) != len(own.parameters):
             shown = " ".join(word.text for word in (own.name, *own.parameters))
-            raise wrong(f"'{own.name.text}' takes {len(own.parameters)} values; write {shown}.", written.place)
+            raise wrong(f"'{own.name.text}' takes {counted(len(own.parameters), 'value')}; write {shown}.", written.place)
         values = {p.text: value_of(a, session.scope) for p, a in zip(own.parameters, written.arguments, strict=True)}
         self._depth += 1
         if self._depth > _DEEPEST_CALL:
@@ -126,8 +126,7 @@ class Interpreter:
         self._depth -= 1
         after = replace(inner, names=session.names)
         drawn = len(after.part.entities) - len(session.part.entities)
-        reply = "1 curve." if drawn == 1 else f"{drawn} curves."
-        return Outcome(_labelled(written, session, after), own.name.text.capitalize(), reply)
+        return Outcome(_labelled(written, session, after), own.name.text.capitalize(), f"{counted(drawn, 'curve')}.")
 
     def _repeat(self, written: s.Repeat, session: Session) -> Outcome:
         times = number_of(written.times, session.scope)
@@ -142,7 +141,7 @@ class Interpreter:
         if written.index:
             names = {name: value for name, value in session.names.items() if name != written.index.text}
             session = replace(session, names=names if outside is None else {**names, written.index.text: outside})
-        return Outcome(session, "Repeat", f"{int(times)} times.")
+        return Outcome(session, "Repeat", f"{counted(int(times), 'time')}.")
 
     def _in_units(self, written: s.Units, session: Session) -> Outcome:
         inside = replace(session, plain=LENGTH_UNITS[written.unit.text])

@@ -59,6 +59,7 @@ from app.edit.read_set import SetProperty, set_property
 from app.edit.read_text import text
 from app.edit.select import Select
 from app.edit.values import wrong
+from app.edit.words import nearest_words
 
 Command = Pull | Edit | notes.DrawNote | SetProperty | Heal | Measure | layers.RenameLayer | layers.RemoveLayer | Select | Undo | Redo
 
@@ -87,7 +88,8 @@ def read(written: syntax.Command, session: Session) -> Command:
     word = written.word.text.lower()
     reader = _READERS.get(ALIASES.get(word, word))
     if reader is None:
-        raise wrong(f"'{word}' is no command; use {', '.join(_READERS)}.", written.place)
+        near = nearest_words(word, (*_READERS, *session.commands))
+        raise wrong(f"'{word}' is no command; {f'try {near}.' if near else 'F1 lists them all.'}", written.place)
     words = Arguments(written, session.scope)
     command = reader(words, session)
     words.end()

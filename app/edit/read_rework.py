@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.edit.arguments import Arguments
 from app.edit.chains import Chain, chained
 from app.edit.chosen import chosen_curves
-from app.edit.command import Rework, Session, check_ids
+from app.edit.command import Rework, Session, check_ids, counted
 from app.edit.drafting import broken, extended, parallel, trimmed
 from app.edit.offset_chain import chain_parallel
 from app.errors import InputError
@@ -20,7 +20,7 @@ def trim(words: Arguments, session: Session) -> Rework:
     number, curve = words.curve("the curve to trim")
     at = words.point("a point of the piece that goes")
     kept = trimmed(curve, at, _edges(words, session, number, "by"))
-    return Rework({number: kept}, "Trim", f"{len(kept)} pieces stay.")
+    return Rework({number: kept}, "Trim", f"{counted(len(kept), 'piece')} {'stays' if len(kept) == 1 else 'stay'}.")
 
 
 def extend(words: Arguments, session: Session) -> Rework:
@@ -50,7 +50,7 @@ def break_at(words: Arguments, session: Session) -> Rework:
     number, curve = words.curve("the curve to break")
     first = words.point("a point of the curve")
     pieces = broken(curve, first, words.point("a second point") if words.more else None)
-    return Rework({number: pieces}, "Break", f"{len(pieces)} pieces.")
+    return Rework({number: pieces}, "Break", f"{counted(len(pieces), 'piece')}.")
 
 
 def offset(words: Arguments, session: Session) -> Rework:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from app.edit.document import Document
-from app.edit.errors import CommandError
+from app.edit.errors import CommandError, reason_of
 from app.edit.evaluate import value_of
 from app.edit.grammar import read_value
 from app.edit.language import command_word
@@ -60,6 +60,11 @@ class ToolRunner:
     def choosing(self) -> bool:
         """True while a tool asks for curves to be selected."""
         return self.tool is not None and self.tool.wants is Want.SELECTION
+
+    @property
+    def wants_words(self) -> bool:
+        """True while words are asked for, which may hold blanks and every other sign."""
+        return self.tool is not None and self.tool.wants is Want.WORDS
 
     @property
     def looking(self) -> bool:
@@ -149,7 +154,7 @@ class ToolRunner:
 
     def takes(self, text: str) -> bool:
         """Return whether a typed text is an option of the running tool, or the words that it asks for."""
-        return self.tool is not None and (self.tool.wants is Want.WORDS or text.strip().lower() in self.tool.options)
+        return self.wants_words or (self.tool is not None and text.strip().lower() in self.tool.options)
 
     def preview(self, point: Point) -> Preview:
         """Return what a click at a point would make."""
@@ -240,7 +245,7 @@ class ToolRunner:
             self._run(act(), before)
         except InputError as error:
             tool.clear()
-            self._say(str(error))
+            self._say(reason_of(error))
 
     def _answers(self, tool: DrawingTool) -> list[Answer]:
         return list(tool.answers) if isinstance(tool, AskingTool) else []
@@ -253,7 +258,7 @@ class ToolRunner:
         try:
             self._document.run(line)
         except InputError as error:
-            self._say(str(error))
+            self._say(reason_of(error))
             if isinstance(tool, AskingTool) and before is not None:
                 tool.restore(before)
                 return

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from app.edit.difference import Difference, difference
 from app.edit.document import Document
-from app.edit.errors import CommandError
+from app.edit.errors import reason_of
 from app.errors import InputError
 
 
@@ -37,7 +37,5 @@ class Trials:
     def _tried(self, line: str) -> Trial:
         try:
             return Trial(difference(self._document.part, self._document.tried(line).part))
-        except CommandError as error:
-            return Trial(reason=error.reason)
         except InputError as error:
-            return Trial(reason=str(error))
+            return Trial(reason=reason_of(error))
