@@ -190,8 +190,8 @@ def _check_name(name: s.Name) -> None:
 
 
 RESERVED = frozenset({
-    "add", "all", "and", "arc", "as", "by", "ccw", "center", "centre", "close", "copy", "crossing", "cw", "define", "degree",
-    "diameter", "else", "end", "font", "from", "if", "knots", "large", "let", "none", "on", "over", "pi", "polar", "radius", "remove",
-    "repeat", "round", "side", "through", "times", "to", "units", "weights", "window", "within",
+    "add", "after", "all", "and", "arc", "as", "before", "by", "ccw", "center", "centre", "close", "copy", "crossing", "cw", "define",
+    "degree", "diameter", "else", "end", "font", "from", "if", "knots", "large", "let", "none", "on", "over", "pi", "polar", "radius",
+    "remove", "repeat", "round", "side", "through", "times", "to", "units", "weights", "window", "within",
 })
 """Words that commands look for among their arguments."""

@@ -21,7 +21,7 @@
     pull [CURVES] P to P      (an end, middle, centre, quadrant, control point, and what hangs on it)
     hide NAME     show NAME     lock NAME     unlock NAME     colour NAME "#rrggbb" | none     (of layers)
     set [CURVES] start P     also: end, middle, centre, place P; length, radius, diameter, major, minor; angle, sweep; layer NAME
-    rename layer NAME to NAME     remove layer NAME     heal tolerance [CURVES]
+    rename layer NAME to NAME     order layer NAME before|after NAME     remove layer NAME     heal tolerance [CURVES]
     move @dx,dy [CURVES]     copy @dx,dy [times n] [CURVES]
     rotate P angle [copy] [CURVES]     scale P factor [copy] [CURVES]     mirror P P [copy] [CURVES]
     array n n @dx,dy [CURVES]     array polar P n [over angle] [CURVES]
@@ -61,7 +61,7 @@ from app.edit.select import Select
 from app.edit.values import wrong
 from app.edit.words import nearest_words
 
-Command = Pull | Edit | notes.DrawNote | SetProperty | Heal | Measure | layers.RenameLayer | layers.RemoveLayer | Select | Undo | Redo
+Command = Pull | Edit | notes.DrawNote | SetProperty | Heal | Measure | layers.LayerCommand | Select | Undo | Redo
 
 ALIASES = {
     "li": "line", "l": "line", "pl": "polyline", "ar": "arc", "a": "arc", "ci": "circle", "c": "circle", "re": "rect",
@@ -105,7 +105,7 @@ _READERS: dict[str, Callable[[Arguments, Session], Command]] = {
     "hide": edit.hide, "show": edit.show, "lock": edit.lock, "unlock": edit.unlock, "colour": edit.colour,
     "trim": rework.trim, "extend": rework.extend, "break": rework.break_at, "fillet": corners.fillet_of, "chamfer": corners.chamfer_of,
     "offset": rework.offset, "join": join, "explode": explode, "measure": measure,
-    "pull": pull, "set": set_property, "rename": layers.rename, "remove": layers.remove, "heal": heal,
+    "pull": pull, "set": set_property, "rename": layers.rename, "order": layers.order, "remove": layers.remove, "heal": heal,
     "clear": lambda words, session: Clear(), "undo": lambda words, session: Undo(), "redo": lambda words, session: Redo(),
 }
 

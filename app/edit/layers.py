@@ -1,4 +1,4 @@
-"""The commands that rename and remove layers."""
+"""The commands that rename, order and remove layers."""
 
 from __future__ import annotations
 
@@ -68,6 +68,38 @@ class RemoveLayer:
         return replace(session, layer=current).with_part(left)
 
 
+@dataclass(frozen=True, slots=True)
+class OrderLayer:
+    """Put a layer right before another, or right behind it."""
+
+    layer: str
+    beside: str
+    behind: bool
+    name: str = "Order layers"
+
+    @property
+    def reply(self) -> str:
+        """A short sentence for the log."""
+        return f"Layer {self.layer} comes {'after' if self.behind else 'before'} {self.beside} now."
+
+    def carried_out(self, session: Session) -> Session:
+        """Return the session with the layers in another order; what is on them stays as it is.
+
+        Raises:
+            InputError: there is no such layer, or both are one.
+        """
+        part = session.part
+        moved, beside = check_layer(part, self.layer), check_layer(part, self.beside)
+        if moved is beside:
+            raise InputError(f"{self.layer} is one layer; name another that it comes before or after.")
+        layers = [layer for layer in part.layers if layer is not moved]
+        layers.insert(layers.index(beside) + self.behind, moved)
+        return replace(session, part=replace(part, layers=tuple(layers)))
+
+
+LayerCommand = RenameLayer | OrderLayer | RemoveLayer
+
+
 def check_layer(part: Part, name: str) -> Layer:
     """Return a layer of the part by its name.
 
@@ -91,6 +123,18 @@ def rename(words: Arguments, session: Session) -> RenameLayer:
     if not new:
         raise words.wrong("The new name is empty; write a name.")
     return RenameLayer(old, new)
+
+
+def order(words: Arguments, session: Session) -> OrderLayer:
+    """Put a layer before or after another."""
+    usage = "Write order layer NAME before NAME, or after NAME."
+    if not words.accept("layer"):
+        raise words.wrong(usage)
+    layer = words.name("the name of a layer")
+    way = words.accept("before", "after")
+    if not way:
+        raise words.wrong(usage)
+    return OrderLayer(layer, words.name("the name of another layer"), way == "after")
 
 
 def remove(words: Arguments, session: Session) -> RemoveLayer:

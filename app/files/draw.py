@@ -9,7 +9,7 @@ from app.edit.document import Document
 from app.errors import InputError
 from app.files.drawing import Drawing
 from app.files.drawing_account import on_layers, other_units, switched_off
-from app.model.part import Part, Units
+from app.model.part import Layer, Part, Units
 
 MOST_BYTES = 20_000_000
 
@@ -44,6 +44,6 @@ def read_draw(data: bytes, name: str = "part.draw", units: Units | None = None, 
 
 def _tidy(part: Part) -> Part:
     """Return the part without the layer that every drawing begins with, where others are there and it is empty."""
-    used = {entity.layer for entity in part.entities}
-    kept = tuple(layer for layer in part.layers if layer.name in used or layer != part.layers[0])
+    used = {e.layer for e in part.entities} | {n.layer for n in part.notes}
+    kept = tuple(layer for layer in part.layers if layer.name in used or layer.name != Layer().name)
     return replace(part, layers=kept or part.layers)

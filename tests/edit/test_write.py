@@ -83,6 +83,12 @@ def test_layers_come_back_with_their_looks_and_order() -> None:
     assert [layer for layer in again.layers if layer.name != "0"] == [replace(layer, name=layer.name.replace('"', "'")) for layer in layers]
 
 
+def test_the_first_layer_comes_back_in_its_place() -> None:
+    layers = (Layer("b"), Layer("a", "#d55e00"), Layer("0"), Layer("c"))
+    part = Part((Entity(1, Circle((0, 0), 1), "0"), Entity(2, Circle((0, 0), 2), "b")), layers)
+    assert read_again(part) == part
+
+
 def test_the_sample_part_comes_back_exactly() -> None:
     part = layered_part({"0": fig2()})
     again = read_again(part)

@@ -39,6 +39,11 @@ def test_a_drawing_written_in_words_is_read_as_itself() -> None:
     assert read_drawing("plate.draw", draw_text(part).text.encode()).part == part
 
 
+def test_layers_keep_their_order_and_those_of_notes_stay() -> None:
+    text = b"layer a; circle 0,0 5; layer b; circle 0,0 2; layer 0; point 1,1; order layer 0 after a"
+    assert [layer.name for layer in read_drawing("a.draw", text).part.layers] == ["a", "0", "b"]
+
+
 def test_only_the_layers_asked_for_are_kept() -> None:
     text = b"layer cut\ncircle 0,0 5\nlayer marks\ncircle 0,0 2\nhide marks"
     assert [e.layer for e in read_drawing("a.draw", text, None, ("cut",)).part.entities] == ["cut"]
