@@ -10,7 +10,7 @@ from app.edit.syntax import Define
 from app.edit.transform import Similarity, transformed, transformed_note
 from app.edit.values import Scope, Value
 from app.errors import InputError
-from app.model.curves import Curve, Point, reversed_curve
+from app.model.curves import Curve, Point
 from app.model.part import Entity, Layer, Part
 
 
@@ -166,29 +166,6 @@ class Rework:
 
 
 @dataclass(frozen=True, slots=True)
-class Reverse:
-    """Let curves run the other way."""
-
-    ids: frozenset[int]
-    name: str = "Reverse"
-
-    @property
-    def reply(self) -> str:
-        """A short sentence for the log."""
-        return f"{len(self.ids)} reversed."
-
-    def carried_out(self, session: Session) -> Session:
-        """Return the session with these entities reversed.
-
-        Raises:
-            InputError: an id that the part does not have.
-        """
-        check_ids(session.part, self.ids)
-        return replace(session, part=replace(session.part, entities=tuple(
-            replace(e, curve=reversed_curve(e.curve)) if e.id in self.ids else e for e in session.part.entities)))
-
-
-@dataclass(frozen=True, slots=True)
 class SetLayer:
     """Draw on a layer from now on, or put curves on it when ids are given; it is made when it is new."""
 
@@ -266,7 +243,7 @@ class Redo:
     """Do again what was taken back."""
 
 
-Edit = Clear | Draw | Delete | Transform | Rework | Reverse | SetLayer | SetLook
+Edit = Clear | Draw | Delete | Transform | Rework | SetLayer | SetLook
 """Commands that change the drawing; each has a name, a reply and `carried_out(session) -> session`."""
 
 
