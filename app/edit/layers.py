@@ -91,7 +91,7 @@ class OrderLayer:
         part = session.part
         moved, beside = check_layer(part, self.layer), check_layer(part, self.beside)
         if moved is beside:
-            raise InputError(f"{self.layer} is one layer; name another that it comes before or after.")
+            raise InputError(f"A layer comes before or after another one; {self.layer} is named twice.")
         layers = [layer for layer in part.layers if layer is not moved]
         layers.insert(layers.index(beside) + self.behind, moved)
         return replace(session, part=replace(part, layers=tuple(layers)))
