@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from app.edit.arguments import Arguments
 from app.edit.command import Session, check_ids
 from app.edit.faults import Fault, FaultKind, apart, common_turn, duplicates, meetings, overlaps, point_of, tiny
+from app.edit.join import brought_to
 from app.edit.merging import merged
 from app.edit.properties import properties_of, with_property
 from app.edit.select import reachable
@@ -128,11 +129,7 @@ class _Work:
         fixed = {point for point, (number, _) in zip(points, meeting, strict=True) if "end" not in properties_of(self.curves[number])}
         middle = (sum(p[0] for p in points) / len(points), sum(p[1] for p in points) / len(points))
         to = next(iter(fixed), middle)
-        moved = {number: self._with_end(number, last, to) for number, last in meeting}
-        if len(fixed) > 1 or any(curve is None for curve in moved.values()):
-            return False
-        self.curves.update({number: curve for number, curve in moved.items() if curve is not None})
-        return any(math.dist(points[0], point) > WELD for point in points)
+        return len(fixed) <= 1 and brought_to(to, self.curves, meeting, self._with_end)
 
     def _with_end(self, number: int, last: bool, to: Point) -> Curve | None:
         """Return a curve with an end elsewhere; None where that would take it farther from where it was drawn than the tolerance."""
