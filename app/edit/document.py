@@ -292,7 +292,7 @@ class Document:
         self.revision += 1
         if not part_changed:
             return Change.HISTORY
-        kept = self.selection & self.part.ids()
+        kept = self.selection & self.part.ids() if self.selection else self.selection
         change = Change.PART | Change.HISTORY | (Change.SELECTION if kept != self.selection else Change(0))
         self.selection = kept
         return change
@@ -318,6 +318,23 @@ def tried(text: str, session: Session, progress: Progress = NO_PROGRESS) -> Sess
         InputError: the text cannot be read or carried out, or undoes. Cancelled: `progress` says so.
     """
     return _evaluated(read_script(text), session, Interpreter(progress)).session
+
+
+def drawn(text: str, name: str = "script", progress: Progress = NO_PROGRESS) -> Part:
+    """Return the drawing that a text makes of an empty one; as `run_script`, but without a history that nobody will go back in.
+
+    Raises:
+        InputError: names the file, the line and the column of what failed. Cancelled: `progress` says so.
+    """
+    document = Document()
+    try:
+        statements = read_script(text)
+        if not any(_step_of((statement,)) for statement in statements):
+            return _evaluated(statements, document.session, Interpreter(progress)).session.part
+    except CommandError as error:
+        raise InputError(f"{name}:{error.line}: column {error.column}: {error.reason}") from error
+    document.run_script(text, name, progress)
+    return document.part
 
 
 def _statements(line: str) -> tuple[Statement, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import PurePath
 
-from app.edit.document import Document
+from app.edit.document import drawn
 from app.errors import InputError
 from app.files.drawing import Drawing
 from app.files.drawing_account import on_layers, other_units, switched_off
@@ -33,9 +33,7 @@ def read_draw(data: bytes, name: str = "part.draw", units: Units | None = None, 
     except UnicodeDecodeError as error:
         line = data[:error.start].count(b"\n") + 1
         raise InputError(f"{name}:{line}: this is no text in UTF-8; save it as plain text.") from error
-    document = Document()
-    document.run_script(text, name)
-    part = _tidy(document.part)
+    part = _tidy(drawn(text, name))
     if not part.entities:
         raise InputError(f"{name}: the text draws nothing; draw with line, arc, circle or rect.")
     part = on_layers(replace(part, name=PurePath(name).stem), layers, name)
