@@ -1,4 +1,4 @@
-"""Millimetres or inches: on rulers, raster and status bar, at the mouse, and for what is typed; a drawing is in mm."""
+"""Millimetres or inches: on rulers, raster and status bar, in fields, at the mouse, and for what is typed; a drawing is in mm."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from app.settings import ShownUnits
 from app.ui.canvas.viewport import Viewport
 from app.ui.main_window import MainWindow
 from app.ui.memory import remember
+from app.ui.panels.fields import NumberField
+from app.ui.shown_unit import show_in
 
 SIZES = {ShownUnits.MM: 1.0, ShownUnits.INCH: 25.4}
 """Size of each, mm."""
@@ -37,5 +39,9 @@ class UnitChoice:
     def _show(self, units: ShownUnits) -> None:
         self._window.actions_[f"units_{units.value}"].setChecked(True)
         self._window.status.set_unit(SIZES[units], {ShownUnits.MM: "mm", ShownUnits.INCH: "in"}[units])
+        show_in(SIZES[units])
+        for field in self._window.findChildren(NumberField):
+            field.follow_unit()
+        self._window.drawing_page.refresh()
         for viewport in self._window.findChildren(Viewport):
             viewport.set_unit(SIZES[units])
