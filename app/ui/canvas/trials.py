@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from app.edit.difference import Difference, difference
 from app.edit.document import Document
 from app.edit.errors import reason_of
+from app.edit.language import command_word
 from app.errors import InputError
 
 
@@ -16,6 +17,18 @@ class Trial:
 
     difference: Difference = field(default_factory=Difference)
     reason: str = ""
+
+
+HEAVY = frozenset({"offset", "heal", "join", "measure", "explode", "fillet", "chamfer"})
+"""Commands that look at all their curves together and do not stop half-way: over many curves they would keep the window."""
+
+FEW_CURVES = 300
+
+
+def keeps_the_window(line: str, document: Document) -> bool:
+    """Tell whether a line may take longer than anybody would wait for with the mouse."""
+    curves = len(document.selection) or len(document.part.entities)
+    return curves > FEW_CURVES and command_word(line) in HEAVY
 
 
 class Trials:
@@ -35,6 +48,8 @@ class Trials:
         return self._last
 
     def _tried(self, line: str) -> Trial:
+        if keeps_the_window(line, self._document):
+            return Trial()
         try:
             return Trial(difference(self._document.part, self._document.tried(line).part))
         except InputError as error:
