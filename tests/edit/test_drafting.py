@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from app.edit.corners import fillet
@@ -101,6 +101,7 @@ def test_chamfers_may_be_uneven() -> None:
         1: Line((0, 0), (7, 0)), 2: Line((10, 1), (10, 10)), 3: Line((7, 0), (10, 1))}
 
 
+@settings(deadline=None)
 @given(st.floats(0.2, 2.9), st.floats(0.1, 3), st.floats(2, 20), st.booleans())
 def test_a_fillet_touches_both_curves(opening: float, radius: float, round_radius: float, ccw: bool) -> None:
     line = Line((30, 0), (0, 0))
@@ -121,6 +122,7 @@ def test_a_fillet_touches_both_curves(opening: float, radius: float, round_radiu
     assert abs(made.sweep) < math.pi
 
 
+@settings(deadline=None)
 @given(st.floats(0.5, 4), st.floats(0.5, 12), st.floats(-6, 6), st.floats(0.3, 6), st.floats(0, 6))
 def test_a_fillet_may_hold_a_smaller_arc(small: float, radius: float, height: float, sweep: float, turn: float) -> None:
     line = Line((-30, height), (30, height))
@@ -144,6 +146,7 @@ def test_places_near_a_corner_stand_for_their_sides_of_it() -> None:
     assert cross[2].start == pytest.approx((0, 8), abs=1e-9) and cross[2].end == (0, 50)
 
 
+@settings(deadline=None)
 @given(st.floats(3, 20), st.floats(-14, 14), st.floats(1, 12), st.booleans())
 def test_a_fillet_of_a_line_and_a_circle_leaves_the_circle_whole(size: float, height: float, radius: float, circle_first: bool) -> None:
     line, circle = Line((-60, height), (60, height)), Circle((0, 0), size)

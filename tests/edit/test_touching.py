@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.edit.document import Document
@@ -28,6 +28,7 @@ def turns(curve: Spline, base: Point, square: bool) -> int:
     return int(np.count_nonzero(product[1:] * product[:-1] < 0))
 
 
+@settings(deadline=None)
 @given(POINT)
 def test_of_a_quarter_circle_the_places_are_those_of_the_arc(base: Point) -> None:
     away, arc = math.hypot(*base), Arc((10, 0), (0, 10), (0, 0))
@@ -40,6 +41,7 @@ def test_of_a_quarter_circle_the_places_are_those_of_the_arc(base: Point) -> Non
         assert square_points(QUARTER, base) == [pytest.approx(square, abs=1e-9)]
 
 
+@settings(deadline=None)
 @given(POINT)
 def test_no_place_of_a_spline_is_missed_and_each_lies_on_it(base: Point) -> None:
     for found, square in ((square_points(WAVE, base), True), (spline_tangents(WAVE, base), False)):
@@ -50,6 +52,7 @@ def test_no_place_of_a_spline_is_missed_and_each_lies_on_it(base: Point) -> None
         assert min(math.dist(nearest, p) for p in square_points(WAVE, base)) < 1e-6
 
 
+@settings(deadline=None)
 @given(POINT, st.floats(0, 6), st.floats(0.1, 1))
 def test_ways_stand_square_on_an_ellipse(base: Point, turn: float, ratio: float) -> None:
     curve = Ellipse((3.0, -2.0), (20 * math.cos(turn), 20 * math.sin(turn)), ratio)

@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from app.edit.document import Document
@@ -55,6 +55,7 @@ def numbers(curve: Curve) -> list[float]:
     return [*(c for p in curve.control_points for c in p), *curve.knots, *curve.weights]
 
 
+@settings(deadline=None)
 @given(st.lists(CURVE, min_size=1, max_size=6))
 def test_every_curve_comes_back(curves: list[Curve]) -> None:
     part = Part().with_curves(curves, "0")
@@ -67,6 +68,7 @@ def test_every_curve_comes_back(curves: list[Curve]) -> None:
             assert entity.curve == curve
 
 
+@settings(deadline=None)
 @given(POINT, POINT, SIZE, st.booleans(), st.booleans())
 def test_what_is_drawn_by_a_radius_comes_back_to_the_last_digit(
         start: tuple[float, float], end: tuple[float, float], radius: float, ccw: bool, large: bool) -> None:
