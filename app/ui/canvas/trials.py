@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 
 from app.edit.difference import Difference, difference
@@ -19,16 +20,28 @@ class Trial:
     reason: str = ""
 
 
-HEAVY = frozenset({"offset", "heal", "join", "measure", "explode", "fillet", "chamfer"})
-"""Commands that look at all their curves together and do not stop half-way: over many curves they would keep the window."""
+_NUMBERS_BEFORE = {"offset": 1, "heal": 1, "join": 0, "measure": 0, "explode": 0, "fillet": 1, "chamfer": 1}
+"""Commands that look at all their curves together and do not stop half-way, and how many numbers stand before those curves."""
 
-FEW_CURVES = 300
+_OPTIONS = re.compile(r"\b(?:and|within)\s+\S+|\bround\b")
+_FEW_CURVES = 300
 
 
 def keeps_the_window(line: str, document: Document) -> bool:
     """Tell whether a line may take longer than anybody would wait for with the mouse."""
-    curves = len(document.selection) or len(document.part.entities)
-    return curves > FEW_CURVES and command_word(line) in HEAVY
+    word = command_word(line)
+    return word in _NUMBERS_BEFORE and _concerned(word, line, document) > _FEW_CURVES
+
+
+def _concerned(word: str, line: str, document: Document) -> int:
+    """Return how many curves such a command looks at; where ranges or names tell, as many as there are."""
+    said = _OPTIONS.sub(" ", line).split()[1 + _NUMBERS_BEFORE[word]:]
+    curves = [each for each in said if "," not in each and "<" not in each]
+    if curves:
+        return len(curves) if all(each.isdigit() for each in curves) else len(document.part.entities)
+    if word == "heal":
+        return len(document.part.entities)
+    return 0 if word == "measure" and said else len(document.selection)
 
 
 class Trials:
