@@ -1,7 +1,8 @@
-"""Files appear whole or not at all, several together."""
+"""Files appear whole or not at all, several together; and are read whole, if they are files."""
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 import stat
@@ -12,6 +13,26 @@ from pathlib import Path
 from types import MappingProxyType
 
 from app.errors import InputError
+
+MOST_BYTES = 256 * 2**20
+"""A larger file is none that anybody means to open."""
+
+
+def read_whole(path: Path) -> bytes:
+    """Return a file's bytes.
+
+    Raises:
+        OSError: it cannot be read, is larger than `MOST_BYTES`, or is a pipe, which may wait for ever, or a device, which may
+            never end; its `strerror` goes on after "cannot be read: ".
+    """
+    status = path.stat()
+    if not stat.S_ISREG(status.st_mode) and not stat.S_ISDIR(status.st_mode):
+        raise OSError(errno.EINVAL, "it is a pipe or a device and no file; copy what it gives into one", str(path))
+    with path.open("rb") as file:
+        data = file.read(MOST_BYTES + 1)
+    if len(data) > MOST_BYTES:
+        raise OSError(errno.EFBIG, f"it is larger than {MOST_BYTES >> 20} MB; part it", str(path))
+    return data
 
 
 def write_atomically(path: Path, data: bytes, backup: Path | None = None) -> None:

@@ -9,11 +9,9 @@ import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from app.atomic import read_whole
 from app.errors import InputError
 from app.progress import Progress
-
-LARGEST_INPUT = 256 * 2**20
-"""Bytes; a larger file is refused before it is read."""
 
 
 def read_input(path: Path) -> bytes:
@@ -25,13 +23,11 @@ def read_input(path: Path) -> bytes:
     try:
         if path.is_dir():
             raise InputError(f"{path} is a folder; name a file in it")
-        if path.stat().st_size > LARGEST_INPUT:
-            raise InputError(f"{path} is larger than {LARGEST_INPUT // 2**20} MB; part it, or export less of the drawing")
-        data = path.read_bytes()
+        data = read_whole(path)
     except FileNotFoundError as error:
         raise InputError(f"{path} does not exist; check the name") from error
     except (OSError, ValueError) as error:
-        raise InputError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}; check name and permissions") from error
+        raise InputError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}; name another file") from error
     if not data:
         raise InputError(f"{path} is empty; export it again")
     return data

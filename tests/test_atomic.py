@@ -8,7 +8,9 @@ from pathlib import Path
 import pytest
 
 from app.atomic import write_together
+from app.cli import main
 from app.errors import InputError
+from app.files.project_files import load_project
 
 
 def content(folder: Path) -> dict[str, bytes]:
@@ -45,3 +47,14 @@ def test_where_a_later_file_cannot_take_its_place_the_earlier_ones_are_put_back(
     with pytest.raises(InputError, match="No space left on device"):
         write_together({tmp_path / name: b"new" for name in "anbc"})
     assert content(tmp_path) == {"a": b"old", "b": b"old"}
+
+
+@pytest.mark.parametrize("name", ["part.dxf", "part.svg", "part.draw", "part.hito", "part.png"])
+def test_a_pipe_or_a_device_is_refused_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
+    os.mkfifo(tmp_path / name)
+    assert main(["make", str(tmp_path / name), "-o", str(tmp_path / "out.ngc")]) == 2
+    assert "pipe or a device" in capsys.readouterr().err
+    (tmp_path / f"zero-{name}").symlink_to("/dev/zero")
+    assert main(["make", str(tmp_path / f"zero-{name}"), "-o", str(tmp_path / "out.ngc")]) == 2
+    with pytest.raises(InputError, match="pipe or a device"):
+        load_project(tmp_path / name)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections import defaultdict
 from collections.abc import Sequence
 
 import numpy as np
 
-from app.edit.sample import spline_points
-from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline, reversed_curve
-from app.tolerances import WELD
+from app.edit.chains import chained
+from app.edit.sample import derivative, spline_points
+from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 
 
 def enclosed_area(curves: Sequence[Curve]) -> float | None:
@@ -19,33 +18,11 @@ def enclosed_area(curves: Sequence[Curve]) -> float | None:
     Exact but for rational splines, which it does not measure (None). Ends that are nearer than the program welds meet;
     a contour that crosses itself counts what it goes round twice twice, and opposite ways against one another.
     """
-    loop = _loop(curves)
-    swept = [_swept(curve) for curve in loop] if loop else [None]
+    chains = chained(dict(enumerate(curves)))
+    if len(chains) != 1 or not chains[0].closed:
+        return None
+    swept = [_swept(curve) for curve in chains[0].curves]
     return None if None in swept else abs(sum(each for each in swept if each is not None))
-
-
-def _loop(curves: Sequence[Curve]) -> list[Curve]:
-    """Return the curves one after the other, each in the direction of travel; [] where they do not form one loop."""
-    ends = defaultdict[tuple[int, int], list[int]](list)
-    for number, curve in enumerate(curves):
-        for point in (curve.start, curve.end):
-            ends[_cell(point)].append(number)
-    if not curves or any(len(meeting) != 2 for meeting in ends.values()):
-        return []
-    loop, left, at = [curves[0]], {*range(1, len(curves))}, 0
-    while left:
-        there = _cell(loop[-1].end)
-        onward = next((number for number in ends[there] if number != at and number in left), None)
-        if onward is None:
-            return []
-        left.remove(onward)
-        at, curve = onward, curves[onward]
-        loop.append(curve if _cell(curve.start) == there else reversed_curve(curve))
-    return loop if _cell(loop[-1].end) == _cell(loop[0].start) else []
-
-
-def _cell(point: Point) -> tuple[int, int]:
-    return round(point[0] / WELD), round(point[1] / WELD)
 
 
 def _swept(curve: Curve) -> float | None:
@@ -72,14 +49,10 @@ def _of_spline(curve: Spline) -> float | None:
     """Integrate span by span with Gauss' points, as many as make a polynomial of the degree exact."""
     if curve.weights:
         return None
-    p, knots, control = curve.degree, np.asarray(curve.knots), np.asarray(curve.control_points)
-    width = knots[p + 1:-1] - knots[1:-p - 1]
-    steps = p * np.diff(control, axis=0) / np.where(width > 0, width, 1.0)[:, None]
-    slope = Spline(p - 1, tuple((float(x), float(y)) for x, y in steps), curve.knots[1:-1])
-    at, share = np.polynomial.legendre.leggauss(p)
-    spans = np.unique(knots)
+    at, share = np.polynomial.legendre.leggauss(curve.degree)
+    spans = np.unique(curve.knots)
     low, high = spans[:-1, None], spans[1:, None]
     u = (low + high) / 2 + (high - low) / 2 * at
-    points, slopes = spline_points(curve, u.ravel()), spline_points(slope, u.ravel())
+    points, slopes = spline_points(curve, u.ravel()), spline_points(derivative(curve), u.ravel())
     turning = (points[:, 0] * slopes[:, 1] - points[:, 1] * slopes[:, 0]).reshape(u.shape)
     return float((turning * share * (high - low) / 2).sum() / 2)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from app.edit import syntax as s
 from app.edit.errors import CommandError
-from app.edit.evaluate import number_of, point_of, value_of
+from app.edit.evaluate import length_of, number_of, point_of, value_of
 from app.edit.units import ANGLE_UNITS, LENGTH_UNITS
 from app.edit.values import Curves, Scope, kind_of, wrong
 from app.edit.words import number_text
@@ -94,7 +94,7 @@ class Arguments:
 
     def length(self, expected: str) -> float:
         """Read one length, mm."""
-        return number_of(self._next(expected), self._scope)
+        return float(length_of(self._next(expected), self._scope))
 
     def angle(self, expected: str) -> float:
         """Read one angle, degrees."""

@@ -10,7 +10,7 @@ from app.edit.syntax import Define
 from app.edit.transform import Similarity, transformed, transformed_note
 from app.edit.values import Scope, Value
 from app.errors import InputError
-from app.model.curves import Curve, Point, reversed_curve
+from app.model.curves import Curve, Point
 from app.model.part import Entity, Layer, Part
 
 
@@ -24,6 +24,7 @@ class Session:
         selection: ids that `delete` and `move` mean when none are written.
         names: what `let` and `as` have named. commands: what `define` has made.
         renamed: layers that have another name since (old, new), for whoever else calls them by it.
+        plain: what a length counts in that is written without a unit, mm.
     """
 
     part: Part = field(default_factory=Part)
@@ -33,11 +34,12 @@ class Session:
     names: Mapping[str, Value] = field(default_factory=dict)
     commands: Mapping[str, Define] = field(default_factory=dict)
     renamed: tuple[tuple[str, str], ...] = ()
+    plain: float = 1.0
 
     @property
     def scope(self) -> Scope:
         """What its expressions may refer to."""
-        return Scope(self.names, self.last, self.part)
+        return Scope(self.names, self.last, self.part, plain=self.plain)
 
     def with_part(self, part: Part) -> Session:
         """Return the session with another drawing; what has gone is no longer selected."""
@@ -164,29 +166,6 @@ class Rework:
 
 
 @dataclass(frozen=True, slots=True)
-class Reverse:
-    """Let curves run the other way."""
-
-    ids: frozenset[int]
-    name: str = "Reverse"
-
-    @property
-    def reply(self) -> str:
-        """A short sentence for the log."""
-        return f"{len(self.ids)} reversed."
-
-    def carried_out(self, session: Session) -> Session:
-        """Return the session with these entities reversed.
-
-        Raises:
-            InputError: an id that the part does not have.
-        """
-        check_ids(session.part, self.ids)
-        return replace(session, part=replace(session.part, entities=tuple(
-            replace(e, curve=reversed_curve(e.curve)) if e.id in self.ids else e for e in session.part.entities)))
-
-
-@dataclass(frozen=True, slots=True)
 class SetLayer:
     """Draw on a layer from now on, or put curves on it when ids are given; it is made when it is new."""
 
@@ -251,7 +230,7 @@ class Clear:
 
     def carried_out(self, session: Session) -> Session:
         """Return the session of an empty drawing of the same name and units."""
-        return Session(Part(units=session.part.units, name=session.part.name))
+        return Session(Part(units=session.part.units, name=session.part.name), plain=session.plain)
 
 
 @dataclass(frozen=True, slots=True)
@@ -264,7 +243,7 @@ class Redo:
     """Do again what was taken back."""
 
 
-Edit = Clear | Draw | Delete | Transform | Rework | Reverse | SetLayer | SetLook
+Edit = Clear | Draw | Delete | Transform | Rework | SetLayer | SetLook
 """Commands that change the drawing; each has a name, a reply and `carried_out(session) -> session`."""
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from enum import Flag, auto
 from pathlib import Path
 
-from app.edit.command import Session
+from app.edit.command import Session, counted
 from app.edit.errors import CommandError
 from app.edit.grammar import read_script
 from app.edit.history import History, State
@@ -292,7 +292,7 @@ class Document:
         self.revision += 1
         if not part_changed:
             return Change.HISTORY
-        kept = self.selection & self.part.ids()
+        kept = self.selection & self.part.ids() if self.selection else self.selection
         change = Change.PART | Change.HISTORY | (Change.SELECTION if kept != self.selection else Change(0))
         self.selection = kept
         return change
@@ -320,6 +320,23 @@ def tried(text: str, session: Session, progress: Progress = NO_PROGRESS) -> Sess
     return _evaluated(read_script(text), session, Interpreter(progress)).session
 
 
+def drawn(text: str, name: str = "script", progress: Progress = NO_PROGRESS) -> Part:
+    """Return the drawing that a text makes of an empty one; as `run_script`, but without a history that nobody will go back in.
+
+    Raises:
+        InputError: names the file, the line and the column of what failed. Cancelled: `progress` says so.
+    """
+    document = Document()
+    try:
+        statements = read_script(text)
+        if not any(_step_of((statement,)) for statement in statements):
+            return _evaluated(statements, document.session, Interpreter(progress)).session.part
+    except CommandError as error:
+        raise InputError(f"{name}:{error.line}: column {error.column}: {error.reason}") from error
+    document.run_script(text, name, progress)
+    return document.part
+
+
 def _statements(line: str) -> tuple[Statement, ...]:
     statements = read_script(line)
     if not statements:
@@ -335,7 +352,7 @@ def _evaluated(statements: tuple[Statement, ...], session: Session, interpreter:
     if alone:
         return outcome
     words, curves = f"{len(statements)} statements", len(outcome.session.part.entities)
-    return replace(outcome, name=words, reply=f"{words}; the drawing has {curves} curve{'s' * (curves != 1)}.")
+    return replace(outcome, name=words, reply=f"{words}; the drawing has {counted(curves, 'curve')}.")
 
 
 def _step_of(statements: tuple[Statement, ...]) -> tuple[bool, int] | None:

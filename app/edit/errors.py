@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.errors import InputError
+from app.errors import HitofudeError, InputError
 
 
 class CommandError(InputError):
@@ -19,3 +19,8 @@ class CommandError(InputError):
         self.reason = reason
         self.column = column
         self.line = line
+
+
+def reason_of(error: HitofudeError) -> str:
+    """Return what is wrong without its line and column, for whoever has typed none."""
+    return error.reason if isinstance(error, CommandError) else str(error)

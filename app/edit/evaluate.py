@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from app.edit import syntax as s
 from app.edit.functions import call
-from app.edit.units import ALL_UNITS, ANGLE_UNITS
-from app.edit.values import Curves, Scope, Value, kind_of, wrong
+from app.edit.units import ALL_UNITS, ANGLE_UNITS, LENGTH_UNITS
+from app.edit.values import Curves, Length, Scope, Value, kind_of, wrong
 from app.model.curves import Point
 
 _LARGEST = 1e7
@@ -24,6 +24,15 @@ def number_of(expression: s.Expression, scope: Scope) -> float:
     if not isinstance(value, float):
         raise wrong(f"This is {kind_of(value)}; a number such as 12.5 is wanted.", expression.place)
     return value
+
+
+def length_of(expression: s.Expression, scope: Scope) -> Length:
+    """Return the length that an expression states, mm; one without a unit counts in the unit of the scope.
+
+    Raises:
+        CommandError: it is none, or beyond 10 km.
+    """
+    return scope.length(number_of(expression, scope))
 
 
 def point_of(expression: s.Expression, scope: Scope) -> Point:
@@ -46,7 +55,7 @@ def value_of(expression: s.Expression, scope: Scope) -> Value:
     """
     match expression:
         case s.Quantity():
-            value: Value = expression.value * _unit(expression.unit, expression.place, scope)
+            value: Value = _with_unit(expression.value, expression.unit, expression.place, scope)
         case s.Name():
             value = _named(expression, scope)
         case s.Signed():
@@ -71,6 +80,11 @@ def _checked(value: Value, place: s.Place) -> Value:
     return value
 
 
+def _with_unit(value: float, unit: str, place: s.Place, scope: Scope) -> float:
+    value *= _unit(unit, place, scope)
+    return Length(value) if unit in LENGTH_UNITS else value
+
+
 def _unit(unit: str, place: s.Place, scope: Scope) -> float:
     units = ALL_UNITS if scope.units is None else scope.units
     if unit and unit not in units:
@@ -91,7 +105,12 @@ def _named(name: s.Name, scope: Scope) -> Value:
 def _signed(value: Value, place: s.Place) -> Value:
     if isinstance(value, Curves):
         raise wrong("A curve has no negative; a number or a point is wanted.", place)
-    return (-value[0], -value[1]) if isinstance(value, tuple) else -value
+    return (-value[0], -value[1]) if isinstance(value, tuple) else _like(value, -value)
+
+
+def _like(value: float, result: float) -> float:
+    """Return a result as a length where the value that it comes from is one."""
+    return Length(result) if isinstance(value, Length) else result
 
 
 def _grouped(group: s.Group, scope: Scope) -> Value:
@@ -101,17 +120,17 @@ def _grouped(group: s.Group, scope: Scope) -> Value:
             return value
         if not isinstance(value, float):
             raise wrong(f"A unit belongs to a number; this is {kind_of(value)}.", group.place)
-        return value * _unit(group.unit, group.place, scope)
+        return _with_unit(value, group.unit, group.place, scope)
     if group.unit:
         raise wrong("A unit belongs to a number; write it behind each of the two.", group.place)
-    return (number_of(group.items[0], scope), number_of(group.items[1], scope))
+    return (float(length_of(group.items[0], scope)), float(length_of(group.items[1], scope)))
 
 
 def _point(written: s.Coordinates, scope: Scope) -> Point:
-    first = number_of(written.first, scope)
+    first = float(length_of(written.first, scope))
     polar = written.frame in (s.Frame.POLAR, s.Frame.POLAR_FROM_LAST)
     units = ANGLE_UNITS if polar and scope.units is not None else scope.units
-    second = number_of(written.second, replace(scope, units=units))
+    second = float((number_of if polar else length_of)(written.second, replace(scope, units=units)))
     if polar:
         turn = math.radians(second)
         first, second = first * math.cos(turn), first * math.sin(turn)
@@ -126,7 +145,7 @@ def _chained(chain: s.Chain, scope: Scope) -> Value:
     for operator, operand in zip(chain.operators, chain.operands[1:], strict=True):
         if operator == "/" and _is_plain(before) and isinstance(operand, s.Quantity) and operand.unit and isinstance(value, float):
             size = number_of(operand, scope)  # 1/4in is a quarter of an inch, as on a drill's box
-            value = _quotient(value, operand.value, operand.place) * (size / operand.value)
+            value = _like(size, _quotient(value, operand.value, operand.place) * (size / operand.value))
         elif operator == "/":
             value = _divided(value, operand, scope)
         else:
@@ -153,7 +172,8 @@ def _divided(value: Value, operand: s.Expression, scope: Scope) -> Value:
         raise wrong("A curve cannot be divided; a number or a point is wanted.", operand.place)
     if isinstance(value, tuple):
         return (_quotient(value[0], divisor, operand.place), _quotient(value[1], divisor, operand.place))
-    return _quotient(value, divisor, operand.place)
+    quotient = _quotient(value, divisor, operand.place)
+    return quotient if isinstance(divisor, Length) else _like(value, quotient)
 
 
 def _joined(operator: str, a: Value, operand: s.Expression, scope: Scope) -> Value:
@@ -166,7 +186,11 @@ def _joined(operator: str, a: Value, operand: s.Expression, scope: Scope) -> Val
         case "+" | "-", (x, y), (u, v):
             return (x + u, y + v) if operator == "+" else (x - u, y - v)
         case _, float(), float():
-            return _calculated(operator, a, b, operand.place)
+            if not isinstance(a, Length) and not isinstance(b, Length):
+                return _calculated(operator, a, b, operand.place)
+            if operator in "+-":
+                a, b = scope.length(a), scope.length(b)
+            return Length(_calculated(operator, a, b, operand.place))
     raise wrong(f"'{operator}' does not go between {kind_of(a)} and {kind_of(b)}.", operand.place)
 
 

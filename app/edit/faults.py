@@ -170,7 +170,7 @@ def along(line: Line, way: float) -> Point:
 def _of_rounds(rounds: Mapping[int, Arc | Circle], tolerance: float) -> list[Fault]:
     numbers, found = sorted(rounds), list[Fault]()
     for a, b in _pairs([(*rounds[n].centre, rounds[n].radius) for n in numbers], tolerance):
-        long, short = sorted((numbers[a], numbers[b]), key=lambda n: -_turn(rounds[n])[1])
+        long, short = sorted((numbers[a], numbers[b]), key=lambda n: -turn_of(rounds[n])[1])
         both = common_turn(rounds[long], rounds[short])
         if both is None:
             continue
@@ -183,7 +183,7 @@ def _of_rounds(rounds: Mapping[int, Arc | Circle], tolerance: float) -> list[Fau
     return found
 
 
-def _turn(curve: Arc | Circle) -> tuple[float, float]:
+def turn_of(curve: Arc | Circle) -> tuple[float, float]:
     """Return where an arc begins counter-clockwise, and how far it goes, radians."""
     if isinstance(curve, Circle):
         return 0.0, math.tau
@@ -192,7 +192,7 @@ def _turn(curve: Arc | Circle) -> tuple[float, float]:
 
 def common_turn(a: Arc | Circle, b: Arc | Circle) -> tuple[float, float] | None:
     """Return the longest stretch of angles that two arcs of one circle share: its beginning, and how far it goes, radians."""
-    (first, turn), (other, there) = _turn(a), _turn(b)
+    (first, turn), (other, there) = turn_of(a), turn_of(b)
     ahead = (other - first) % math.tau
     best = (ahead, min(there, turn - ahead)) if ahead < turn else (0.0, 0.0)
     behind = ahead + there - math.tau

@@ -16,18 +16,19 @@ from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedTok
 
 from app.edit import syntax as s
 from app.edit.errors import CommandError
-from app.edit.units import ALL_UNITS
+from app.edit.units import ALL_UNITS, LENGTH_UNITS
 
 _GRAMMAR = r"""
 script: block
 block: (_END_OF_LINE | statement _END_OF_LINE)*
-?statement: let | repeat | choose | define | command
+?statement: let | repeat | choose | units | define | command
 
 let: LET NAME "=" value
 repeat: REPEAT sum (_AS NAME)? _END_OF_LINE block _END
 choose: IF sum comparison sum _END_OF_LINE block otherwise* (_ELSE _END_OF_LINE block)? _END
 otherwise: _ELSE IF sum comparison sum _END_OF_LINE block
 !comparison: "<" | ">" | "<=" | ">=" | "==" | "!="
+units: UNITS (UNIT | NAME) _END_OF_LINE block _END
 define: DEFINE NAME "(" (NAME ("," NAME)*)? ")" _END_OF_LINE block _END
 command: NAME (_BLANK (text | value))* (_BLANK label)?
 label: _AS _BLANK NAME
@@ -58,11 +59,12 @@ LET: "let"
 REPEAT: "repeat"
 IF: "if"
 DEFINE: "define"
+UNITS: "units"
 _ELSE: "else"
 _END: "end"
 _AS: "as"
 NUMBER: /(\d+\.?\d*|\.\d+)([eE][+-]?\d+(?!\w))?/
-UNIT.2: /(UNITS)(?!\w)|["°]/
+UNIT.2: /(EVERY)(?!\w)|["°]/
 NAME: /[^\W\d]\w*/
 TEXT: /"[^"\n]*"/
 _BLANK: /([ \t\u00a0]|\\\r?\n)+(?![ \t\u00a0\r\n;#\\])/
@@ -77,8 +79,8 @@ _DEEPEST = 40
 _MOST_TERMS = 1000
 _OPERATORS = frozenset({"PLUS", "MINUS", "TIMES", "OVER"})
 _LONGEST = 20_000_000
-_LOOSE = frozenset({"LET", "REPEAT", "IF", "DEFINE", "_ELSE"})
-_OPENING = frozenset({"REPEAT", "IF", "DEFINE"})
+_LOOSE = frozenset({"LET", "REPEAT", "IF", "DEFINE", "UNITS", "_ELSE"})
+_OPENING = frozenset({"REPEAT", "IF", "DEFINE", "UNITS"})
 _VALUE_ENDS = frozenset({"NUMBER", "UNIT", "NAME", "RPAR", "TEXT"})
 _VALUE_BEFORE = "let x="
 
@@ -118,7 +120,7 @@ class _Blanks:
 @cache
 def _parser() -> Lark:
     units = "|".join(sorted((u for u in ALL_UNITS if u.isalpha()), key=len, reverse=True))
-    return Lark(_GRAMMAR.replace("UNITS", units), start="script", parser="lalr", postlex=_Blanks(), propagate_positions=True)
+    return Lark(_GRAMMAR.replace("EVERY", units), start="script", parser="lalr", postlex=_Blanks(), propagate_positions=True)
 
 
 def read_script(text: str) -> tuple[s.Statement, ...]:
@@ -210,6 +212,12 @@ class _Builder(Transformer[Token, Any]):
 
     def otherwise(self, meta: Any, parts: list[Any]) -> s.Choose:
         return s.Choose(parts[1], parts[2], parts[3], parts[4], (), self._place(meta))
+
+    def units(self, meta: Any, parts: list[Any]) -> s.Units:
+        unit = self._named(parts[1])
+        if unit.text not in LENGTH_UNITS:
+            raise _error(f"'{unit.text}' is no unit of length; use one of {', '.join(LENGTH_UNITS)}.", parts[1])
+        return s.Units(unit, parts[2], self._place(meta))
 
     def comparison(self, meta: Any, parts: list[Any]) -> str:
         return str(parts[0])

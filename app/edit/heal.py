@@ -1,25 +1,30 @@
-"""The command `heal`: tiny curves and duplicates go, overlaps are cut, gaps are closed; no point moves farther than a tolerance."""
+"""The command `heal`: tiny curves and duplicates go, what overlaps becomes one, gaps are closed.
+
+No point moves farther than a tolerance.
+"""
 
 from __future__ import annotations
 
 import math
-from collections import Counter
+from collections import Counter, defaultdict
 from dataclasses import dataclass, field, replace
 
 from app.edit.arguments import Arguments
 from app.edit.command import Session, check_ids
-from app.edit.faults import FaultKind, apart, common_turn, duplicates, meetings, overlaps, point_of, tiny
+from app.edit.faults import Fault, FaultKind, apart, common_turn, duplicates, meetings, overlaps, point_of, tiny
+from app.edit.join import brought_to
+from app.edit.merging import merged
 from app.edit.properties import properties_of, with_property
 from app.edit.select import reachable
 from app.errors import InputError
-from app.model.curves import Arc, Circle, Curve, Line, Point
+from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from app.tolerances import WELD
 
 _LARGEST = 10.0
 _ROUNDS = 4
 _WORDS = {
     FaultKind.TINY: ("tiny curve removed", "tiny curves removed"), FaultKind.DUPLICATE: ("duplicate removed", "duplicates removed"),
-    FaultKind.OVERLAP: ("overlap cut", "overlaps cut"), FaultKind.GAP: ("gap closed", "gaps closed"),
+    FaultKind.OVERLAP: ("overlap removed", "overlaps removed"), FaultKind.GAP: ("gap closed", "gaps closed"),
 }
 
 
@@ -57,8 +62,10 @@ class Heal:
 class _Work:
     curves: dict[int, Curve]
     drawn: dict[int, Curve]
+    layers: dict[int, str]
     tolerance: float
     counts: Counter[FaultKind] = field(default_factory=Counter)
+    ends: dict[int, list[Point]] = field(default_factory=dict)
 
     def once(self) -> None:
         """Put right what is wrong now; closing a gap may bring up another fault."""
@@ -66,11 +73,39 @@ class _Work:
             for fault in look(self.curves, self.tolerance):
                 del self.curves[fault.ids[-1]]
                 self.counts[kind] += 1
-        for fault in overlaps(self.curves, self.tolerance):
-            if all(number in self.curves for number in fault.ids):
-                self.counts[FaultKind.OVERLAP] += self._cut(*fault.ids)
+        self._part(overlaps(self.curves, self.tolerance))
         for meeting in meetings(self.curves, self.tolerance):
             self.counts[FaultKind.GAP] += self._close(meeting)
+
+    def _part(self, faults: list[Fault]) -> None:
+        """Make one of two that overlap, or cut one of them where that cannot be."""
+        into, taken = dict[int, int](), _Ends(self.curves, self.tolerance) if faults else None
+        for fault in faults:
+            long, short = (_followed(into, number) for number in fault.ids)
+            if long == short or taken is None or long not in self.curves or short not in self.curves:
+                continue
+            if self._merge(long, short, taken):
+                into[short] = long
+                self.counts[FaultKind.OVERLAP] += 1
+            elif (long, short) == fault.ids:
+                self.counts[FaultKind.OVERLAP] += self._cut(long, short)
+
+    def _merge(self, long: int, short: int, taken: _Ends) -> bool:
+        """Put one curve in the place of two of a layer, unless another curve ends where an end of theirs would be no more."""
+        stays, goes = self.curves[long], self.curves[short]
+        if self.layers[long] != self.layers[short] or isinstance(stays, Ellipse | Spline) or isinstance(goes, Ellipse | Spline):
+            return False
+        ends = [p for number in (long, short) for p in self.ends.get(number, (self.curves[number].start, self.curves[number].end))]
+        made = merged(stays, goes, ends, self.tolerance)
+        if made is None:
+            return False
+        within = [p for p in ends if min(math.dist(p, made.start), math.dist(p, made.end)) > WELD]
+        if any(taken.by_others(point, {long, short}) for point in within):
+            return False
+        self.curves[long] = self.drawn[long] = made
+        self.ends[long] = ends
+        del self.curves[short]
+        return True
 
     def _cut(self, long: int, short: int) -> bool:
         """Cut the shorter of two that overlap down to what the longer one leaves of it; return whether anything changed."""
@@ -94,11 +129,7 @@ class _Work:
         fixed = {point for point, (number, _) in zip(points, meeting, strict=True) if "end" not in properties_of(self.curves[number])}
         middle = (sum(p[0] for p in points) / len(points), sum(p[1] for p in points) / len(points))
         to = next(iter(fixed), middle)
-        moved = {number: self._with_end(number, last, to) for number, last in meeting}
-        if len(fixed) > 1 or any(curve is None for curve in moved.values()):
-            return False
-        self.curves.update({number: curve for number, curve in moved.items() if curve is not None})
-        return any(math.dist(points[0], point) > WELD for point in points)
+        return len(fixed) <= 1 and brought_to(to, self.curves, meeting, self._with_end)
 
     def _with_end(self, number: int, last: bool, to: Point) -> Curve | None:
         """Return a curve with an end elsewhere; None where that would take it farther from where it was drawn than the tolerance."""
@@ -110,6 +141,33 @@ class _Work:
         except InputError:
             return None
         return made if apart(self.drawn[number], made) <= self.tolerance else None
+
+
+class _Ends:
+    """Where curves end."""
+
+    def __init__(self, curves: dict[int, Curve], tolerance: float) -> None:
+        self._size = tolerance
+        self._at = defaultdict[tuple[int, int], list[tuple[Point, int]]](list)
+        for number, curve in curves.items():
+            for point in (curve.start, curve.end):
+                self._at[self._cell(point)].append((point, number))
+
+    def _cell(self, point: Point) -> tuple[int, int]:
+        return math.floor(point[0] / self._size), math.floor(point[1] / self._size)
+
+    def by_others(self, point: Point, these: set[int]) -> bool:
+        """Return whether a curve that is none of these ends within the tolerance of a point."""
+        i, j = self._cell(point)
+        near = (pair for x in (i - 1, i, i + 1) for y in (j - 1, j, j + 1) for pair in self._at.get((x, y), ()))
+        return any(number not in these and math.dist(other, point) <= self._size for other, number in near)
+
+
+def _followed(into: dict[int, int], number: int) -> int:
+    """Return the curve that one has become part of, or itself."""
+    while number in into:
+        number = into[number]
+    return number
 
 
 def _line_left(stays: Line, goes: Line, tolerance: float) -> Line | None:
@@ -155,7 +213,7 @@ def heal(words: Arguments, session: Session) -> Heal:
     ids = frozenset(words.ids())
     check_ids(session.part, ids)
     before = {e.id: e.curve for e in reachable(session.part) if not ids or e.id in ids}
-    work = _Work(dict(before), dict(before), tolerance)
+    work = _Work(dict(before), dict(before), {e.id: e.layer for e in session.part.entities}, tolerance)
     for _ in range(_ROUNDS):
         was = dict(work.curves)
         work.once()

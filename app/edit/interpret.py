@@ -7,12 +7,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from app.edit import syntax as s
-from app.edit.command import Redo, Session, Undo
+from app.edit.command import Redo, Session, Undo, counted
 from app.edit.errors import CommandError
 from app.edit.evaluate import number_of, value_of
 from app.edit.language import COMMANDS, read
 from app.edit.select import Select
-from app.edit.values import Curves, Value, wrong
+from app.edit.units import LENGTH_UNITS
+from app.edit.values import Curves, Length, Value, wrong
 from app.edit.words import number_text, point_text
 from app.errors import InputError
 from app.progress import NO_PROGRESS, Progress
@@ -91,6 +92,8 @@ class Interpreter:
                 while not (holds := _holds(statement, session)) and len(statement.other) == 1 and isinstance(statement.other[0], s.Choose):
                     statement = statement.other[0]
                 return Outcome(self._all(statement.body if holds else statement.other, session), "If", "Yes." if holds else "No.")
+            case s.Units():
+                return self._in_units(statement, session)
             case s.Define():
                 _check_name(statement.name)
                 commands = {**session.commands, statement.name.text.lower(): statement}
@@ -114,7 +117,7 @@ class Interpreter:
     def _call(self, own: s.Define, written: s.Command, session: Session) -> Outcome:
         if len(written.arguments) != len(own.parameters):
             shown = " ".join(word.text for word in (own.name, *own.parameters))
-            raise wrong(f"'{own.name.text}' takes {len(own.parameters)} values; write {shown}.", written.place)
+            raise wrong(f"'{own.name.text}' takes {counted(len(own.parameters), 'value')}; write {shown}.", written.place)
         values = {p.text: value_of(a, session.scope) for p, a in zip(own.parameters, written.arguments, strict=True)}
         self._depth += 1
         if self._depth > _DEEPEST_CALL:
@@ -123,8 +126,7 @@ class Interpreter:
         self._depth -= 1
         after = replace(inner, names=session.names)
         drawn = len(after.part.entities) - len(session.part.entities)
-        reply = "1 curve." if drawn == 1 else f"{drawn} curves."
-        return Outcome(_labelled(written, session, after), own.name.text.capitalize(), reply)
+        return Outcome(_labelled(written, session, after), own.name.text.capitalize(), f"{counted(drawn, 'curve')}.")
 
     def _repeat(self, written: s.Repeat, session: Session) -> Outcome:
         times = number_of(written.times, session.scope)
@@ -139,7 +141,16 @@ class Interpreter:
         if written.index:
             names = {name: value for name, value in session.names.items() if name != written.index.text}
             session = replace(session, names=names if outside is None else {**names, written.index.text: outside})
-        return Outcome(session, "Repeat", f"{int(times)} times.")
+        return Outcome(session, "Repeat", f"{counted(int(times), 'time')}.")
+
+    def _in_units(self, written: s.Units, session: Session) -> Outcome:
+        inside = replace(session, plain=LENGTH_UNITS[written.unit.text])
+        outcome = Outcome(inside, "Units", "Nothing to do.")
+        for number, statement in enumerate(written.body):
+            outcome = self.carry_out(statement, outcome.session)
+            if number:
+                outcome = replace(outcome, name=f"{number + 1} statements", reply=f"{number + 1} statements.")
+        return replace(outcome, session=replace(outcome.session, plain=session.plain))
 
     def _all(self, statements: Sequence[s.Statement], session: Session) -> Session:
         for statement in statements:
@@ -156,6 +167,8 @@ def value_text(value: Value) -> str:
 
 def _holds(statement: s.Choose, session: Session) -> bool:
     left, right = number_of(statement.left, session.scope), number_of(statement.right, session.scope)
+    if isinstance(left, Length) or isinstance(right, Length):
+        left, right = session.scope.length(left), session.scope.length(right)
     return _COMPARISONS[statement.comparison](left, right)
 
 
@@ -177,8 +190,8 @@ def _check_name(name: s.Name) -> None:
 
 
 RESERVED = frozenset({
-    "add", "all", "and", "arc", "as", "by", "ccw", "center", "centre", "close", "copy", "crossing", "cw", "define", "degree",
-    "diameter", "else", "end", "font", "from", "if", "knots", "large", "let", "none", "on", "over", "pi", "polar", "radius", "remove",
-    "repeat", "round", "side", "through", "times", "to", "weights", "window", "within",
+    "add", "after", "all", "and", "arc", "as", "before", "by", "ccw", "center", "centre", "close", "copy", "crossing", "cw", "define",
+    "degree", "diameter", "else", "end", "font", "from", "if", "knots", "large", "let", "none", "on", "over", "pi", "polar", "radius",
+    "remove", "repeat", "round", "side", "through", "times", "to", "units", "weights", "window", "within",
 })
 """Words that commands look for among their arguments."""

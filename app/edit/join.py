@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from app.edit.arguments import Arguments
 from app.edit.chains import Chain, chained
 from app.edit.chosen import chosen_curves
 from app.edit.command import Rework, Session, counted
-from app.edit.faults import meetings, point_of
+from app.edit.faults import End, meetings, point_of
 from app.edit.meet import meets
 from app.edit.properties import properties_of, with_property
 from app.errors import InputError
@@ -51,11 +51,22 @@ def gaps_closed(drawn: Mapping[int, Curve], within: float) -> tuple[dict[int, Cu
     for meeting in meetings(curves, within):
         points = [point_of(curves[number], last) for number, last in meeting]
         to = _meeting_point([curves[number] for number, _ in meeting], points, within)
-        moved = {number: _with_end(curves[number], last, to) for number, last in meeting}
-        if all(curve is not None for curve in moved.values()):
-            gaps += any(math.dist(points[0], point) > WELD for point in points)
-            curves.update({number: curve for number, curve in moved.items() if curve is not None})
+        gaps += brought_to(to, curves, meeting, lambda number, last, to: _with_end(curves[number], last, to))
     return curves, gaps
+
+
+def brought_to(to: Point, curves: dict[int, Curve], meeting: list[End], with_end: Callable[[int, bool, Point], Curve | None]) -> bool:
+    """Move ends to a point, in place, where all of them can be; return whether they were apart and are no more.
+
+    Args:
+        with_end: returns a curve with its last point, or first one, elsewhere; None where that cannot be.
+    """
+    points = [point_of(curves[number], last) for number, last in meeting]
+    moved = {number: curve for number, last in meeting if (curve := with_end(number, last, to)) is not None}
+    if len(moved) < len(meeting):
+        return False
+    curves.update(moved)
+    return any(math.dist(points[0], point) > WELD for point in points)
 
 
 def _meeting_point(curves: list[Curve], points: list[Point], within: float) -> Point:

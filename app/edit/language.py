@@ -21,7 +21,7 @@
     pull [CURVES] P to P      (an end, middle, centre, quadrant, control point, and what hangs on it)
     hide NAME     show NAME     lock NAME     unlock NAME     colour NAME "#rrggbb" | none     (of layers)
     set [CURVES] start P     also: end, middle, centre, place P; length, radius, diameter, major, minor; angle, sweep; layer NAME
-    rename layer NAME to NAME     remove layer NAME     heal tolerance [CURVES]
+    rename layer NAME to NAME     order layer NAME before|after NAME     remove layer NAME     heal tolerance [CURVES]
     move @dx,dy [CURVES]     copy @dx,dy [times n] [CURVES]
     rotate P angle [copy] [CURVES]     scale P factor [copy] [CURVES]     mirror P P [copy] [CURVES]
     array n n @dx,dy [CURVES]     array polar P n [over angle] [CURVES]
@@ -43,6 +43,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.edit import layers, syntax
+from app.edit import read_corners as corners
 from app.edit import read_draw as draw
 from app.edit import read_edit as edit
 from app.edit import read_notes as notes
@@ -58,8 +59,9 @@ from app.edit.read_set import SetProperty, set_property
 from app.edit.read_text import text
 from app.edit.select import Select
 from app.edit.values import wrong
+from app.edit.words import nearest_words
 
-Command = Pull | Edit | notes.DrawNote | SetProperty | Heal | Measure | layers.RenameLayer | layers.RemoveLayer | Select | Undo | Redo
+Command = Pull | Edit | notes.DrawNote | SetProperty | Heal | Measure | layers.LayerCommand | Select | Undo | Redo
 
 ALIASES = {
     "li": "line", "l": "line", "pl": "polyline", "ar": "arc", "a": "arc", "ci": "circle", "c": "circle", "re": "rect",
@@ -86,7 +88,8 @@ def read(written: syntax.Command, session: Session) -> Command:
     word = written.word.text.lower()
     reader = _READERS.get(ALIASES.get(word, word))
     if reader is None:
-        raise wrong(f"'{word}' is no command; use {', '.join(_READERS)}.", written.place)
+        near = nearest_words(word, (*_READERS, *session.commands))
+        raise wrong(f"'{word}' is no command; {f'try {near}.' if near else 'F1 lists them all.'}", written.place)
     words = Arguments(written, session.scope)
     command = reader(words, session)
     words.end()
@@ -100,9 +103,9 @@ _READERS: dict[str, Callable[[Arguments, Session], Command]] = {
     "select": edit.select, "delete": edit.delete, "move": edit.move, "copy": edit.copy, "rotate": edit.rotate, "scale": edit.scale,
     "mirror": edit.mirror, "array": edit.array, "reverse": edit.reverse, "layer": edit.layer,
     "hide": edit.hide, "show": edit.show, "lock": edit.lock, "unlock": edit.unlock, "colour": edit.colour,
-    "trim": rework.trim, "extend": rework.extend, "break": rework.break_at, "fillet": rework.fillet_of, "chamfer": rework.chamfer_of,
+    "trim": rework.trim, "extend": rework.extend, "break": rework.break_at, "fillet": corners.fillet_of, "chamfer": corners.chamfer_of,
     "offset": rework.offset, "join": join, "explode": explode, "measure": measure,
-    "pull": pull, "set": set_property, "rename": layers.rename, "remove": layers.remove, "heal": heal,
+    "pull": pull, "set": set_property, "rename": layers.rename, "order": layers.order, "remove": layers.remove, "heal": heal,
     "clear": lambda words, session: Clear(), "undo": lambda words, session: Undo(), "redo": lambda words, session: Redo(),
 }
 

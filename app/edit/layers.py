@@ -1,11 +1,11 @@
-"""The commands that rename and remove layers."""
+"""The commands that rename, order and remove layers."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
 from app.edit.arguments import Arguments
-from app.edit.command import Session
+from app.edit.command import Session, counted
 from app.errors import InputError
 from app.model.job import Job
 from app.model.part import Layer, Part
@@ -68,6 +68,38 @@ class RemoveLayer:
         return replace(session, layer=current).with_part(left)
 
 
+@dataclass(frozen=True, slots=True)
+class OrderLayer:
+    """Put a layer right before another, or right behind it."""
+
+    layer: str
+    beside: str
+    behind: bool
+    name: str = "Order layers"
+
+    @property
+    def reply(self) -> str:
+        """A short sentence for the log."""
+        return f"Layer {self.layer} comes {'after' if self.behind else 'before'} {self.beside} now."
+
+    def carried_out(self, session: Session) -> Session:
+        """Return the session with the layers in another order; what is on them stays as it is.
+
+        Raises:
+            InputError: there is no such layer, or both are one.
+        """
+        part = session.part
+        moved, beside = check_layer(part, self.layer), check_layer(part, self.beside)
+        if moved is beside:
+            raise InputError(f"A layer comes before or after another one; {self.layer} is named twice.")
+        layers = [layer for layer in part.layers if layer is not moved]
+        layers.insert(layers.index(beside) + self.behind, moved)
+        return replace(session, part=replace(part, layers=tuple(layers)))
+
+
+LayerCommand = RenameLayer | OrderLayer | RemoveLayer
+
+
 def check_layer(part: Part, name: str) -> Layer:
     """Return a layer of the part by its name.
 
@@ -93,13 +125,27 @@ def rename(words: Arguments, session: Session) -> RenameLayer:
     return RenameLayer(old, new)
 
 
+def order(words: Arguments, session: Session) -> OrderLayer:
+    """Put a layer before or after another."""
+    usage = "Write order layer NAME before NAME, or after NAME."
+    if not words.accept("layer"):
+        raise words.wrong(usage)
+    layer = words.name("the name of a layer")
+    way = words.accept("before", "after")
+    if not way:
+        raise words.wrong(usage)
+    return OrderLayer(layer, words.name("the name of another layer"), way == "after")
+
+
 def remove(words: Arguments, session: Session) -> RemoveLayer:
     """Take a layer away, with all that is on it."""
     if not words.accept("layer"):
         raise words.wrong("Write remove layer NAME; curves are taken away with delete.")
     name = words.name("the name of a layer")
-    on_it = sum(e.layer == name for e in session.part.entities)
-    return RemoveLayer(name, f"Layer {name} removed, with {on_it} {'curve' if on_it == 1 else 'curves'} on it.")
+    curves = sum(e.layer == name for e in session.part.entities)
+    notes = sum(n.layer == name for n in session.part.notes)
+    on_it = counted(curves, "curve") + (f" and {counted(notes, 'note')}" if notes else "")
+    return RemoveLayer(name, f"Layer {name} removed, with {on_it} on it.")
 
 
 def with_layer_renamed(job: Job, old: str, new: str) -> Job:

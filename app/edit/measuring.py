@@ -12,7 +12,7 @@ from app.edit.area import enclosed_area
 from app.edit.arguments import Arguments
 from app.edit.chains import Chain, chained
 from app.edit.chosen import chosen_curves
-from app.edit.command import Session
+from app.edit.command import Session, counted
 from app.edit.explode import simple
 from app.edit.sample import Box, bounds, spline_points, union
 from app.edit.shapes import curve_length
@@ -132,7 +132,7 @@ def _between(a: Point, b: Point) -> str:
 
 
 def _told(curves: Mapping[int, Curve], found: Measures) -> str:
-    words = [f"{len(curves)} curve{'s' * (len(curves) != 1)}: length {found.length:.3f} mm"]
+    words = [f"{counted(len(curves), 'curve')}: length {found.length:.3f} mm"]
     if len(curves) == 1 and isinstance(curve := next(iter(curves.values())), Arc | Circle):
         words.append(f"radius {curve.radius:.3f}")
     if found.centroid is not None:

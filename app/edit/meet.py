@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.edit.sample import Box, Points, spline_points
+from app.edit.touching import spline_tangents
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 
 _ON = 1e-9
@@ -68,7 +69,7 @@ def foot(curve: Curve, point: Point) -> Point:
 
 
 def tangent_points(curve: Curve, point: Point) -> list[Point]:
-    """Return the points of an arc, circle or ellipse where a line from a point outside touches it, mm."""
+    """Return the points of an arc, circle, ellipse or spline where a line from a point outside touches it, mm."""
     if isinstance(curve, Arc | Circle):
         (x, y), r = curve.centre, curve.radius
         away = math.dist(point, curve.centre)
@@ -79,7 +80,7 @@ def tangent_points(curve: Curve, point: Point) -> list[Point]:
         return [p for p in both if has(curve, p)]
     if isinstance(curve, Ellipse):
         return _ellipse_tangents(curve, point)
-    return []
+    return spline_tangents(curve, point) if isinstance(curve, Spline) else []
 
 
 def _simple(curve: Curve) -> bool:

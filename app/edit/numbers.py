@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from app.edit.evaluate import number_of
+from app.edit.evaluate import length_of, number_of
 from app.edit.grammar import read_value
 from app.edit.units import ANGLE_UNITS, LENGTH_UNITS
 from app.edit.values import Scope
 
 
-def length(text: str) -> float:
+def length(text: str, plain: float = 1.0) -> float:
     """Return the length that a text such as `12.5`, `1in + 8mm`, `1/4in` or `(3+4)*2` states, mm.
 
-    A number without a unit counts in mm; a unit right after a fraction of plain numbers belongs to the fraction.
+    A number without a unit counts in `plain` mm; a unit right after a fraction of plain numbers belongs to the fraction.
 
     Raises:
         CommandError: not a number, an unknown unit, a division by zero, or beyond 10 km.
     """
-    return number_of(read_value(text), Scope(units=LENGTH_UNITS))
+    return float(length_of(read_value(text), Scope(units=LENGTH_UNITS, plain=plain)))
 
 
 def angle(text: str) -> float:

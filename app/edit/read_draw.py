@@ -6,7 +6,7 @@ import itertools
 import math
 
 from app.edit.arguments import Arguments
-from app.edit.command import Draw, Session
+from app.edit.command import Draw, Session, counted
 from app.edit.shapes import (
     arc_about,
     arc_along,
@@ -55,7 +55,7 @@ def polyline(words: Arguments, session: Session) -> Draw:
     if not curves:
         raise words.wrong("A polyline needs two points or more; write polyline x,y x,y.")
     total = sum(map(curve_length, curves))
-    return Draw("Polyline", tuple(curves), f"{len(curves)} segments, {total:.3f} mm", curves[-1].end)
+    return Draw("Polyline", tuple(curves), f"{counted(len(curves), 'segment')}, {total:.3f} mm", curves[-1].end)
 
 
 def arc(words: Arguments, session: Session) -> Draw:

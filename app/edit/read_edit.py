@@ -5,12 +5,15 @@ from __future__ import annotations
 import re
 
 from app.edit.arguments import Arguments
-from app.edit.command import Delete, Reverse, Session, SetLayer, SetLook, Transform
+from app.edit.chains import chained
+from app.edit.chosen import chosen_curves
+from app.edit.command import Delete, Rework, Session, SetLayer, SetLook, Transform
 from app.edit.read_draw import box
 from app.edit.select import By, How, Select
 from app.edit.transform import Similarity, mirroring, scaling, shift, turn
 from app.edit.values import wrong
 from app.errors import InputError
+from app.model.curves import reversed_curve
 
 MOST_COPIES = 10_000
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
@@ -83,9 +86,13 @@ def array(words: Arguments, session: Session) -> Transform:
     return Transform(_chosen(words, session, "repeat"), maps, "Array", keep=True)
 
 
-def reverse(words: Arguments, session: Session) -> Reverse:
-    """Let curves run the other way."""
-    return Reverse(_chosen(words, session, "reverse"))
+def reverse(words: Arguments, session: Session) -> Rework:
+    """Let curves run the other way; those that join end to end all against the way of the first of them."""
+    curves = chosen_curves(words, session, "reverse")
+    turned = {number: reversed_curve(curve) for chain in chained(curves) for number, curve in zip(chain.numbers, chain.curves, strict=True)}
+    pieces = {number: (curve,) for number, curve in turned.items() if curve != curves[number]}
+    already = len(curves) - len(pieces)
+    return Rework(pieces, "Reverse", f"{len(pieces)} reversed" + (f", {already} ran that way." if already else "."))
 
 
 def layer(words: Arguments, session: Session) -> SetLayer:

@@ -47,6 +47,14 @@ def spline_points(spline: Spline, parameters: Points) -> Points:
     return np.asarray(d[:, p, :2] / d[:, p, 2:])
 
 
+def derivative(spline: Spline) -> Spline:
+    """Return the derivative of a polynomial spline by its parameter, as a spline of a degree less."""
+    p, knots, control = spline.degree, np.asarray(spline.knots), np.asarray(spline.control_points)
+    width = knots[p + 1:-1] - knots[1:-p - 1]
+    steps = p * np.diff(control, axis=0) / np.where(width > 0, width, 1.0)[:, None]
+    return Spline(p - 1, tuple((float(x), float(y)) for x, y in steps), spline.knots[1:-1])
+
+
 def bounds(curve: Curve) -> Box:
     """Return x0, y0, x1, y1 of a curve, mm: exact for lines, arcs and circles, within 1e-3 of the size for others."""
     if isinstance(curve, Circle):

@@ -8,13 +8,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.edit.sample import sample, spline_points
+from app.edit.sample import Points, sample, spline_points
 from app.errors import InputError
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from app.tolerances import WELD
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
+
+_ROUNDING = 1e-12
+"""Distances that differ by no more than this share of the coordinates are the same but for the last digits of a number."""
 
 _FIT = 1e-3
 """Ends of an arc whose distances from the centre differ by up to this are drawn with the centre moved between them, mm."""
@@ -68,7 +71,7 @@ def circle(centre: Point, radius: float) -> Circle:
 def arc_about(start: Point, end: Point, centre: Point, ccw: bool = True) -> Arc:
     """Return the arc from start to end about a centre, which must be equally far from both within 1 um.
 
-    The ends are kept exactly; the centre moves onto their perpendicular bisector by what little it is off.
+    The ends are kept exactly; the centre moves onto their perpendicular bisector where it is off by more than rounding.
 
     Raises:
         InputError: the ends are the same, or one is nearer to the centre.
@@ -76,7 +79,7 @@ def arc_about(start: Point, end: Point, centre: Point, ccw: bool = True) -> Arc:
     if math.dist(start, end) < WELD:
         raise InputError(f"The arc begins and ends at {shown(start)}; draw a full circle with circle x,y r.")
     a, b = math.dist(start, centre), math.dist(end, centre)
-    if a == b >= WELD:
+    if abs(a - b) <= _ROUNDING * max(a, *map(abs, (*start, *end))) and min(a, b) >= WELD:
         return Arc(start, end, centre, ccw)
     if abs(a - b) > _FIT or min(a, b) < WELD:
         raise InputError(f"The start is {a:.3f} mm from the centre and the end {b:.3f} mm; both must be equally far. "
@@ -286,14 +289,14 @@ def spline_through(points: list[Point], close: bool = False) -> Spline:
 
     way = np.concatenate([[0.0], np.cumsum([math.dist(a, b) for a, b in pairwise(ring)])])
     made = CubicSpline(way, np.array(ring), bc_type="periodic" if close else "natural")
-    return _clamped(made)
+    return _clamped(made, np.array(ring))
 
 
-def _clamped(made: CubicSpline) -> Spline:
-    """Return a piecewise cubic as a B-spline with threefold knots, which holds any joint exactly."""
+def _clamped(made: CubicSpline, points: Points) -> Spline:
+    """Return a piecewise cubic through points as a B-spline with threefold knots, which holds every point to the last digit."""
     x = made.x
     knots = np.concatenate([[x[0]] * 4, *([k] * 3 for k in x[1:-1]), [x[-1]] * 4])
-    starts, ends = made(x[:-1]), made(x[1:])
+    starts, ends = points[:-1], points[1:]
     thirds = np.diff(x)[:, None] / 3
     inner = np.stack([starts, starts + made(x[:-1], 1) * thirds, ends - made(x[1:], 1) * thirds], axis=1).reshape(-1, 2)
     control = np.concatenate([inner, ends[-1:]])

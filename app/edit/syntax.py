@@ -146,6 +146,15 @@ class Choose:
 
 
 @dataclass(frozen=True, slots=True)
+class Units:
+    """Statements in which a length without a unit counts in this one."""
+
+    unit: Name
+    body: tuple[Statement, ...]
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
 class Define:
     """A command of the user's own.
 
@@ -160,4 +169,4 @@ class Define:
     source: str = field(repr=False)
 
 
-Statement = Command | Let | Repeat | Choose | Define
+Statement = Command | Let | Repeat | Choose | Units | Define

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from difflib import get_close_matches
 from itertools import groupby
 
 from app.model.curves import Point
@@ -17,6 +18,11 @@ def number_text(value: float) -> str:
 def point_text(point: Point) -> str:
     """Return the text that reads back as exactly this point."""
     return f"{number_text(point[0])},{number_text(point[1])}"
+
+
+def nearest_words(word: str, known: Iterable[str]) -> str:
+    """Return the one to three words that a mistyped one may stand for, as "line or spline"; "" when none is like it."""
+    return " or ".join(get_close_matches(word.lower(), known, n=3, cutoff=0.6))
 
 
 def ids_text(ids: Iterable[int]) -> str:

@@ -30,6 +30,7 @@ def draw_text(part: Part) -> DrawText:
     lines = [f"# {part.name}"]
     for layer in part.layers:
         lines += [f"layer {name_text(layer.name)}", *_looks(layer)]
+    lines += _first_in_its_place(part.layers)
     current = part.layers[-1].name if part.layers else ""
     left_out = 0
     for item in _in_order(part):
@@ -41,6 +42,12 @@ def draw_text(part: Part) -> DrawText:
             lines.append(f"layer {name_text(current)}")
         lines.append(curve_text(item.curve) if isinstance(item, Entity) else note_text(item.shape))
     return DrawText("\n".join(lines) + "\n", left_out)
+
+
+def _first_in_its_place(layers: tuple[Layer, ...]) -> list[str]:
+    """Return the line that puts the layer that every drawing begins with behind those that come before it."""
+    at = next((at for at, layer in enumerate(layers) if layer.name == Layer().name), 0)
+    return [f"order layer {name_text(layers[at].name)} after {name_text(layers[at - 1].name)}"] if at else []
 
 
 def _in_order(part: Part) -> Iterator[Entity | Note]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import PurePath
 
-from app.edit.document import Document
+from app.edit.document import drawn
 from app.errors import InputError
 from app.files.drawing import Drawing
 from app.files.drawing_account import on_layers, other_units, switched_off
-from app.model.part import Part, Units
+from app.model.part import Layer, Part, Units
 
 MOST_BYTES = 20_000_000
 
@@ -33,9 +33,7 @@ def read_draw(data: bytes, name: str = "part.draw", units: Units | None = None, 
     except UnicodeDecodeError as error:
         line = data[:error.start].count(b"\n") + 1
         raise InputError(f"{name}:{line}: this is no text in UTF-8; save it as plain text.") from error
-    document = Document()
-    document.run_script(text, name)
-    part = _tidy(document.part)
+    part = _tidy(drawn(text, name))
     if not part.entities:
         raise InputError(f"{name}: the text draws nothing; draw with line, arc, circle or rect.")
     part = on_layers(replace(part, name=PurePath(name).stem), layers, name)
@@ -44,6 +42,6 @@ def read_draw(data: bytes, name: str = "part.draw", units: Units | None = None, 
 
 def _tidy(part: Part) -> Part:
     """Return the part without the layer that every drawing begins with, where others are there and it is empty."""
-    used = {entity.layer for entity in part.entities}
-    kept = tuple(layer for layer in part.layers if layer.name in used or layer != part.layers[0])
+    used = {e.layer for e in part.entities} | {n.layer for n in part.notes}
+    kept = tuple(layer for layer in part.layers if layer.name in used or layer.name != Layer().name)
     return replace(part, layers=kept or part.layers)

@@ -66,6 +66,9 @@ def dxf_bytes(part: Part, version: DxfVersion = DxfVersion.R2010, tolerance: flo
     names = _names(part.layers, version)
     for layer in part.layers:
         _add_layer(document, layer, names[layer.name], version)
+    table = document.layers.entries
+    for key in [document.layers.key(name) for name in names.values()]:  # layer 0, which every file has, takes its place
+        table[key] = table.pop(key)
     pen, to_file = _Pen(document.modelspace(), old, tolerance), scaled(1 / units.value)
     for entity in part.entities:
         curve = entity.curve if units is Units.MM else transformed(entity.curve, to_file)

@@ -17,7 +17,7 @@ from app.edit.grammar import read_script
 from app.edit.history import State
 from app.edit.recorded import Recorded
 from app.edit.syntax import Define
-from app.edit.values import Curves, Value
+from app.edit.values import Curves, Length, Value
 from app.errors import InputError
 from app.files.drawing import Drawing
 from app.files.drawing_account import on_layers, other_units, switched_off
@@ -206,8 +206,10 @@ def _block(name: str, text: str, lines: JobText, tree: dict[str, Any], path: str
 
 
 def _value(file: str, name: str, value: Any) -> Value:
-    """Return what a name stands for: a number, a point as a list of two, curves as a text such as "4 7-9"."""
+    """Return what a name stands for: a number, a length such as "25.4mm", a point as a list of two, curves such as "4 7-9"."""
     try:
+        if isinstance(value, str) and value.endswith("mm"):
+            return Length(read_number(float(value.removesuffix("mm"))))
         if isinstance(value, str):
             return Curves(tuple(_numbers(value)))
         return read_points([value])[0] if isinstance(value, list) else read_number(value)
@@ -276,7 +278,7 @@ def _name_lines(state: State) -> Iterator[str]:
     if state.names:
         yield from ("", "[names]")
     for name, value in state.names.items():
-        said = " ".join(_runs(value.ids)) if isinstance(value, Curves) else value
+        said = " ".join(_runs(value.ids)) if isinstance(value, Curves) else f"{value!r}mm" if isinstance(value, Length) else value
         yield f"{_key(name)} = {spelled(said)}"
     if state.commands:
         yield from ("", "[commands]")

@@ -6,7 +6,7 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-from app.atomic import write_atomically
+from app.atomic import read_whole, write_atomically
 from app.errors import InputError
 from app.files.project import MOST_BYTES, Project, check_size, read_project, write_project
 
@@ -42,7 +42,7 @@ def load_project(path: Path) -> tuple[Project, Stamp | None]:
     if stamp is not None and stamp[1] > MOST_BYTES:
         raise InputError(f"{path.name}: the file has {stamp[1] >> 20} MB; at most {MOST_BYTES >> 20} are read. Part the drawing.")
     try:
-        data = path.read_bytes()
+        data = read_whole(path)
     except OSError as error:
         raise InputError(f"Cannot read {path}: {error.strerror}. Choose another file.") from error
     project = read_project(path.name, data)

@@ -19,6 +19,9 @@ from app.model.part import Entity
 _AMPLIFIED = 2.0
 """An arc that would leave its circle by more than this many gaps is not moved; a line bridges the gap instead."""
 
+_ROUNDING = 1e-9
+"""What an arc leaves its circle by, mm, that is but the last digits of its coordinates."""
+
 
 FARTHEST = 1e6
 """Coordinates beyond 1 km, mm, are no part of a workpiece; below, a double keeps WELD with room to spare."""
@@ -169,7 +172,7 @@ def _moved(primitive: Primitive, start: Point, end: Point) -> tuple[list[Primiti
         return ([Line(start, end)] if start != end else []), gap
     if isinstance(primitive, Arc) and start != end:
         arc, off = min(((made, off_circle(made, primitive)) for made in _refitted(primitive, start, end)), key=lambda choice: choice[1])
-        if off <= _AMPLIFIED * gap:
+        if off <= max(_AMPLIFIED * gap, _ROUNDING):
             return [arc], max(off, gap)
     bridges: list[Primitive] = [primitive]
     if gaps[0] > 0:

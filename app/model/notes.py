@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import Enum
 
-from app.model.curves import Point
+from app.model.curves import Line, Point
+
+_FAR = 2e4
+"""Half the length of a construction line where it is cut with curves, mm: far longer than any drawing, and digits are left."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +30,13 @@ class Guide:
 
     through: Point
     angle: float
+
+    @property
+    def line(self) -> Line:
+        """A line along it that is far longer than any drawing."""
+        (x, y), dx, dy = self.through, _FAR * math.cos(self.angle), _FAR * math.sin(self.angle)
+        dx, dy = (0.0 if abs(dx) < 1e-9 else dx), (0.0 if abs(dy) < 1e-9 else dy)
+        return Line((x - dx, y - dy), (x + dx, y + dy))
 
 
 class Measure(Enum):

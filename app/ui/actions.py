@@ -21,6 +21,7 @@ class Spec:
         name: by which the window connects it. text: in the menu. key: shortcut.
         key_hint: shown like a shortcut, but the canvas itself listens to the key.
         group: of checkable actions of which one is on; "" with `checkable` for a switch of its own.
+        under: title of the menu within the menu that holds it, or "".
     """
 
     name: str
@@ -30,6 +31,7 @@ class Spec:
     key_hint: str = ""
     group: str = ""
     checkable: bool = False
+    under: str = ""
 
 
 SEPARATOR = Spec("", "")
@@ -88,22 +90,19 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         Spec("text", "Te&xt of the drawing", "F12"),
         Spec("palette", "Command palette…", "Ctrl+Shift+Space"),
         SEPARATOR,
-        Spec("underlay_shown", "Picture to t&race", checkable=True),
-        Spec("underlay_scale", "Scale picture by two points"),
-        Spec("underlay_move", "Move picture"),
-        Spec("underlay_turn", "Straighten picture"),
-        Spec("underlay_remove", "Remove picture"),
-        SEPARATOR,
-        Spec("units_mm", "&Millimetres", group="units", checkable=True),
-        Spec("units_inch", "In&ches", group="units", checkable=True),
-        SEPARATOR,
-        Spec("theme_system", "Colours of the s&ystem", group="theme", checkable=True),
-        Spec("theme_light", "&Light", group="theme", checkable=True),
-        Spec("theme_dark", "D&ark", group="theme", checkable=True),
-        SEPARATOR,
-        Spec("language_system", "Language of the system", group="language", checkable=True),
-        Spec("language_en", "English", group="language", checkable=True),
-        Spec("language_ja", "日本語", group="language", checkable=True),
+        Spec("underlay_shown", "Picture to t&race", checkable=True, under="Pict&ure"),
+        Spec("underlay_scale", "Scale picture by two points", under="Pict&ure"),
+        Spec("underlay_move", "Move picture", under="Pict&ure"),
+        Spec("underlay_turn", "Straighten picture", under="Pict&ure"),
+        Spec("underlay_remove", "Remove picture", under="Pict&ure"),
+        Spec("units_mm", "&Millimetres", group="units", checkable=True, under="Uni&ts"),
+        Spec("units_inch", "In&ches", group="units", checkable=True, under="Uni&ts"),
+        Spec("theme_system", "Colours of the s&ystem", group="theme", checkable=True, under="Colours"),
+        Spec("theme_light", "&Light", group="theme", checkable=True, under="Colours"),
+        Spec("theme_dark", "D&ark", group="theme", checkable=True, under="Colours"),
+        Spec("language_system", "Language of the system", group="language", checkable=True, under="Language"),
+        Spec("language_en", "English", group="language", checkable=True, under="Language"),
+        Spec("language_ja", "日本語", group="language", checkable=True, under="Language"),
     )),
     ("&Draw", (
         Spec("tool_select", "&Select", "Ctrl+Shift+V", icon="select", group="tool", checkable=True),
@@ -240,9 +239,14 @@ class Actions:
         """Put the menus in the menu bar."""
         for title, specs in MENUS:
             menu: QMenu = bar.addMenu(title)
+            under: dict[str, QMenu] = {}
             for spec in specs:
                 if spec is SEPARATOR:
                     menu.addSeparator()
+                elif spec.under:
+                    if spec.under not in under:
+                        under[spec.under] = menu.addMenu(spec.under)
+                    under[spec.under].addAction(self.by_name[spec.name])
                 else:
                     menu.addAction(self.by_name[spec.name])
                 if spec.name == "open":

@@ -96,5 +96,5 @@ def _looking(session: Session, tolerance: float, line: str) -> Callable[[Progres
 
 def _listed(fault: Fault) -> Listed:
     size = f"{fault.size:.4f} mm {_SIZES[fault.kind]}" if fault.size else "exact"
-    words = f"{fault.kind.value.capitalize()} at {fault.place[0]:.3f}, {fault.place[1]:.3f}: {size}"
+    words = f"{fault.kind.value.capitalize()} at {number_text(round(fault.place[0], 3))},{number_text(round(fault.place[1], 3))}: {size}"
     return Listed(fault.kind.value, words, fault.place, fault.ids)

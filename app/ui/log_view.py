@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QAbstractItemView, QFrame, QListView, QMenu, QStyl
 
 from app.edit.document import LogLine
 from app.ui.theme import LIGHT, Theme, mono_font, text_font
+from app.ui.words import tr
 
 SHOWN_LINES = 3
 LINE_PX = 20
@@ -93,7 +94,7 @@ class LogView(QListView):
 
     def copy_with_replies(self) -> None:
         """Copy the chosen lines with what was answered."""
-        QGuiApplication.clipboard().setText("\n".join(f"{line.command}    {line.reply}" for line in self._chosen()))
+        QGuiApplication.clipboard().setText("\n".join(f"{line.command}    {tr(line.reply)}" for line in self._chosen()))
 
     def _chosen(self) -> list[LogLine]:
         return [self.lines[row] for row in sorted(index.row() for index in self.selectedIndexes())]
@@ -130,8 +131,8 @@ class _LogModel(QAbstractListModel):
         if role == Qt.ItemDataRole.UserRole:
             return line
         if role == Qt.ItemDataRole.DisplayRole:
-            return f"{line.command}: {line.reply}"
-        return f"{line.command}\n{line.reply}" if role == Qt.ItemDataRole.ToolTipRole else None
+            return f"{line.command}: {tr(line.reply)}"
+        return f"{line.command}\n{tr(line.reply)}" if role == Qt.ItemDataRole.ToolTipRole else None
 
 
 class _LinePainter(QStyledItemDelegate):
@@ -152,7 +153,7 @@ class _LinePainter(QStyledItemDelegate):
         self._text(painter, area.topLeft() + QPoint(_EDGE_PX, 0), middle - 2 * _EDGE_PX, " ; ".join(line.command.splitlines()))
         painter.setFont(text_font())
         painter.setPen(theme.error if line.error else theme.muted)
-        self._text(painter, area.topLeft() + QPoint(middle, 0), area.width() - middle - _EDGE_PX, line.reply)
+        self._text(painter, area.topLeft() + QPoint(middle, 0), area.width() - middle - _EDGE_PX, tr(line.reply))
 
     def _text(self, painter: QPainter, place: QPoint, width: int, text: str) -> None:
         short = QFontMetrics(painter.font()).elidedText(text, Qt.TextElideMode.ElideRight, width)

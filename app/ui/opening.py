@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
+from app.atomic import read_whole
 from app.edit.document import Document
 from app.edit.sample import bounds, union
 from app.errors import InputError
@@ -63,7 +64,7 @@ def _read(path: Path, units: Units | None, before: Job, progress: Progress) -> O
     if path.suffix.lower() in PROJECTS:
         return _read_project(path)
     try:
-        data = path.read_bytes()
+        data = read_whole(path)
     except OSError as error:
         raise InputError(f"Cannot read {path}: {error.strerror}. Choose another file.") from error
     drawing = read_drawing(path.name, data, units, ())

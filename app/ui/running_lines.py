@@ -11,6 +11,7 @@ from app.edit.document import Document, evaluated
 from app.edit.interpret import Outcome
 from app.errors import Cancelled, InputError
 from app.progress import Progress
+from app.ui.canvas.trials import keeps_the_window
 from app.ui.worker import Answer, Worker
 
 AT_ONCE_S = 0.03
@@ -63,7 +64,7 @@ class RunningLines(QObject):
         self.worker.cancel()
 
     def _run(self, line: str) -> None:
-        if len(line) > _AT_ONCE_LETTERS:
+        if len(line) > _AT_ONCE_LETTERS or keeps_the_window(line, self._document):
             self._begin(line)
             return
         try:

@@ -10,9 +10,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
-from PySide6.QtCore import QEvent, QLibraryInfo, QLocale, QObject, QTranslator
+from PySide6.QtCore import QEvent, QLibraryInfo, QLocale, QObject, QSignalBlocker, Qt, QTranslator
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QLineEdit, QMenu, QWidget
+from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QMenu, QWidget
 
 from app.settings import Language
 from app.ui.main_window import MainWindow
@@ -45,8 +45,10 @@ _TEXT = {
     QAbstractButton: (_Slot("text", QAbstractButton.text, QAbstractButton.setText),),
     QLineEdit: (_Slot("placeholder", QLineEdit.placeholderText, QLineEdit.setPlaceholderText),),
 }
-_WIDGET = (_Slot("tip", QWidget.toolTip, QWidget.setToolTip), _Slot("access", QWidget.accessibleName, QWidget.setAccessibleName))
-_PAINTED = (QLabel, QAbstractButton, QLineEdit)
+_ACCESS = _Slot("access", QWidget.accessibleName, QWidget.setAccessibleName)
+_WIDGET = (_Slot("tip", QWidget.toolTip, QWidget.setToolTip), _ACCESS)
+_PAINTED = (QLabel, QAbstractButton, QLineEdit, QComboBox)
+_ENGLISH, _SHOWN = Qt.ItemDataRole.UserRole + 101, Qt.ItemDataRole.UserRole + 102
 _SEEN = (QEvent.Type.Paint, QEvent.Type.ToolTip)
 _DEFAULT_ACTION = "defaultAction"
 
@@ -54,7 +56,7 @@ _DEFAULT_ACTION = "defaultAction"
 def _slots(thing: QObject) -> tuple[_Slot, ...]:
     own = next((slots for kind, slots in _TEXT.items() if isinstance(thing, kind)), ())
     if hasattr(thing, _DEFAULT_ACTION) and getattr(thing, _DEFAULT_ACTION)() is not None:
-        return ()
+        return (_ACCESS,)
     return (*own, *(_WIDGET if isinstance(thing, QWidget) else ()))
 
 
@@ -72,6 +74,23 @@ def translate(thing: QObject) -> None:
         if wanted != english or shown is not None:
             thing.setProperty(f"english_{slot.name}", english)
             thing.setProperty(f"shown_{slot.name}", wanted)
+    if isinstance(thing, QComboBox):
+        _translate_choices(thing)
+
+
+def _translate_choices(box: QComboBox) -> None:
+    """Show what can be chosen; which one is chosen stays."""
+    words = catalogue(spoken())
+    with QSignalBlocker(box):
+        for at in range(box.count()):
+            text, shown = box.itemText(at), box.itemData(at, _SHOWN)
+            english = box.itemData(at, _ENGLISH) if shown == text else text
+            wanted = words.look_up(english) or english
+            if wanted != text:
+                box.setItemText(at, wanted)
+            if wanted != english or shown is not None:
+                box.setItemData(at, english, _ENGLISH)
+                box.setItemData(at, wanted, _SHOWN)
 
 
 def translate_all(root: QObject) -> None:

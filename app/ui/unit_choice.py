@@ -1,14 +1,17 @@
-"""Millimetres or inches on rulers, raster and status bar; drawings and the lines that make them stay in mm."""
+"""Millimetres or inches: on rulers, raster and status bar, in fields, at the mouse, and for what is typed; a drawing is in mm."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
 
+from app.edit.unit_of_line import in_unit
 from app.settings import ShownUnits
 from app.ui.canvas.viewport import Viewport
 from app.ui.main_window import MainWindow
 from app.ui.memory import remember
+from app.ui.panels.fields import NumberField
+from app.ui.shown_unit import show_in
 
 SIZES = {ShownUnits.MM: 1.0, ShownUnits.INCH: 25.4}
 """Size of each, mm."""
@@ -24,6 +27,10 @@ class UnitChoice:
             window.actions_[f"units_{units.value}"].triggered.connect(partial(self._choose, units))
         self._show(window.settings.units)
 
+    def meant(self, line: str) -> str:
+        """Return a typed line of the shape language so that it says in which unit it is meant, where that is not mm."""
+        return line if self._window.settings.units is ShownUnits.MM else in_unit(line, "in")
+
     def _choose(self, units: ShownUnits, *_: object) -> None:
         self._window.settings = replace(self._window.settings, units=units)
         self._show(units)
@@ -32,5 +39,9 @@ class UnitChoice:
     def _show(self, units: ShownUnits) -> None:
         self._window.actions_[f"units_{units.value}"].setChecked(True)
         self._window.status.set_unit(SIZES[units], {ShownUnits.MM: "mm", ShownUnits.INCH: "in"}[units])
+        show_in(SIZES[units])
+        for field in self._window.findChildren(NumberField):
+            field.follow_unit()
+        self._window.drawing_page.refresh()
         for viewport in self._window.findChildren(Viewport):
             viewport.set_unit(SIZES[units])

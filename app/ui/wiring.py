@@ -295,7 +295,9 @@ class Wiring(QObject):
             self.window_.actions_[name].trigger()
             self.window_.views.take_focus()
         elif not self.window_.canvas.type_text(text):
-            self.run(text)
+            self.run(self.unit_choice.meant(text))
+        elif not self.window_.canvas.runner.wants_words:
+            self.window_.views.take_focus()
 
     def _on_escape(self) -> None:
         self.window_.canvas.cancel()

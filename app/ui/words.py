@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 import tomllib
-from functools import cache
+from functools import cache, lru_cache
 
 from app.resources import resource
 
-_HOLE = re.compile(r"\{\}")
+_HOLE = re.compile(r"\{(n?)\}")
+_ANYTHING, _NUMBER = "(.+)", "([-+.,\u2009\\d]+)"
+_REMEMBERED = 4096
 _MNEMONIC = re.compile(r"&(\w)")
 _KEY_TIP = re.compile(r"(.+) (\([^()]+\))")
 
@@ -17,16 +19,16 @@ class Catalogue:
     """English texts and what they are in another language.
 
     An entry stands for the text in a menu (`&Open…`), in a tip (`Open (Ctrl+O)`) and on a button alike: the letter to press,
-    dots, blanks at the ends and keys are put back round it. `{}` in an entry stands for anything; what it stood for is
-    looked up too.
+    dots, blanks at the ends and keys are put back round it. `{}` in an entry stands for anything, `{n}` for a number; what it
+    stood for is looked up too. An entry that is written farther up goes first.
     """
 
     def __init__(self, entries: dict[str, str]) -> None:
-        self._entries = {text: other for text, other in entries.items() if "{}" not in text}
-        self._patterns = [(re.compile("(.+)".join(map(re.escape, _HOLE.split(text))), re.S), other)
-                          for text, other in entries.items() if "{}" in text]
+        self._entries = {text: other for text, other in entries.items() if not _HOLE.search(text)}
+        self._patterns = [(_pattern(text), _HOLE.sub("{}", other)) for text, other in entries.items() if _HOLE.search(text)]
+        self.look_up = lru_cache(_REMEMBERED)(self._look_up)
 
-    def look_up(self, text: str) -> str | None:
+    def _look_up(self, text: str) -> str | None:
         """Return a text in this language, or None when it is not in the catalogue."""
         if text in self._entries:
             return self._entries[text]
@@ -52,8 +54,14 @@ class Catalogue:
         for pattern, other in self._patterns:
             match = pattern.fullmatch(words)
             if match:
-                return other.format(*(self._entries.get(part, part) for part in match.groups()))
+                return other.format(*(self.look_up(part) or part for part in match.groups()))
         return None
+
+
+def _pattern(text: str) -> re.Pattern[str]:
+    """Return what finds the texts that an entry with holes stands for."""
+    words = _HOLE.split(text)
+    return re.compile("".join((_NUMBER if word else _ANYTHING) if at % 2 else re.escape(word) for at, word in enumerate(words)), re.S)
 
 
 @cache

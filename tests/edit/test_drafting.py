@@ -3,11 +3,11 @@
 import math
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from app.edit.corners import fillet
 from app.edit.document import Document
-from app.edit.drafting import fillet
 from app.errors import InputError
 from app.model.curves import Arc, Circle, Curve, Line, Point
 
@@ -54,6 +54,14 @@ def test_extending_goes_to_the_first_edge_ahead(line: str, curve: Curve) -> None
         assert drawn[number] == curve
 
 
+def test_construction_lines_are_edges_and_what_is_hidden_is_none() -> None:
+    assert after("line 0,0 30,0\nguide up 10,5\nguide 20,0 90\ntrim 1 15,1") == {1: Line((0, 0), (10, 0)), 4: Line((20, 0), (30, 0))}
+    assert after("line 0,0 5,0\nguide up 10,5\nguide up 20,0\nextend 1 5,0 to 3") == {1: Line((0, 0), (20, 0))}
+    hidden = "layer a\nline 10,-5 10,5\nlayer b\nline 20,-5 20,5\nline 0,0 30,0\nhide a\ntrim 3 12,0"
+    assert after(hidden)[3] == Line((20, 0), (30, 0))
+    assert after(hidden + " by 1")[3] == Line((0, 0), (10, 0))
+
+
 def test_breaking_at_one_point_and_between_two() -> None:
     assert after("line 0,0 10,0\nbreak 1 4,1") == {1: Line((0, 0), (4, 0)), 2: Line((4, 0), (10, 0))}
     assert after("line 0,0 10,0\nbr 1 7,0 4,1") == {1: Line((0, 0), (4, 0)), 2: Line((7, 0), (10, 0))}
@@ -93,6 +101,7 @@ def test_chamfers_may_be_uneven() -> None:
         1: Line((0, 0), (7, 0)), 2: Line((10, 1), (10, 10)), 3: Line((7, 0), (10, 1))}
 
 
+@settings(deadline=None)
 @given(st.floats(0.2, 2.9), st.floats(0.1, 3), st.floats(2, 20), st.booleans())
 def test_a_fillet_touches_both_curves(opening: float, radius: float, round_radius: float, ccw: bool) -> None:
     line = Line((30, 0), (0, 0))
@@ -113,6 +122,7 @@ def test_a_fillet_touches_both_curves(opening: float, radius: float, round_radiu
     assert abs(made.sweep) < math.pi
 
 
+@settings(deadline=None)
 @given(st.floats(0.5, 4), st.floats(0.5, 12), st.floats(-6, 6), st.floats(0.3, 6), st.floats(0, 6))
 def test_a_fillet_may_hold_a_smaller_arc(small: float, radius: float, height: float, sweep: float, turn: float) -> None:
     line = Line((-30, height), (30, height))
@@ -136,6 +146,50 @@ def test_places_near_a_corner_stand_for_their_sides_of_it() -> None:
     assert cross[2].start == pytest.approx((0, 8), abs=1e-9) and cross[2].end == (0, 50)
 
 
+@settings(deadline=None)
+@given(st.floats(3, 20), st.floats(-14, 14), st.floats(1, 12), st.booleans())
+def test_a_fillet_of_a_line_and_a_circle_leaves_the_circle_whole(size: float, height: float, radius: float, circle_first: bool) -> None:
+    line, circle = Line((-60, height), (60, height)), Circle((0, 0), size)
+    pair, near = ((circle, line), ((-size, 0.0), (-50.0, height))) if circle_first else ((line, circle), ((-50.0, height), (-size, 0.0)))
+    try:
+        first, made, second = fillet(*pair, radius, near)
+    except InputError:
+        assume(False)
+    kept, whole = (second, first) if circle_first else (first, second)
+    assert whole is circle and isinstance(kept, Line) and kept.start == (-60, height)
+    touch, other = (made.end, made.start) if circle_first else (made.start, made.end)
+    assert kept.end == touch and abs(made.centre[1] - height) == pytest.approx(radius)
+    assert math.hypot(*other) == pytest.approx(size) and made.radius == pytest.approx(radius)
+    assert abs(made.centre[0] * other[1] - made.centre[1] * other[0]) < 1e-6 * size * 60  # both centres and the place in one line
+    assert abs(made.sweep) < math.pi
+
+
+def test_a_fillet_between_circles_lies_on_the_side_pointed_at() -> None:
+    for text, centre in (("1 5,0.1 2 10,0.1", (7.5, 5.4516)), ("1 5,-0.1 2 10,-0.1", (7.5, -5.4516))):
+        drawn = after(f"circle 0,0 5\ncircle 15,0 5\nfillet 4.272 {text}")
+        assert drawn[1] == Circle((0, 0), 5) and drawn[2] == Circle((15, 0), 5) and isinstance(drawn[3], Arc)
+        assert drawn[3].centre == pytest.approx(centre, abs=1e-3) and drawn[3].radius == pytest.approx(4.272)
+        assert math.hypot(*drawn[3].start) == pytest.approx(5)
+    outer = after("circle 0,0 5\ncircle 15,0 5\nfillet 20 1 -5,0.1 2 20,0.1")[3]
+    assert isinstance(outer, Arc) and math.hypot(*outer.centre) == pytest.approx(15)  # it holds both
+
+
+def test_a_radius_of_zero_makes_a_corner_sharp() -> None:
+    assert after("line 0,0 4,0\nline 10,5 10,10\nfillet 0 1 2") == {1: Line((0, 0), (10, 0)), 2: Line((10, 0), (10, 10))}
+    assert after("line -10,0 10,0\nline 0,-9 0,9\nfi 0 1 -5,0 2 0,5") == {1: Line((-10, 0), (0, 0)), 2: Line((0, 0), (0, 9))}
+    drawn = after("arc 5,0 0,5 centre 0,0\nline -9,3 -6,3\nfillet 0 1 2")
+    assert drawn[1].end == pytest.approx((-4, 3)) and drawn[2] == Line((-9, 3), drawn[1].end)
+
+
+def test_of_several_curves_only_true_corners_are_rounded_and_what_cannot_be_stays() -> None:
+    document = Document()
+    document.run_script("line 0,0 20,0 20,10\narc on 10,20\nline 10,20 0,20 0,0")
+    assert document.run("fillet 2 1-5") == "3 corners."
+    assert len(document.part.entities) == 8
+    document.run_script("clear\nline 0,0 20,0 20,1 40,1 40,30")
+    assert document.run("fillet 3 1-4") == "1 corner, 2 left as before."
+
+
 def test_an_arc_never_goes_on_to_its_own_other_end() -> None:
     with pytest.raises(InputError, match="No edge lies ahead"):
         after("arc 5,0 0,5 centre 0,0\nline 5,-9 5,0\nextend 1 0,5 to 2")
@@ -153,10 +207,11 @@ def test_parallels_lie_on_the_side_of_the_point(line: str, made: Curve) -> None:
     ("trim 1 5,0 by 4", "Nothing crosses"), ("trim 4 5,0", "crossed twice"), ("extend 4 1,1", "Only lines and arcs"),
     ("extend 1 29,0", "No edge lies ahead"),
     ("break 1 0,0", "is an end"), ("break 4 5,5", "two points"), ("break 1 5,0 5,1", "same place"), ("fillet 100 1 2", "No arc of radius"),
-    ("fillet 1 1 4", "no line and no arc"), ("fillet 0 1 2", "greater than 0"), ("fillet 1 1", "Two curves"),
-    ("fillet 1 1-4", "no line|No two"),
+    ("fillet 0 1 4", "no end"), ("fillet -1 1 2", "greater than 0"), ("chamfer 1 1 4", "two lines"),
+    ("fillet 9 2 4", "No arc"), ("fillet 0 2 3", "do not meet"), ("fillet 1 1", "Two curves"),
+    ("fillet 1 1-4", "No two"),
     ("chamfer 50 1 2", "use less"), ("chamfer 1 2 3", "Parallel"), ("offset 9 100,50 4", "nearer"), ("offset 1 0,0 9", "no entity 9"),
-    ("trim 9 0,0", "no longer"),
+    ("trim 9 0,0", "no longer"), ("trim 1 0,0 by 9", "no entity 9"),
     ("offset 0 5,5 1", "greater than 0"), ("offset 1 5,5", "Nothing is selected"),
 ])
 def test_what_cannot_be_done_is_told(line: str, says: str) -> None:

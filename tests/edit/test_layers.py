@@ -53,6 +53,22 @@ def test_a_removed_layer_takes_its_curves_along(document: Document) -> None:
     assert names(document) == ["0", "holes"] and len(document.part.entities) == 2
 
 
+def test_layers_are_put_in_order(document: Document) -> None:
+    document.run("layer a; layer b")
+    assert document.run("order layer b before 0") == "Layer b comes before 0 now."
+    assert names(document) == ["b", "0", "holes", "a"]
+    document.run("order layer b after holes")
+    assert names(document) == ["0", "holes", "b", "a"] and document.layer == "b"
+    document.undo()
+    assert names(document) == ["b", "0", "holes", "a"] and document.undo_name == "Order layers"
+
+
+def test_notes_on_a_removed_layer_are_told(document: Document) -> None:
+    document.run("layer marks; point 1,1; guide across 0,2; line 0,0 1,1")
+    assert document.run("remove layer marks") == "Layer marks removed, with 1 curve and 2 notes on it."
+    assert not document.part.notes
+
+
 @pytest.mark.parametrize(("line", "says"), [
     ("rename layer nothing to x", "no layer nothing"), ("rename layer holes to 0", "a layer 0 already"),
     ("rename holes to x", "Write rename layer"), ("rename layer holes x", "Write to"), ('rename layer holes to " "', "empty"),

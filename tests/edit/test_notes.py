@@ -7,6 +7,7 @@ import pytest
 from app.edit.document import Document
 from app.edit.write import draw_text
 from app.errors import InputError
+from app.model.curves import Line
 from app.model.notes import Dimension, Guide, Mark, Measure, Shape
 
 QUARTER = math.pi / 2
@@ -21,6 +22,15 @@ def drawn(*lines: str) -> Document:
 
 def shape(*lines: str) -> Shape:
     return drawn(*lines).part.notes[-1].shape
+
+
+def test_expressions_meet_construction_lines_and_take_numbers() -> None:
+    document = drawn("guide up 4,0 as g", "line 0,0 10,5 as l", "line meet(g, l, 0,0) foot(9,9, g)", "line 0,0 meet(1, 2, 0,0)")
+    assert [e.curve for e in document.part.entities[1:]] == [Line((4, 2), (4, 9)), Line((0, 0), (4, 2))]
+    document.run("point 1,1")
+    for line, says in (("point start(g)", "no ends"), ("point meet(5, 2, 0,0)", "a point or a dimension"), ("trim 1 0,0", "no ends")):
+        with pytest.raises(InputError, match=says):
+            document.run(line)
 
 
 @pytest.mark.parametrize(("lines", "made"), [

@@ -114,7 +114,7 @@ def test_what_a_block_draws_is_undone_together_with_its_names() -> None:
     ("circle 0,0 sqrt(-1)", 1, 12, "no value"),
     ("circle 0,0 (1,2)", 1, 12, "a point; a number"),
     ("line 0,0 5", 1, 10, "a number; a point"),
-    ("define a(x)\n b x\nend\na 1 2", 4, 1, "takes 1 values"),
+    ("define a(x)\n b x\nend\na 1 2", 4, 1, "takes 1 value;"),
     ("define a(x)\n a x\nend\na 1", 2, 2, "without end"),
     ("repeat 2.5; circle 0,0 1; end", 1, 8, "whole number"),
     ("repeat 200000 as i\nrepeat 200000\nlet b = i\nend\nend", 3, 1, "200000 statements"),
@@ -130,9 +130,9 @@ def test_what_a_block_draws_is_undone_together_with_its_names() -> None:
     ("circle mid(1,2) 3", 1, 8, "Write mid(a, b)"),
     ("end", 1, 1, "no command"),
     ("circle 0,0 5\n  lime 0,0", 2, 3, "'lime' is no command"),
-    ("let r = start(3)", 1, 15, "this is a number"),
+    ("let r = start(3)", 1, 15, "Curve 3 is no longer"),
     ("line 0,0 1e9,0", 1, 10, "too large"),
-    ("let a = meet(1,2)", 1, 14, "a number"),
+    ("let a = meet(1,2)", 1, 14, "Curve 1 is no longer"),
 ])
 def test_what_is_wrong_is_told_with_line_and_column(text: str, line: int, column: int, says: str) -> None:
     document = Document()

@@ -31,11 +31,17 @@ def test_every_sample_draws_closed_contours(name: str, curves: int, contours: in
     assert len(part.entities) == curves
     chained = chain(part.entities, 0.01)
     assert len(chained.contours) == contours and all(contour.closed for contour in chained.contours)
+    assert chained.findings == ()
 
 
 def test_a_drawing_written_in_words_is_read_as_itself() -> None:
     part = read_drawing("plate.draw", SAMPLE.read_bytes()).part
     assert read_drawing("plate.draw", draw_text(part).text.encode()).part == part
+
+
+def test_layers_keep_their_order_and_those_of_notes_stay() -> None:
+    text = b"layer a; circle 0,0 5; layer b; circle 0,0 2; layer 0; point 1,1; order layer 0 after a"
+    assert [layer.name for layer in read_drawing("a.draw", text).part.layers] == ["a", "0", "b"]
 
 
 def test_only_the_layers_asked_for_are_kept() -> None:

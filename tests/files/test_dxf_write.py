@@ -138,6 +138,7 @@ def test_white_stays_white_and_ink_stays_ink(version: DxfVersion) -> None:
     layers = (Layer("0"), Layer("white", "#ffffff"), Layer("red", "#ff0000", False, True))
     part = Part(tuple(Entity(k, Line((0, k), (1, k)), layer.name) for k, layer in enumerate(layers, 1)), layers)
     assert back(part, version).layers == layers
+    assert back(Part(part.entities, layers[::-1]), version).layers == layers[::-1]
 
 
 def test_names_that_a_version_forbids_are_changed_and_listed() -> None:

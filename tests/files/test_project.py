@@ -195,3 +195,12 @@ def test_large_drawings_are_written_and_read(tmp_path: Path) -> None:
     document.load(replace(document.job, part=part))
     project = Project(document.state)
     same(project, read_project("p.hito", write_project(project)))
+
+
+def test_a_name_for_a_length_is_a_length_again() -> None:
+    document = Document()
+    document.run("let w = 3in")
+    document.load_state(read_project("p.hito", write_project(Project(document.state))).state)
+    document.run("units in; circle 0,0 w; end")
+    (entity,) = document.part.entities
+    assert entity.curve.radius == 3 * 25.4  # type: ignore[union-attr]

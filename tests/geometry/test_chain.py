@@ -93,6 +93,13 @@ def test_arcs_stay_true_arcs_when_ends_move() -> None:
     assert made.contours[0].primitives[1] == slot[1]
 
 
+def test_an_end_that_is_off_by_a_last_digit_makes_no_piece_of_its_own() -> None:
+    first, last = (-377.5653106850218, -58.25467103385952), (-375.7437591865962, -360.1416533508884)
+    a = Arc(first, (-413.75232919621806, -177.34749877837345), (-162.45616529030605, -188.66100939119747))
+    b = Arc((a.end[0], math.nextafter(a.end[1], 0)), last, (-36.80808333735004, -194.3177646976095))
+    assert shape(chained([a, b, Line(last, (0, 0)), Line((0, 0), first)])) == [(True, 4)]
+
+
 def test_nearly_full_arc_is_bridged_not_bent() -> None:
     """The ends are 0.4 mm apart and each has to go 0.004 mm: moving them would shift the centre by a multiple of that."""
     a, b = (5 * math.cos(0.04), 5 * math.sin(0.04)), (5 * math.cos(0.04), -5 * math.sin(0.04))

@@ -66,7 +66,10 @@ TOOLS: dict[T, tuple[str, tuple[Place | str, ...]]] = {
 }
 """What is selected first, and what is then clicked (points, mm) or typed; over the last point the mouse only stands."""
 
-BROKEN = "# a plate\nw = 80\nrect 0,0 w,50\ncircle 20,25 1O\n"
+FAULTS = ("line 100,60 120,60", "line 100,60 120,60; line 120,60.005 120,80; line 110,40 110.005,40")
+"""A line twice, a gap, and a tiny one: what cleaning up finds."""
+
+BROKEN = "# a plate\nlet w = 80\nrect 0,0 w,50\ncircle 20,25 1O\n"
 
 
 class DrawingStates:
@@ -120,11 +123,14 @@ class DrawingStates:
         yield "history"
         for _ in range(3):
             self._wiring.document.redo()
+        for line in FAULTS:
+            self._wiring.document.run(line)
         window.actions_["clean_up"].trigger()
-        cleanup = window.drawing_page.cleanup
-        cleanup.looked.emit(0.05)
-        self._wait(600)
+        window.drawing_page.cleanup.look.click()
+        self._wait(800)
         yield "clean-up"
+        self._wiring.document.undo()
+        self._wiring.document.undo()
         window.actions_["text"].trigger()
         self._wiring.language.control.text = BROKEN
         self._wait(800)
@@ -136,6 +142,7 @@ class DrawingStates:
         yield "job"
         for name in ("tool_library", "which_tool"):
             window.actions_[name].trigger()
+            self._wait(1500 if name == "which_tool" else 0)
             yield name
             window.actions_[name].trigger()
 

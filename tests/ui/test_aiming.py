@@ -8,7 +8,8 @@ from PySide6.QtGui import QPainter, QPixmap
 from pytestqt.qtbot import QtBot
 
 from app.edit.meet import foot, meets, tangent_points
-from app.model.curves import Line
+from app.edit.touching import square_points
+from app.model.curves import Ellipse, Line, Spline
 from app.model.notes import Guide, Mark
 from app.model.part import Part
 from app.ui.canvas.aim import tidy
@@ -190,6 +191,40 @@ def test_polar_rays_draw_the_mouse(hand: Hand) -> None:
     assert hand.canvas.aim is not None and hand.canvas.aim.point == (40, 10)
     hand.canvas.type_text("25")
     assert hand.said() == ["line 10,10 35,10"]
+
+
+@pytest.mark.parametrize(("line", "kind", "others"), [
+    ("ellipse 60,40 85,45 12", SnapKind.PERPENDICULAR, 2), ("ellipse 60,40 85,45 12", SnapKind.TANGENT, 2),
+    ("spline 40,10 50,40 70,20 90,55", SnapKind.PERPENDICULAR, 1), ("spline 40,10 50,40 70,20 90,55", SnapKind.TANGENT, 1),
+])
+def test_ellipses_and_splines_are_met_square_and_touched(hand: Hand, line: str, kind: SnapKind, others: int) -> None:
+    hand.document.run(line)
+    curve, base = hand.document.part.entities[0].curve, (12.0, 60.0)
+    assert isinstance(curve, Ellipse | Spline)
+    places = square_points(curve, base) if kind is SnapKind.PERPENDICULAR else tangent_points(curve, base)
+    assert len(places) >= others
+    hand.canvas.set_tool(CanvasTool.LINE)
+    hand.click(base)
+    hand.canvas.aiming.switch(kinds=frozenset({kind}), polar=None)
+    for x, y in places:
+        found, point = aimed(hand, (x + 0.4, y + 0.3))
+        assert found is kind and math.dist(point, (x, y)) < 1e-9
+
+
+@pytest.mark.parametrize("line", ["line 40,10 44,60", "circle 60,40 20", "ellipse 60,40 85,45 12", "spline 30,60 40,20 70,20 90,55"])
+def test_rays_stop_where_they_meet_a_curve(hand: Hand, line: str) -> None:
+    hand.document.run(line)
+    hand.canvas.aiming.switch(polar=30.0, kinds=frozenset({SnapKind.END, SnapKind.NEAREST}))
+    hand.canvas.set_tool(CanvasTool.LINE)
+    hand.click((10, 10))
+    ray, curve = Line((10, 10), (10 + 90 * math.cos(math.radians(30)), 55)), hand.document.part.entities[0].curve
+    crossings = meets(ray, curve)
+    assert crossings
+    for x, y in crossings:
+        hand.move(x + 0.5, y + 0.4)
+        aim = hand.canvas.aim
+        assert aim is not None and aim.word == "Polar 30° \u00d7 curve"
+        assert math.dist(aim.point, (x, y)) < 1e-9
 
 
 def test_a_point_rested_on_draws_the_mouse_straight_across_and_up(hand: Hand) -> None:

@@ -198,3 +198,44 @@ def test_the_words_of_the_tool_in_hand_come_and_go(wiring):
     for tool in (CanvasTool.LINE, CanvasTool.CIRCLE, CanvasTool.SELECT):
         canvas.set_tool(tool)
         assert tuple(line.options) == (canvas.runner.tool.options if canvas.runner.tool is not None else ())
+
+
+def test_a_typed_answer_leaves_the_keys_with_the_canvas_and_a_whole_line_leaves_them_here(qtbot, wiring) -> None:
+    window = wiring.window_
+    line, canvas = window.command_line.edit, window.canvas
+    canvas.set_tool(CanvasTool.CIRCLE)
+    canvas.setFocus()
+    for text in ("1,2", "5"):
+        qtbot.keyClick(canvas, text[0])
+        assert window.focusWidget() is line and line.text() == text[0]
+        qtbot.keyClicks(line, text[1:])
+        qtbot.keyClick(line, Qt.Key.Key_Return)
+        assert window.focusWidget() is canvas
+    assert wiring.document.log[-1].command == "circle 1,2 5"
+    canvas.cancel()
+    line.setFocus()
+    qtbot.keyClicks(line, "line 0,0 5,5")
+    qtbot.keyClick(line, Qt.Key.Key_Return)
+    assert window.focusWidget() is line
+
+
+def test_words_for_the_drawing_are_typed_where_blanks_are_letters(wiring) -> None:
+    window = wiring.window_
+    window.canvas.set_tool(CanvasTool.TEXT)
+    window.command_line.edit.setFocus()
+    window.command_line.entered.emit("0,0")
+    assert window.focusWidget() is window.command_line.edit
+
+
+def test_what_the_mouse_did_wrong_is_told_without_a_column(qtbot, wiring) -> None:
+    said: list[str] = []
+    wiring.window_.canvas.message.connect(said.append)
+    wiring.document.run("line 0,0 10,0")
+    wiring.window_.canvas.runner._run("trim 1 5,0")
+    assert said and "olumn" not in said[-1]
+
+
+def test_an_unknown_word_is_answered_with_those_that_are_like_it(wiring) -> None:
+    for text, answer in (("lime 0,0 1,1", "'lime' is no command; try line"), ("qqqq 1", "F1 lists them all")):
+        wiring.window_.command_line.entered.emit(text)
+        assert answer in wiring.document.log[-1].reply

@@ -1,6 +1,7 @@
 """The drawing's page comes to the front when it is asked for, and only then."""
 
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLineEdit
 
 from app.ui.views import View
 
@@ -12,7 +13,8 @@ def test_keys_bring_the_page_and_its_sections(qtbot, wiring):
     assert window.side.page == "Job"
     qtbot.keyClick(window, Qt.Key.Key_I, Qt.KeyboardModifier.ControlModifier)
     assert window.side.page == "Drawing"
-    qtbot.waitUntil(lambda: window.drawing_page.properties.layer.box.hasFocus())
+    properties = window.drawing_page.properties
+    qtbot.waitUntil(lambda: isinstance(window.focusWidget(), QLineEdit) and properties.isAncestorOf(window.focusWidget()))
     window.side.show_page("Job")
     qtbot.keyClick(window, Qt.Key.Key_H, Qt.KeyboardModifier.ControlModifier)
     assert window.side.page == "Drawing"

@@ -5,6 +5,8 @@ import time
 import pytest
 
 from app.edit.document import Document
+from app.ui import running_lines
+from app.ui.canvas.trials import Trial, Trials, keeps_the_window
 from app.ui.running_lines import AT_ONCE_S, RunningLines
 
 LONG = "repeat 3000 as k; circle k,0 1; end"
@@ -22,7 +24,8 @@ def lines(document):
     made.worker.finish()
 
 
-def test_a_short_block_is_carried_out_at_once(document, lines) -> None:
+def test_a_short_block_is_carried_out_at_once(monkeypatch, document, lines) -> None:
+    monkeypatch.setattr(running_lines, "AT_ONCE_S", 10.0)  # a loaded machine is given time
     lines.run("repeat 3 as k; circle k,0 1; end")
     assert len(document.part.entities) == 3 and not lines.busy
 
@@ -72,10 +75,60 @@ def test_a_wrong_line_is_in_the_log_wherever_it_was_tried(qtbot, document, lines
     assert [line.error for line in document.log] == [True, True] and not document.part.entities
 
 
-def test_the_moment_is_short() -> None:
-    document, made = Document(), RunningLines(Document())
+def test_the_moment_is_short(document, lines) -> None:
     start = time.perf_counter()
-    made.run("repeat 150000; end")
-    assert made.busy and time.perf_counter() - start < 100 * AT_ONCE_S
-    made.cancel()
+    lines.run("repeat 150000; end")
+    assert lines.busy and time.perf_counter() - start < 100 * AT_ONCE_S
+    lines.cancel()
     assert not document.log
+
+
+def test_what_looks_at_many_curves_together_leaves_the_window_and_is_not_tried_under_the_mouse(qtbot, document, lines) -> None:
+    document.run("repeat 400 as k; circle k*10,0 3; end")
+    document.select(e.id for e in document.part.entities)
+    line = "offset 1 0,0"
+    assert Trials(document).of(line) == Trial()
+    lines.run(line)
+    assert lines.busy and len(document.part.entities) == 400
+    qtbot.waitUntil(lambda: not lines.busy, timeout=20_000)
+    assert len(document.part.entities) == 800
+    document.select([document.part.entities[0].id])
+    assert len(Trials(document).of(line).difference.added) == 1
+
+
+@pytest.mark.parametrize("line", [
+    "fillet 1 1 4,0 2 5,1", "chamfer 1 and 1.5 1 4,0 2 5,1", "offset 1 1,1 1", "measure 1 2", "measure 0,0 3,4",
+])
+@pytest.mark.parametrize("everything", [False, True], ids=["nothing selected", "everything selected"])
+def test_what_names_a_few_curves_of_many_is_tried_and_done_at_once(monkeypatch, document, lines, line, everything) -> None:
+    monkeypatch.setattr(running_lines, "AT_ONCE_S", 10.0)  # a loaded machine is given time
+    document.run("repeat 400 as k; rect k*10,0 k*10+5,5; end")
+    document.select(document.part.ids() if everything else ())
+    trial = Trials(document).of(line)
+    assert not trial.reason
+    lines.run(line)
+    assert not lines.busy and not document.log[-1].error
+
+
+def test_two_corners_clicked_in_a_heavy_drawing_show_their_fillet(document) -> None:
+    document.run("repeat 400 as k; rect k*10,0 k*10+5,5; end")
+    document.select(document.part.ids())
+    assert Trials(document).of("fillet 1 1 4,0 2 5,1").difference.added
+
+
+@pytest.mark.parametrize("line", ["fillet 1", "join within 0.1", "explode", "measure", "heal 0.01", "offset 1 2,2 1-1600"])
+def test_what_means_many_curves_is_not_tried_under_the_mouse(document, line) -> None:
+    document.run("repeat 400 as k; rect k*10,0 k*10+5,5; end")
+    document.select(document.part.ids())
+    assert keeps_the_window(line, document)
+
+
+def test_an_offset_of_many_curves_that_is_cancelled_changes_nothing(qtbot, document, lines) -> None:
+    document.run("repeat 400 as k; circle k*10,0 3; end")
+    document.select(document.part.ids())
+    part, log = document.part, tuple(document.log)
+    lines.run("offset 1 0,0")
+    lines.cancel()
+    lines.worker.finish(20.0)
+    qtbot.wait(20)
+    assert not lines.busy and document.part is part and tuple(document.log) == log

@@ -8,7 +8,7 @@ from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
 from app.edit.document import Document
-from app.model.curves import Arc, Curve, Line
+from app.model.curves import Arc, Curve, Line, Point
 from app.model.job import Job
 from app.model.part import Part
 from app.ui.canvas.canvas import Canvas
@@ -124,3 +124,27 @@ def test_a_change_of_the_layers_is_seen_everywhere(qtbot: QtBot) -> None:
     canvas = shown(qtbot, 40)
     canvas.document.run('colour 0 "#0072b2"')
     assert canvas.grab().toImage() == anew(canvas)
+
+
+def around(canvas: Canvas, image: QImage, place: Point) -> QImage:
+    """The 13 px round a place in mm."""
+    at = canvas.view.to_screen(place).toPoint()
+    return image.copy(at.x() - 6, at.y() - 6, 13, 13)
+
+
+@pytest.mark.parametrize("near", [View(30.0, -1088.0, 1812.0), View(8.0, 24.0, 724.0)], ids=["far smaller", "a little smaller"])
+def test_zooming_out_shows_at_once_what_the_last_picture_did_not_reach(qtbot: QtBot, heavy: Canvas, near: View) -> None:
+    far = heavy.view
+    heavy.set_view(near)
+    heavy.grab()
+    heavy.document.run("line 0,97 100,97")
+    qtbot.waitUntil(lambda: heavy.sharp and heavy._far.whole)
+    heavy.scene_ms = 1000.0
+    heavy.set_view(far)
+    at_once, bare = heavy.grab().toImage(), Canvas(Document(Job(Part())), LIGHT)
+    assert not heavy.sharp
+    bare.resize(heavy.size())
+    bare.set_view(far)
+    paper = bare.grab().toImage()
+    for place in ((60.0, 92.0), (60.0, 8.0), (33.0, 97.0)):
+        assert around(heavy, at_once, place) != around(heavy, paper, place), place

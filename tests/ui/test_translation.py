@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 import unicodedata
 
 import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QWidget
+from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QWidget
 
 from app.resources import resource
 from app.settings import Language, load_settings
 from app.ui.actions import MENUS, plain
+from app.ui.canvas.asking import AskingTool
+from app.ui.canvas.tools import TOOLS
 from app.ui.panels.fields import LABEL_WIDTH, NumberField
 from app.ui.theme import TEXT_PX
-from app.ui.translation import code_of
+from app.ui.translation import code_of, translate_all
 from app.ui.words import Catalogue, catalogue, speak, tr
 
 ENTRIES: dict[str, str] = tomllib.loads(resource("translations", "ja.toml").read_text("utf-8"))["words"]
+HOLE = re.compile(r"\{n?\}")
 OWN_NAMES = {"English", "日本語", "NC"}
 
 
@@ -52,7 +57,8 @@ def test_every_menu_has_a_japanese_text_that_is_not_long() -> None:
 
 
 def test_entries_keep_their_holes_and_say_something() -> None:
-    assert {text for text, other in ENTRIES.items() if text.count("{}") != other.count("{}") or not other.strip()} == set()
+    wrong = {text for text, other in ENTRIES.items() if sorted(HOLE.findall(text)) != sorted(HOLE.findall(other)) or not other.strip()}
+    assert not wrong
 
 
 def test_names_of_fields_fit_before_their_values(japanese) -> None:
@@ -133,3 +139,75 @@ def test_what_the_catalogue_lacks_stays_english() -> None:
 
 def test_the_codes_of_the_choices() -> None:
     assert [code_of(choice) for choice in (Language.ENGLISH, Language.JAPANESE)] == ["en", "ja"]
+
+
+LATIN = re.compile(r"[A-Za-z]{3,}")
+JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
+NOT_TRANSLATED = {"English", "NC (Ctrl+5)", "Fanuc", "Haas", "LinuxCNC", "Mach3", "grbl", "mm/min", "rpm", "dpi", "Esc"}
+"""Names of controls, units and keys."""
+
+
+def seen_texts(window: QWidget) -> set[str]:
+    """What widgets that can be seen show or say of themselves."""
+    found = set[str]()
+    for widget in window.findChildren(QWidget):
+        found |= {widget.toolTip(), widget.accessibleName()}
+        if isinstance(widget, QLabel | QAbstractButton):
+            found.add(widget.text())
+        elif isinstance(widget, QComboBox):
+            found |= {widget.itemText(at) for at in range(widget.count())}
+        elif isinstance(widget, QLineEdit):
+            found.add(widget.placeholderText())
+    return found
+
+
+def left_english(texts: set[str]) -> list[str]:
+    words = {text: set(re.split(r"[\s(]", text)) | {text} for text in texts if LATIN.search(text) and not JAPANESE.search(text)}
+    return sorted(text for text, parts in words.items() if not parts & NOT_TRANSLATED)
+
+
+def test_nothing_of_the_window_is_left_in_english(japanese) -> None:
+    window = japanese.window_
+    for line in ("rect 0,0 60,40 round 5", "circle 30,20 8", "select all"):
+        japanese.document.run(line)
+    for page in window.side.tabs:
+        window.side.show_page(page)
+        window.grab()
+    translate_all(window)
+    assert left_english(seen_texts(window)) == []
+
+
+@pytest.mark.parametrize("kind", TOOLS)
+def test_every_tool_asks_in_japanese(kind) -> None:
+    speak("ja")
+    tool = TOOLS[kind]()
+    asked = {tr(ask.prompt) for ask in tool.asks if ask} if isinstance(tool, AskingTool) else {tr(words) for words in tool.prompts}
+    assert left_english({tr(tool.prompt), *asked}) == []
+
+
+def test_the_log_and_the_mouse_speak_japanese(japanese) -> None:
+    for line in ("line 0,0 10,0", "circle 5,5 2", "undo", "lime 1,1", "circle 5,5"):
+        japanese.window_.command_line.entered.emit(line)
+    log = japanese.window_.command_line.log
+    shown = [log.model().data(log.model().index(row, 0), Qt.ItemDataRole.ToolTipRole).split("\n")[1] for row in range(len(log.lines))]
+    assert [JAPANESE.search(text) is not None for text in shown] == [True] * 5, shown
+
+
+def test_a_chosen_item_stays_chosen_when_its_name_changes(qtbot) -> None:
+    box = QComboBox()
+    qtbot.addWidget(box)
+    box.addItems(["Climb", "Conventional"])
+    box.setCurrentIndex(1)
+    speak("ja")
+    translate_all(box)
+    assert (box.currentText(), box.currentIndex()) == ("アップカット", 1)
+    speak("en")
+    translate_all(box)
+    assert box.currentText() == "Conventional"
+
+
+def test_holes_for_numbers_let_sentences_be() -> None:
+    words = Catalogue({"{n} of {n}": "{n} / {n}", "{}: {}": "{}: {}", "Arc": "円弧", "centre": "中心"})
+    assert words.look_up("2 of 12") == "2 / 12"
+    assert words.look_up("The end of the line") is None
+    assert words.look_up("Arc: centre") == "円弧: 中心"

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from app.model.curves import Point
 from app.ui.canvas.drawing_tool import DrawingTool
-from app.ui.canvas.near_snaps import Near, forced, near_snaps
+from app.ui.canvas.near_snaps import MOST, Near, forced, near_snaps
 from app.ui.canvas.part_picture import PartPicture
 from app.ui.canvas.snap import SNAP_NAMES, USUAL, Snap, SnapKind, best, to_grid
 from app.ui.canvas.track import Acquired, Tracked, rays, tracked
@@ -62,16 +62,25 @@ def aim(at: Point, tool: DrawingTool, picture: PartPicture, rules: AimRules) -> 
     the decimal below the size of a screen px, so that lines in the log stay short.
     """
     found = _snapped(at, tool, picture, rules)
-    if found is not None:
+    drawn = None
+    if not rules.straight and (found is None or (found.kind is SnapKind.NEAREST and rules.forced is None)):
+        drawn = _drawn(at, tool, picture, rules)
+    if found is not None and not (drawn is not None and drawn.crosses):
         return Aim(tidy(found.point), found)
-    if not rules.straight:
-        drawn = tracked(at, rays(tool.base, rules.polar, rules.acquired), rules.scale, _digits(rules.scale))
-        if drawn is not None:
-            return Aim(drawn.point, tracked=drawn)
+    if drawn is not None:
+        return Aim(tidy(drawn.point), tracked=drawn)
     point = to_grid(at, rules.grid_step) if rules.grid else rounded(at, rules.scale)
     if rules.straight:
         point = tool.held_straight(point)
     return Aim(point, Snap(point, SnapKind.GRID) if rules.grid else None)
+
+
+def _drawn(at: Point, tool: DrawingTool, picture: PartPicture, rules: AimRules) -> Tracked | None:
+    """Return where rays draw the mouse, by themselves or to where they meet a curve that may be snapped to."""
+    candidates = rays(tool.base, rules.polar, rules.acquired)
+    reach = REACH_PX / rules.scale
+    near = [*picture.near_curves(at, reach)[:MOST], *picture.near_guides(at, reach)] if candidates and rules.snap else []
+    return tracked(at, candidates, rules.scale, _digits(rules.scale), near)
 
 
 def rounded(at: Point, scale: float) -> Point:

@@ -10,7 +10,7 @@ from typing import ClassVar
 from app.edit.words import ids_text, name_text, number_text, point_text
 from app.model.curves import Line, Point
 from app.tolerances import WELD
-from app.ui.canvas.drawing_tool import Desk, DrawingTool, Pick, Preview, Want, span_label
+from app.ui.canvas.drawing_tool import Desk, DrawingTool, Pick, Preview, Want, length_label, span_label
 
 MOST_SHOWN = 400
 """Of a larger selection so many curves, evenly spread, are shown at their new places before a click."""
@@ -50,6 +50,7 @@ class AskingTool(DrawingTool):
         asks: the questions. form: the line, with `{0}` for the first answer, and `{word}` for a number or a toggle.
         toggles: words that switch something on and off. numbers: words and first values of numbers that stay as they were set;
             whole ones are counts, which Up and Down change, too.
+        no_lengths: those numbers that are counts or angles.
         once: the tool ends with its first line. keeps: so many answers stay for the next line.
         answers: given so far. setting: the number that is being asked for, or "".
     """
@@ -63,6 +64,7 @@ class AskingTool(DrawingTool):
     form: ClassVar[str] = ""
     toggles: ClassVar[tuple[str, ...]] = ()
     numbers: ClassVar[Mapping[str, float]] = {}
+    no_lengths: ClassVar[frozenset[str]] = frozenset()
     once: ClassVar[bool] = False
     keeps: ClassVar[int] = 0
 
@@ -100,9 +102,9 @@ class AskingTool(DrawingTool):
     def prompt(self) -> str:
         """What is expected next, and how options stand."""
         if self.setting:
-            return f"{self.name}: {self.setting}, now {number_text(self.value(self.setting))}"
+            return f"{self.name}: {self.setting}, now {self.shown(self.setting)}"
         stand = [f"{word} {'on' if word in self.on else 'off'}" for word in self.toggles]
-        stand += [f"{word} {number_text(self.value(word))}" for word in self.numbers]
+        stand += [f"{word} {self.shown(word)}" for word in self.numbers]
         options = f"   [{', '.join(stand)}]" if stand and self.wants is not Want.SELECTION else ""
         return f"{self.name}: {self.ask.prompt}{options}"
 
@@ -110,6 +112,18 @@ class AskingTool(DrawingTool):
         """Take up work; a selection that is there answers the first question."""
         self.desk = desk
         return self.finish() if self.asks[0].wants is Want.SELECTION and desk.document.selection else None
+
+    @property
+    def takes_length(self) -> bool:
+        """Whether the number that is asked for is a length."""
+        word = self.setting or self.ask.sets
+        return word not in self.no_lengths if word else self.ask.sign != "A"
+
+    def shown(self, word: str) -> str:
+        """Return a number of the tool as it is shown."""
+        if self.unit == 1.0 or word in self.no_lengths:
+            return number_text(self.value(word))
+        return f"{number_text(round(self.value(word) / self.unit, 4))} in"
 
     def value(self, word: str) -> float:
         """Return a number of the tool."""
@@ -215,9 +229,10 @@ class AskingTool(DrawingTool):
         measure = self.ask.measure
         spoke = (Line(self.base, cursor),)
         if measure is None:
-            return Preview(helpers=spoke, label=span_label(self.base, cursor, self.ask.sign))
-        unit = "\u00b0" if self.ask.sign == "A" else ""
-        return Preview(helpers=spoke, label=f"{self.ask.sign} {measure(self.answers, cursor):.3f}{unit}")
+            return Preview(helpers=spoke, label=span_label(self.base, cursor, self.unit, self.ask.sign))
+        value = measure(self.answers, cursor)
+        figure = f"{value:.3f}\u00b0" if self.ask.sign == "A" else length_label(value, self.unit)
+        return Preview(helpers=spoke, label=f"{self.ask.sign} {figure}")
 
     def _some_of_many(self) -> str:
         """Return what limits a trial to some curves of a large selection."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -163,7 +162,10 @@ class Canvas(Hands):
     @property
     def _many(self) -> int:
         """How many elements of paths are in view."""
-        box = self.view.world_box(self.area)
+        return self._elements(self.view.world_box(self.area))
+
+    def _elements(self, box: Box) -> int:
+        """Return how many elements of paths come into a box in mm."""
         program = self._shown_program
         return self.picture.count(box) + (program.count(box, self._look.layers) if program is not None else 0)
 
@@ -189,6 +191,22 @@ class Canvas(Hands):
             yield
             yield from self.picture.steps(painter, self.view, box, theme)
         paint_origin(painter, self.view, theme)
+
+    @property
+    def far_box(self) -> Box | None:
+        """The box of part and paths, where they are many."""
+        program = self._shown_program
+        box = union([box for box in (self.picture.box, program.box if program is not None else None) if box is not None])
+        return box if box is not None and self._elements(box) > MANY else None
+
+    def far_steps(self, painter: QPainter, view: View) -> Iterator[None]:
+        """Paint paths and part with the finest pens."""
+        look, program, box = self._look, self._shown_program, self.far_box
+        if program is not None and box is not None:
+            theme = look.theme.faint(_STALE) if look.stale else look.theme
+            yield from program.steps(painter, view, box, replace(look, theme=theme, fine=True))
+        if program is None or PathLayers.PART in look.layers:
+            yield from self.picture.coarse_steps(painter, view, look.theme)
 
     def paint_ground(self, painter: QPainter, area: QRectF) -> None:
         """Paint the paper."""
@@ -267,6 +285,11 @@ class Canvas(Hands):
         if self.marking is not None:
             overlay.paint_points(painter, self.view, list(self.marking.places()), self._look.theme)
 
+    def set_unit(self, unit: float) -> None:
+        """Count in another unit, of so many mm; typed lengths, too."""
+        self.runner.set_unit(unit)
+        super().set_unit(unit)
+
     def _paint_tool(self, painter: QPainter) -> None:
         tool, theme = self.runner.tool, self._look.theme
         if tool is None or self.aim is None or self.mouse is None:
@@ -283,8 +306,7 @@ class Canvas(Hands):
             paint_snap(painter, self.view, self.aim.snap, theme)
         base = self.view.to_screen(tool.base) if tool.base is not None else None
         place = overlay.LabelPlace(self.mouse, base, self.area)
-        far = math.dist(tool.base, self.aim.point) / self.unit if tool.base is not None and self.unit != 1.0 else 0.0
-        overlay.paint_label(painter, [preview.label, f"{far:.4f} in from the last point" if far else "", self.aim.word], place, theme)
+        overlay.paint_label(painter, [preview.label, self.aim.word], place, theme)
 
     def _carried_view(self, tool: CarryTool, to: Point) -> View:
         """Return the view that shows the selection where it is carried to."""

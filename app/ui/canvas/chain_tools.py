@@ -55,7 +55,7 @@ class LineTool(DrawingTool):
 
     def show(self, cursor: Point) -> Preview:
         """Return the next line with length and angle."""
-        return Preview((Line(self.points[-1], cursor),), label=span_label(self.points[-1], cursor))
+        return Preview((Line(self.points[-1], cursor),), label=span_label(self.points[-1], cursor, self.unit))
 
 
 @dataclass
@@ -122,8 +122,8 @@ class PolylineTool(DrawingTool):
         done = self._done()
         if self.via is not None:
             arc = arc_through(self.points[-1], self.via, cursor)
-            return Preview((*done, arc), label=arc_label(arc))
-        return Preview((*done, Line(self.points[-1], cursor)), label=span_label(self.points[-1], cursor))
+            return Preview((*done, arc), label=arc_label(arc, self.unit))
+        return Preview((*done, Line(self.points[-1], cursor)), label=span_label(self.points[-1], cursor, self.unit))
 
     def _done(self) -> list[Curve]:
         done: list[Curve] = []

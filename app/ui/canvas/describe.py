@@ -6,9 +6,10 @@ import math
 
 from app.edit.dimension_lines import figure
 from app.edit.shapes import curve_length
-from app.model.curves import Arc, Circle, Line
+from app.model.curves import Arc, Circle, Line, Point
 from app.model.notes import Dimension, Guide, Mark, Note
 from app.model.part import Entity
+from app.ui.shown_unit import shown_name, shown_size
 
 
 def describe_entity(entity: Entity) -> str:
@@ -16,11 +17,11 @@ def describe_entity(entity: Entity) -> str:
     curve = entity.curve
     words = [f"{type(curve).__name__} {entity.id}"]
     if isinstance(curve, Arc | Circle):
-        words.append(f"R {curve.radius:.3f} mm")
+        words.append(f"R {_length(curve.radius)}")
     if isinstance(curve, Arc):
         words.append(f"{abs(math.degrees(curve.sweep)):.2f}°")
     if isinstance(curve, Line | Arc | Circle):
-        words.append(f"{curve_length(curve):.3f} mm")
+        words.append(_length(curve_length(curve)))
     return " · ".join([*words, f"layer {entity.layer}"])
 
 
@@ -28,7 +29,7 @@ def describe_note(note: Note) -> str:
     """Return kind, number, measures and layer of a note."""
     shape = note.shape
     if isinstance(shape, Mark):
-        words = [f"Point {note.id}", f"{shape.at[0]:.3f}, {shape.at[1]:.3f}"]
+        words = [f"Point {note.id}", _place(shape.at)]
     elif isinstance(shape, Guide):
         words = [f"Construction line {note.id}", f"{math.degrees(shape.angle):.2f}°"]
     else:
@@ -36,6 +37,15 @@ def describe_note(note: Note) -> str:
     return " · ".join([*words, f"layer {note.layer}"])
 
 
+def _place(at: Point) -> str:
+    size = shown_size()
+    return f"{at[0]:.3f}, {at[1]:.3f}" if size == 1.0 else f"{at[0] / size:.4f}, {at[1] / size:.4f} in"
+
+
+def _length(length: float) -> str:
+    return f"{length:.3f} mm" if shown_size() == 1.0 else f"{length / shown_size():.4f} in"
+
+
 def _measure(dimension: Dimension) -> str:
-    text = figure(dimension)
-    return text if text.endswith("°") else f"{text} mm"
+    text = figure(dimension, shown_size())
+    return text if text.endswith("°") else f"{text} {shown_name('mm')}"

@@ -70,8 +70,10 @@ class DrawingTool:
     Attributes:
         points: given so far, mm.
         base: where relative coordinates and ortho start from, or None.
+        unit: what lengths are typed and shown in, mm.
     """
 
+    unit = 1.0
     points: list[Point] = field(default_factory=list)
 
     name: ClassVar[str] = ""
@@ -91,6 +93,11 @@ class DrawingTool:
     def options(self) -> tuple[str, ...]:
         """Words that may be typed now."""
         return ()
+
+    @property
+    def takes_length(self) -> bool:
+        """Whether a number typed now is a length, rather than a count, a factor or an angle."""
+        return True
 
     def count_on(self, by: int) -> bool:
         """Change the count of the tool; return False where it has none."""
@@ -198,13 +205,23 @@ class DrawingTool:
         raise NotImplementedError
 
 
-def span_label(a: Point, b: Point, sign: str = "L") -> str:
+def length_label(length: float, unit: float) -> str:
+    """Return a length, mm, in the unit that is shown, of so many mm."""
+    return f"{length:.3f}" if unit == 1.0 else f"{length / unit:.4f} in"
+
+
+def span_label(a: Point, b: Point, unit: float, sign: str = "L") -> str:
     """Return length and angle of the way from a to b."""
     if math.dist(a, b) < WELD:
         return ""
-    return f"{sign} {math.dist(a, b):.3f}   {math.degrees(math.atan2(b[1] - a[1], b[0] - a[0])) % 360:.2f}°"
+    return f"{sign} {length_label(math.dist(a, b), unit)}   {math.degrees(math.atan2(b[1] - a[1], b[0] - a[0])) % 360:.2f}°"
 
 
-def arc_label(arc: Arc) -> str:
+def size_label(size: Point, unit: float) -> str:
+    """Return the width and the height of what has a size, mm, in the unit that is shown."""
+    return f"{length_label(abs(size[0]), unit)} \u00d7 {length_label(abs(size[1]), unit)}"
+
+
+def arc_label(arc: Arc, unit: float) -> str:
     """Return radius and sweep of an arc."""
-    return f"R {arc.radius:.3f}   {abs(math.degrees(arc.sweep)):.2f}°"
+    return f"R {length_label(arc.radius, unit)}   {abs(math.degrees(arc.sweep)):.2f}°"

@@ -11,7 +11,7 @@ from app.edit.meet import foot
 from app.model.curves import Point
 from app.tolerances import WELD
 from app.ui.canvas.asking import CHOOSE, Answer, Ask, AskingTool, answer_text, direction_from, point_of
-from app.ui.canvas.drawing_tool import Preview
+from app.ui.canvas.drawing_tool import Preview, length_label
 
 
 def _shift_text(answers: Sequence[Answer]) -> str:
@@ -40,6 +40,7 @@ class CopyTool(AskingTool):
     name = "Copy"
     asks = (CHOOSE, Ask("base point"), Ask("where the copy goes; Enter ends"))
     numbers: ClassVar[Mapping[str, float]] = {"times": 1}
+    no_lengths = frozenset({"times"})
     keeps = 2
 
     def line_of(self, answers: Sequence[Answer]) -> str:
@@ -68,6 +69,7 @@ class ScaleTool(AskingTool):
     toggles = ("copy",)
     form = "scale {1} {2} {copy}"
     once = True
+    takes_length = False
 
     def typed(self, value: float) -> str | None:
         """Take the factor."""
@@ -110,6 +112,7 @@ class ArrayTool(AskingTool):
     name = "Array"
     asks = (CHOOSE, Ask("base point, or how many columns", sets="columns"), Ask("that point in the next column and row, or @dx,dy"))
     numbers: ClassVar[Mapping[str, float]] = {"columns": 3, "rows": 2}
+    no_lengths = frozenset({"columns", "rows"})
     once = True
 
     def line_of(self, answers: Sequence[Answer]) -> str:
@@ -124,6 +127,7 @@ class ArrayPolarTool(AskingTool):
     name = "Polar array"
     asks = (CHOOSE, Ask("centre, or how many places; Up and Down change it", sets="places"))
     numbers: ClassVar[Mapping[str, float]] = {"places": 6, "over": 360.0}
+    no_lengths = frozenset({"places", "over"})
     once = True
 
     def line_of(self, answers: Sequence[Answer]) -> str:
@@ -145,7 +149,7 @@ class OffsetTool(AskingTool):
         """What is expected next; with a distance the side only."""
         away = self.value("distance")
         if len(self.answers) == 1 and not self.setting and away:
-            return f"Offset: the side where it goes   [distance {away:g}, 0 goes through the point]"
+            return f"Offset: the side where it goes   [distance {self.shown('distance')}, 0 goes through the point]"
         return super().prompt
 
     def line_of(self, answers: Sequence[Answer]) -> str:
@@ -157,7 +161,7 @@ class OffsetTool(AskingTool):
         """Return the distance."""
         if len(self.answers) != 1:
             return Preview()
-        return Preview(label=f"D {self.value('distance') or self._away(cursor):.3f}")
+        return Preview(label=f"D {length_label(self.value('distance') or self._away(cursor), self.unit)}")
 
     def _away(self, point: Point) -> float:
         """Return how far the selected curve nearest to a point lies from it, mm."""

@@ -11,7 +11,7 @@ from app.edit.words import point_text
 from app.model.curves import Point
 from app.tolerances import WELD
 from app.ui.canvas.asking import Answer, Ask, AskingTool, answer_text, distance_aside, distance_from, point_of
-from app.ui.canvas.drawing_tool import Desk, Pick, Preview, Want
+from app.ui.canvas.drawing_tool import Desk, Pick, Preview, Want, size_label
 
 
 def _radius_through(answers: Sequence[Answer], point: Point) -> float:
@@ -96,7 +96,7 @@ class RoundRectangleTool(AskingTool):
         if len(self.answers) != 1:
             return super().helpers(cursor)
         (x, y) = self.points[0]
-        return Preview(label=f"{abs(cursor[0] - x):.3f} \u00d7 {abs(cursor[1] - y):.3f}")
+        return Preview(label=size_label((cursor[0] - x, cursor[1] - y), self.unit))
 
 
 @dataclass
@@ -106,6 +106,7 @@ class PolygonTool(AskingTool):
     name = "Polygon"
     asks = (Ask("centre, or how many corners", sets="corners"), Ask("a corner; Up and Down change how many", sign="R"))
     numbers: ClassVar[Mapping[str, float]] = {"corners": 6}
+    no_lengths = frozenset({"corners"})
     toggles = ("side",)
     form = "polygon {corners} {0} {side} {1}"
 
@@ -189,6 +190,7 @@ class GuideTool(AskingTool):
 
     name = "Construction line"
     asks = (Ask("a point of it"), Ask("another point, or the angle"))
+    takes_length = False
 
     @property
     def options(self) -> tuple[str, ...]:

@@ -12,7 +12,7 @@ from app.edit.select import reachable
 from app.edit.words import ids_text, point_text
 from app.model.curves import Point
 from app.ui.canvas.aim import tidy
-from app.ui.canvas.drawing_tool import DrawingTool, Preview, span_label
+from app.ui.canvas.drawing_tool import DrawingTool, Preview, length_label, span_label
 from app.ui.canvas.trials import Trials
 
 GRIP_PX = 7.0
@@ -64,7 +64,10 @@ class HeldTool(DrawingTool):
     def show(self, cursor: Point) -> Preview:
         """Return how far it goes."""
         dx, dy = cursor[0] - self.points[0][0], cursor[1] - self.points[0][1]
-        return Preview(label=f"{span_label(self.points[0], cursor)}\ndx {dx:.3f}   dy {dy:.3f}" if dx or dy else "")
+        if not dx and not dy:
+            return Preview()
+        span, across, up = span_label(self.points[0], cursor, self.unit), length_label(dx, self.unit), length_label(dy, self.unit)
+        return Preview(label=f"{span}\ndx {across}   dy {up}")
 
 
 @dataclass

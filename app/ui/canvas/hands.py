@@ -9,6 +9,7 @@ from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QWidget
 
 from app.edit.document import Document
+from app.edit.errors import reason_of
 from app.edit.words import ids_text
 from app.errors import InputError
 from app.model.curves import Point
@@ -368,7 +369,7 @@ class Hands(Viewport):
         try:
             self.document.run(line)
         except InputError as error:
-            self.message.emit(str(error))
+            self.message.emit(reason_of(error))
 
     def _tell(self) -> None:
         """Say what has changed of tool and prompt."""

@@ -12,10 +12,11 @@ import numpy as np
 
 from app.edit.meet import foot, has, meets, tangent_points
 from app.edit.sample import Box, Points, sample, spline_points
+from app.edit.touching import square_points
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from app.ui.canvas.snap import Snap, SnapKind, snaps_of
 
-_MOST = 6
+MOST = 6
 """So many of the curves under the mouse are cut with one another."""
 
 
@@ -44,7 +45,7 @@ class Near:
 def near_snaps(near: Near, kinds: frozenset[SnapKind]) -> list[Snap]:
     """Return the snap points of these kinds that near curves give together, or with the base."""
     found: list[Snap] = []
-    curves = [*near.curves[:_MOST], *near.guides]
+    curves = [*near.curves[:MOST], *near.guides]
     if SnapKind.INTERSECTION in kinds:
         found += (Snap(p, SnapKind.INTERSECTION) for a, b in combinations(curves, 2) for p in meets(a, b, within=near.box))
     if near.base is not None and SnapKind.PERPENDICULAR in kinds:
@@ -105,7 +106,7 @@ def _may_stand_square(curve: Curve, near: Near) -> bool:
         return True
     chords = _chords(curve, near)
     along = np.einsum("ij,ikj->ik", chords[:, 1] - chords[:, 0], chords - near.base)
-    return bool(((along.min(axis=1) <= 0) & (along.max(axis=1) >= 0)).any())
+    return along.size > 0 and bool(along.min() <= 0 <= along.max())
 
 
 @lru_cache(256)
@@ -121,13 +122,12 @@ def _feet(curve: Curve, base: Point) -> tuple[Point, ...]:
             return ()
         ux, uy = (base[0] - x) / away * curve.radius, (base[1] - y) / away * curve.radius
         return tuple(p for p in ((x + ux, y + uy), (x - ux, y - uy)) if has(curve, p))
-    point = foot(curve, base)
-    return () if point in (curve.start, curve.end) and curve.start != curve.end else (point,)
+    return tuple(square_points(curve, base))
 
 
 @lru_cache(256)
 def _tangents(curve: Curve, base: Point) -> tuple[Point, ...]:
-    return tuple(tangent_points(curve, base)) if isinstance(curve, Arc | Circle | Ellipse) else ()
+    return tuple(tangent_points(curve, base))
 
 
 def _nearest_on_spline(curve: Spline, at: Point) -> Point:

@@ -24,15 +24,6 @@ from app.ui.theme import Theme, text_font
 ARROW_PX = 9.0
 _MARK_PX = 4.0
 _DASH_DOT = (14.0, 4.0, 2.0, 4.0)
-_FAR = 2e4
-"""Half the length of a construction line where it is cut with curves, mm."""
-
-
-def guide_line(guide: Guide) -> Line:
-    """Return a construction line as one that is far longer than any drawing."""
-    (x, y), dx, dy = guide.through, _FAR * math.cos(guide.angle), _FAR * math.sin(guide.angle)
-    dx, dy = (0.0 if abs(dx) < 1e-9 else dx), (0.0 if abs(dy) < 1e-9 else dy)
-    return Line((x - dx, y - dy), (x + dx, y + dy))
 
 
 class NotesPicture:
@@ -49,7 +40,7 @@ class NotesPicture:
         """Take over another part."""
         hidden = {layer.name for layer in part.layers if not layer.visible}
         self.notes = tuple(note for note in part.notes if note.layer not in hidden)
-        self._guides = [guide_line(note.shape) for note in self.notes if isinstance(note.shape, Guide)]
+        self._guides = [note.shape.line for note in self.notes if isinstance(note.shape, Guide)]
         self._places = [grip.at for note in self.notes for grip in note_grips(note.shape) if not isinstance(note.shape, Guide)]
         self._colours = {layer.name: layer.colour for layer in part.layers}
 
@@ -82,7 +73,7 @@ def note_distance(note: Note, at: Point, reach: float) -> float:
     if isinstance(shape, Mark):
         return math.dist(shape.at, at)
     if isinstance(shape, Guide):
-        return distance_to(guide_line(shape), at)
+        return distance_to(shape.line, at)
     made = dimension_lines(shape, reach)
     curves: tuple[Curve, ...] = (*made.lines, *made.arcs)
     to_figure = max(math.dist(shape.place, at) - 2 * reach, 0.0)

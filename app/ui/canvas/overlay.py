@@ -18,6 +18,7 @@ from app.ui.canvas.pens import FINE, screen_pen
 from app.ui.canvas.track import Acquired, Tracked
 from app.ui.canvas.view import View
 from app.ui.theme import Theme, text_font
+from app.ui.words import tr
 
 _GRIP_HALF = 3.5
 _LABEL_GAP = 16.0
@@ -131,7 +132,7 @@ class LabelPlace:
 
 def paint_label(painter: QPainter, texts: list[str], place: LabelPlace, theme: Theme) -> None:
     """Paint live measures on a small sheet beside the mouse."""
-    lines = [line for text in texts for line in text.split("\n") if line]
+    lines = [tr(line) for text in texts for line in text.split("\n") if line]
     if not lines:
         return
     painter.setFont(text_font(12))

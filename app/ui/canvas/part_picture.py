@@ -95,14 +95,23 @@ class PartPicture:
 
     def curve_steps(self, painter: QPainter, view: View, box: Box, theme: Theme, *, without: tuple[str, ...] = ()) -> Iterator[None]:
         """Paint what lies in a box in mm, but for some layers, with pauses; the painter works in screen px."""
+        paths = [(layer, path) for chunk in self._seen(box) for layer, path in chunk.paths.items() if layer not in without]
+        yield from self._path_steps(painter, view, paths, (theme, FINE if self.fine else PART_WIDTH))
+
+    def coarse_steps(self, painter: QPainter, view: View, theme: Theme) -> Iterator[None]:
+        """Paint all curves with the finest pens, with pauses; the painter works in screen px."""
+        paths = [layered for chunk in self.lookup.chunks for layered in chunk.paths.items()]
+        yield from self._path_steps(painter, view, paths, (theme, FINE))
+
+    def _path_steps(self, painter: QPainter, view: View, paths: list[tuple[str, QPainterPath]],
+                    look: tuple[Theme, float]) -> Iterator[None]:
         painter.save()
         try:
             painter.setTransform(view.transform(), True)
             painter.setBrush(Qt.BrushStyle.NoBrush)
-            for chunk in self._seen(box):
-                for layer, path in ((name, path) for name, path in chunk.paths.items() if name not in without):
-                    painter.setPen(_round_pen(painter, QColor(self._colours.get(layer) or theme.ink), FINE if self.fine else PART_WIDTH))
-                    painter.drawPath(path)
+            for layer, path in paths:
+                painter.setPen(_round_pen(painter, QColor(self._colours.get(layer) or look[0].ink), look[1]))
+                painter.drawPath(path)
                 yield
         finally:
             painter.restore()

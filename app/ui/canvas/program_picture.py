@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 
-from app.edit.sample import Box
+from app.edit.sample import Box, union
 from app.model.moves import Program, Purpose
 from app.ui.canvas.curve_path import chain_path
 from app.ui.canvas.engaged import colours
@@ -88,6 +88,11 @@ class ProgramPicture:
             for contour in region.contours:
                 chain_path(contour.primitives, path)
             self._regions[region.number] = path
+
+    @property
+    def box(self) -> Box | None:
+        """x0, y0, x1, y1 of all cutting paths, mm, or None."""
+        return union([chunk.box for chunk in self._chunks])
 
     def count(self, box: Box, layers: PathLayers) -> int:
         """Return how many elements of paths come into a box in mm."""

@@ -9,7 +9,7 @@ from app.edit.shapes import arc_about, arc_through, circle, on_circle
 from app.edit.words import number_text, point_text
 from app.model.curves import Arc, Line, Point
 from app.tolerances import WELD
-from app.ui.canvas.drawing_tool import DrawingTool, Preview, arc_label, span_label
+from app.ui.canvas.drawing_tool import DrawingTool, Preview, arc_label, length_label, span_label
 
 
 @dataclass
@@ -42,9 +42,9 @@ class ArcCentreTool(DrawingTool):
         """Return the radius, then the arc."""
         spokes = tuple(Line(self.points[0], p) for p in (*self.points[1:], cursor))
         if len(self.points) == 1:
-            return Preview(helpers=spokes, label=span_label(self.points[0], cursor, "R"))
+            return Preview(helpers=spokes, label=span_label(self.points[0], cursor, self.unit, "R"))
         arc = self._arc([*self.points, cursor])
-        return Preview((arc,), spokes, arc_label(arc))
+        return Preview((arc,), spokes, arc_label(arc, self.unit))
 
     def _arc(self, points: list[Point]) -> Arc:
         centre, start, towards = points
@@ -67,9 +67,9 @@ class ArcThreeTool(DrawingTool):
     def show(self, cursor: Point) -> Preview:
         """Return the chord, then the arc."""
         if len(self.points) == 1:
-            return Preview(helpers=(Line(self.points[0], cursor),), label=span_label(self.points[0], cursor))
+            return Preview(helpers=(Line(self.points[0], cursor),), label=span_label(self.points[0], cursor, self.unit))
         arc = arc_through(self.points[0], self.points[1], cursor)
-        return Preview((arc,), label=arc_label(arc))
+        return Preview((arc,), label=arc_label(arc, self.unit))
 
 
 @dataclass
@@ -90,7 +90,7 @@ class CircleTool(DrawingTool):
     def show(self, cursor: Point) -> Preview:
         """Return the circle with its radius."""
         radius = math.dist(self.points[0], cursor)
-        return Preview((circle(self.points[0], radius),), (Line(self.points[0], cursor),), f"R {radius:.3f}")
+        return Preview((circle(self.points[0], radius),), (Line(self.points[0], cursor),), f"R {length_label(radius, self.unit)}")
 
 
 def _round(point: Point) -> Point:

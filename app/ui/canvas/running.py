@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from app.edit.document import Document
-from app.edit.errors import CommandError
+from app.edit.errors import CommandError, reason_of
 from app.edit.evaluate import value_of
 from app.edit.grammar import read_value
 from app.edit.language import command_word
@@ -32,6 +32,7 @@ class ToolRunner:
     Attributes:
         kind: which tool runs. tool: the tool itself, None for SELECT.
         cursor: where the tool aims, mm. under: the curve that a click would pick, or None.
+        unit: what lengths are typed and shown in, mm.
     """
 
     def __init__(self, document: Document, say: Callable[[str], None]) -> None:
@@ -40,6 +41,7 @@ class ToolRunner:
         self.kind = CanvasTool.SELECT
         self.tool: DrawingTool | None = None
         self.cursor: Point = (0.0, 0.0)
+        self.unit = 1.0
         self.under: Pick | None = None
         self._desk, self._trials = Desk(document, {}), Trials(document)
         self._last = CanvasTool.LINE
@@ -60,6 +62,11 @@ class ToolRunner:
         return self.tool is not None and self.tool.wants is Want.SELECTION
 
     @property
+    def wants_words(self) -> bool:
+        """True while words are asked for, which may hold blanks and every other sign."""
+        return self.tool is not None and self.tool.wants is Want.WORDS
+
+    @property
     def looking(self) -> bool:
         """True while what lies under the mouse is to be lit: it would be selected, or picked."""
         return self.tool is None or self.under is not None or self.tool.wants in (Want.SELECTION, Want.CURVE)
@@ -74,17 +81,24 @@ class ToolRunner:
         """The tool that Enter begins again."""
         return self._last
 
+    def set_unit(self, unit: float) -> None:
+        """Count in another unit, of so many mm."""
+        self.unit = unit
+        if self.tool is not None:
+            self.tool.unit = unit
+
     def start(self, kind: CanvasTool) -> None:
         """Begin a tool; an unfinished shape is given up. One that has nothing to ask does its work at once."""
         self.kind, self.under = kind, None
         self.tool = TOOLS[kind]() if kind in TOOLS else None
         if self.tool is not None:
-            self._last = kind
+            self._last, self.tool.unit = kind, self.unit
             self._run(self.tool.begin(self._desk))
 
     def hold(self, tool: DrawingTool) -> None:
         """Take a tool in hand for one point, beside SELECT."""
         self.kind, self.tool = CanvasTool.SELECT, tool
+        tool.unit = self.unit
 
     def aim_at(self, point: Point, under: Pick | None = None) -> None:
         """See the mouse aim at a point, mm, and at a curve that can be picked there."""
@@ -140,7 +154,7 @@ class ToolRunner:
 
     def takes(self, text: str) -> bool:
         """Return whether a typed text is an option of the running tool, or the words that it asks for."""
-        return self.tool is not None and (self.tool.wants is Want.WORDS or text.strip().lower() in self.tool.options)
+        return self.wants_words or (self.tool is not None and text.strip().lower() in self.tool.options)
 
     def preview(self, point: Point) -> Preview:
         """Return what a click at a point would make."""
@@ -198,13 +212,15 @@ class ToolRunner:
         return True
 
     def _place(self, tool: DrawingTool, text: str) -> None:
-        scope = replace(self._document.session.scope, last=tool.base or self._document.last_point)
+        scope = replace(self._document.session.scope, last=tool.base or self._document.last_point, plain=self.unit)
         value = value_of(read_value(text), scope)
         if isinstance(value, tuple):
             self.click(value)
             return
         if isinstance(value, Curves):
             raise CommandError(f"'{text}' is a curve; a point or a length is wanted.")
+        if tool.takes_length:
+            value = float(scope.length(value))
         before = self._answers(tool)
         line = tool.typed(value)
         if line is not None:
@@ -229,7 +245,7 @@ class ToolRunner:
             self._run(act(), before)
         except InputError as error:
             tool.clear()
-            self._say(str(error))
+            self._say(reason_of(error))
 
     def _answers(self, tool: DrawingTool) -> list[Answer]:
         return list(tool.answers) if isinstance(tool, AskingTool) else []
@@ -242,7 +258,7 @@ class ToolRunner:
         try:
             self._document.run(line)
         except InputError as error:
-            self._say(str(error))
+            self._say(reason_of(error))
             if isinstance(tool, AskingTool) and before is not None:
                 tool.restore(before)
                 return

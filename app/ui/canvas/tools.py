@@ -14,7 +14,7 @@ from app.ui.canvas import corner_tools as corner
 from app.ui.canvas import edit_tools as edit
 from app.ui.canvas import form_tools as form
 from app.ui.canvas.chain_tools import LineTool, PolylineTool
-from app.ui.canvas.drawing_tool import DrawingTool, Preview
+from app.ui.canvas.drawing_tool import DrawingTool, Preview, size_label
 from app.ui.canvas.modes import CanvasTool
 from app.ui.canvas.round_tools import ArcCentreTool, ArcThreeTool, CircleTool
 
@@ -45,7 +45,7 @@ class RectangleTool(DrawingTool):
     def show(self, cursor: Point) -> Preview:
         """Return the rectangle with width and height."""
         (x, y) = self.points[0]
-        return Preview(rectangle(self.points[0], cursor), label=f"{abs(cursor[0] - x):.3f} \u00d7 {abs(cursor[1] - y):.3f}")
+        return Preview(rectangle(self.points[0], cursor), label=size_label((cursor[0] - x, cursor[1] - y), self.unit))
 
 
 _ALL: dict[CanvasTool, Callable[[], DrawingTool]] = {

@@ -62,15 +62,21 @@ class Acquired:
 
 @dataclass(frozen=True, slots=True)
 class Tracked:
-    """Where rays have drawn the mouse: one, or two that cross there."""
+    """Where rays have drawn the mouse: one, two that cross there, or one that meets a curve there."""
 
     point: Point
     rays: tuple[Ray, ...]
+    on_curve: bool = False
+
+    @property
+    def crosses(self) -> bool:
+        """True where the point is a crossing."""
+        return self.on_curve or len(self.rays) > 1
 
     @property
     def word(self) -> str:
         """What it is called beside the mouse."""
-        return " \u00d7 ".join(f"{ray.word} {ray.angle:.4g}°" for ray in self.rays)
+        return " \u00d7 ".join([f"{ray.word} {ray.angle:.4g}°" for ray in self.rays] + ["curve"] * self.on_curve)
 
 
 def acquired(point: Point, curves: Iterable[Curve]) -> Acquired:
@@ -105,11 +111,12 @@ def rays(base: Point | None, step: float | None, points: Sequence[Acquired]) -> 
     return found
 
 
-def tracked(at: Point, candidates: Sequence[Ray], scale: float, digits: int) -> Tracked | None:
-    """Return where rays draw the mouse, or None where none is near.
+def tracked(at: Point, candidates: Sequence[Ray], scale: float, digits: int, curves: Sequence[Curve] = ()) -> Tracked | None:
+    """Return where rays draw the mouse, or None where none is near; where rays cross, or meet a curve, is preferred.
 
     Args:
         at: where the mouse is, mm. scale: px per mm.
+        curves: near the mouse.
         digits: decimals that the length along a single ray is rounded to.
     """
     reach = _PX / scale
@@ -120,10 +127,21 @@ def tracked(at: Point, candidates: Sequence[Ray], scale: float, digits: int) -> 
             crossing = meets(Line(a.start, a.at(1.0)), Line(b.start, b.at(1.0)), extended=True)
             if crossing and math.dist(crossing[0], at) <= 2 * reach:
                 return Tracked(_tidy(crossing[0]), (a, b))
+    met = [(math.dist(p, at), p, ray) for _, ray in near for curve in curves for p in _meets(ray, curve, at, 2 * reach)]
+    if met:
+        _, point, ray = min(met, key=lambda each: each[0])
+        return Tracked(point, (ray,), on_curve=True)
     if not near:
         return None
     ray = near[0][1]
     return Tracked(_tidy(ray.at(round(ray.seen_from(at)[0], digits))), (ray,))
+
+
+def _meets(ray: Ray, curve: Curve, at: Point, reach: float) -> list[Point]:
+    """Return where a ray meets a curve within reach of a point."""
+    stretch = Line(ray.start, ray.at(ray.seen_from(at)[0] + 2 * reach))
+    box = (at[0] - reach, at[1] - reach, at[0] + reach, at[1] + reach)
+    return [p for p in meets(stretch, curve, within=box) if math.dist(p, at) <= reach and math.dist(p, ray.start) > WELD]
 
 
 def _tidy(point: Point) -> Point:

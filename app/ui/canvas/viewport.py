@@ -1,6 +1,7 @@
 """A widget on the drawing plane: zoom, pan, glide, and a picture of the scene that is painted only when it changes.
 
-A scene that takes longer than a frame is first shown as its last picture, moved and scaled, and painted anew in slices between events.
+A scene that takes longer than a frame is first shown as its last picture, moved and scaled, beside it a coarse picture of everything,
+and painted anew in slices between events.
 """
 
 from __future__ import annotations
@@ -10,10 +11,11 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 from PySide6.QtCore import QEasingCurve, QPointF, QRectF, Qt, QTimer, QVariantAnimation, Signal
-from PySide6.QtGui import QHideEvent, QMouseEvent, QPainter, QPaintEvent, QPixmap, QResizeEvent, QTransform, QWheelEvent
+from PySide6.QtGui import QHideEvent, QMouseEvent, QPainter, QPaintEvent, QPixmap, QRegion, QResizeEvent, QTransform, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
 from app.edit.sample import Box
+from app.ui.canvas.far_picture import FarPicture
 from app.ui.canvas.grid import RULER
 from app.ui.canvas.growing import Growing
 from app.ui.canvas.view import View, fitted
@@ -22,8 +24,14 @@ GLIDE_MS = 150
 _SETTLE_MS = 90
 """After this rest a shifted scene is painted anew, so that dashes meet where the strips met."""
 
+_REST_MS = 150
+"""After this rest the coarse picture of everything is painted."""
+
 _FRAME_MS, _SLICE_MS = 10.0, 6.0
 """A heavy scene that takes longer than the first is painted in slices of the second."""
+
+_TOO_SMALL = 0.5
+"""A picture that is shown smaller than this has lost its fine lines: the coarse one is shown in its stead."""
 
 _PATCHES = 16
 """More places than these are not repainted one by one."""
@@ -56,11 +64,14 @@ class Viewport(QWidget):
         self._growing: Growing | None = None
         self._slices = QTimer(self, singleShot=True, interval=0)
         self._slices.timeout.connect(self._grow)
+        self._far = FarPicture()
+        self._far_rest = QTimer(self, singleShot=True)
+        self._far_rest.timeout.connect(self._grow_far)
         self._pan_from: QPointF | None = None
         self._fitted: Box | None = None
         self.covered_right = 0.0
         self._settle = QTimer(self, singleShot=True, interval=_SETTLE_MS)
-        self._settle.timeout.connect(self.repaint_scene)
+        self._settle.timeout.connect(self._paint_anew)
         self._glide = QVariantAnimation(self)
         self._glide.setDuration(GLIDE_MS)
         self._glide.setEasingCurve(QEasingCurve.Type.OutCubic)
@@ -91,6 +102,15 @@ class Viewport(QWidget):
     def heavy(self) -> bool:
         """Whether so much is in view that painting it may take longer than a frame."""
         return False
+
+    @property
+    def far_box(self) -> Box | None:
+        """The box in mm of everything, where painting that takes so long that a coarse picture of it is kept; else None."""
+        return None
+
+    def far_steps(self, painter: QPainter, view: View) -> Iterator[None]:
+        """Paint everything coarsely, without its ground, as a view has it; at every pause others may have their turn."""
+        return iter(())
 
     @property
     def sharp(self) -> bool:
@@ -135,6 +155,10 @@ class Viewport(QWidget):
 
     def repaint_scene(self) -> None:
         """Paint the scene anew when the widget is next shown."""
+        self._forget_far()
+        self._paint_anew()
+
+    def _paint_anew(self) -> None:
         self._outdated = True
         self._give_up()
         self.update()
@@ -189,6 +213,7 @@ class Viewport(QWidget):
         """Paint more into the kept scene; nothing where it is to be painted anew anyway."""
         if self._scene is None or not self.sharp:
             return
+        self._forget_far()
         painter = QPainter(self._scene)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setClipRect(self.area)
@@ -222,7 +247,7 @@ class Viewport(QWidget):
             self.view = fitted(self._fitted, self.free_area(self._fitted))
         elif old.isValid():
             self.view = self.view.panned((self.width() - old.width()) / 2, (self.height() - old.height()) / 2)
-        self.repaint_scene()
+        self._paint_anew()
         self.view_changed.emit()
 
     def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
@@ -287,7 +312,22 @@ class Viewport(QWidget):
             return
         self._scene, self._scene_view, self._outdated, self._growing = growing.pixmap, growing.view, False, None
         self.scene_ms = growing.ms
+        if not self._far.whole:
+            self._far_rest.start(_REST_MS)
         self.update()
+
+    def _grow_far(self) -> None:
+        """Go on with the coarse picture while nothing else is to be painted."""
+        box = self.far_box
+        if box is None or not self.sharp or not self.isVisible():
+            return
+        self._far.go_on(box, self.far_steps, _SLICE_MS)
+        if not self._far.whole:
+            self._far_rest.start(0)
+
+    def _forget_far(self) -> None:
+        self._far.forget()
+        self._far_rest.start(_REST_MS)
 
     def _give_up(self) -> None:
         growing, self._growing = self._growing, None
@@ -308,20 +348,33 @@ class Viewport(QWidget):
         """Paint the kept scene where this view would have it, on bare ground, and sharp margins."""
         painter.setClipRect(self.area)
         self.paint_ground(painter, self.area)
+        ratio = self.devicePixelRatioF()
+        smooth = self.width() * self.height() * ratio * ratio < _SMOOTH_PX
+        painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, smooth)
         if self._scene is not None:
-            grown, old = self.view.scale / self._scene_view.scale, self._scene_view
-            painter.save()
-            painter.setTransform(QTransform(grown, 0, 0, grown, self.view.ox - grown * old.ox, self.view.oy - grown * old.oy), True)
-            ratio = self.devicePixelRatioF()
-            smooth = self.width() * self.height() * ratio * ratio < _SMOOTH_PX
-            painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, smooth)
-            size, fine = self._scene.deviceIndependentSize(), self._scene.devicePixelRatio()
-            kept = QRectF(RULER, RULER, size.width() - RULER, size.height() - RULER)
-            painter.drawPixmap(kept, self._scene, QRectF(kept.topLeft() * fine, kept.size() * fine))
-            painter.restore()
+            self._paint_kept(painter, self._scene)
         painter.setClipping(False)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self.paint_margins(painter)
+
+    def _paint_kept(self, painter: QPainter, scene: QPixmap) -> None:
+        """Paint the kept scene where this view would have it, and everything coarsely beside it."""
+        grown, old = self.view.scale / self._scene_view.scale, self._scene_view
+        where = QTransform(grown, 0, 0, grown, self.view.ox - grown * old.ox, self.view.oy - grown * old.oy)
+        size, fine = scene.deviceIndependentSize(), scene.devicePixelRatio()
+        kept = QRectF(RULER, RULER, size.width() - RULER, size.height() - RULER)
+        small = self._far.whole and grown < _TOO_SMALL
+        beside = QRegion(self.area.toRect()) - (QRegion() if small else QRegion(where.mapRect(kept).toRect()))
+        if not beside.isEmpty():
+            painter.setClipRegion(beside)
+            self._far.paint(painter, self.view)
+            painter.setClipRect(self.area)
+        if small:
+            return
+        painter.save()
+        painter.setTransform(where, True)
+        painter.drawPixmap(kept, scene, QRectF(kept.topLeft() * fine, kept.size() * fine))
+        painter.restore()
 
     def _glide_on(self, share: float) -> None:
         self._show(self._way[0].towards(self._way[1], float(share), self.area))

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 INDENT = "  "
-_OPENS = frozenset({"repeat", "if", "define"})
+_OPENS = frozenset({"repeat", "if", "define", "units"})
 _WORD = re.compile(r"\"[^\"\n]*\"?|#.*|(?P<word>[^\W\d]\w*)|(?P<end>;)|\S")
 _NAMED = re.compile(r"\blet\s+([^\W\d]\w*)|\bas\s+([^\W\d]\w*)|\bdefine\s+([^\W\d]\w*)\s*\(([^)\n]*)")
 Place = tuple[int, int, int]

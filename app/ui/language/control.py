@@ -8,7 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
-from app.atomic import write_atomically
+from app.atomic import read_whole, write_atomically
 from app.edit.difference import Difference
 from app.edit.document import Change
 from app.edit.write import draw_text
@@ -112,7 +112,7 @@ class TextControl(QObject):
     def open_file(self, path: Path) -> None:
         """Write what a file holds; Ctrl+Z in the editor brings back what stood there."""
         try:
-            data = path.read_bytes()
+            data = read_whole(path)
             if len(data) > _MOST_BYTES:
                 raise InputError(f"{path.name} has {len(data)} bytes; at most {_MOST_BYTES} are read.")
             self._fill(data.decode("utf-8-sig"), drawn=False)

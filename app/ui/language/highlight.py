@@ -14,7 +14,7 @@ from app.edit.units import ALL_UNITS
 from app.ui.theme import LIGHT, Theme, mixed
 
 _COLOURED = 1
-BLOCKS = frozenset({"let", "repeat", "if", "define", "else", "end", "as"})
+BLOCKS = frozenset({"let", "repeat", "if", "define", "units", "else", "end", "as"})
 _COMMANDS = frozenset(COMMANDS) | frozenset(ALIASES)
 _UNITS = "|".join(sorted((re.escape(unit) for unit in ALL_UNITS if unit.isalpha()), key=len, reverse=True))
 _TOKEN = re.compile(

@@ -78,6 +78,7 @@ class TextPage(QWidget):
         self.run_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.find_button, self.more = IconButton("find", "Find (Ctrl+F)"), IconButton("more", "Text from the drawing, files, samples")
         self.problem: Problem | None = None
+        self._told = ""
         self._finding = QTimer(self)
         self._finding.setSingleShot(True)
         self._finding.setInterval(_FIND_REST_MS)
@@ -171,6 +172,9 @@ class TextPage(QWidget):
         self._finding.timeout.connect(self._give_text)
 
     def _on_text(self) -> None:
+        if self.text == self._told:  # other colours are no other text
+            return
+        self._told = self.text
         if self.finder.isVisible():
             self._finding.start()
         self.edited.emit()

@@ -20,9 +20,10 @@ _BLOCKS: Mapping[str, tuple[str, str]] = {
     "let": ("let NAME = value", "names a number or a point"),
     "repeat": ("repeat n [as NAME] … end", "carries out the lines n times; the name counts from 0"),
     "if": ("if a < b … else … end", "carries out one list of lines or the other"),
+    "units": ("units in … end", "lines in which a length without a unit is in inches, or in another unit"),
     "define": ("define NAME(a, b) … end", "makes a command of your own; it is called with NAME a b"),
     "else": ("if a < b … else … end", "begins what is carried out when the comparison does not hold"),
-    "end": ("repeat, if or define … end", "ends a block"),
+    "end": ("repeat, if, units or define … end", "ends a block"),
     "as": ("circle P r as NAME, repeat n as NAME", "names what is drawn, or the count"),
 }
 

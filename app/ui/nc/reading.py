@@ -9,6 +9,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
+from app.atomic import read_whole
 from app.errors import InputError
 from app.nc.duration import Duration
 from app.nc.read.dialect import Dialect
@@ -58,7 +59,7 @@ class Source:
         if self.data is not None:
             return self.data
         try:
-            return Path(self.path or self.name).read_bytes()
+            return read_whole(Path(self.path or self.name))
         except OSError as error:
             raise InputError(f"Cannot read {self.path}: {error.strerror}. Choose another file.") from error
 

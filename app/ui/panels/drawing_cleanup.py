@@ -107,6 +107,8 @@ class CleanUpSection(Section):
         self._faults = tuple(faults[:MOST])
         self.list.clear()
         self.list.addItems([fault.words for fault in self._faults])
+        for row, fault in enumerate(self._faults):
+            self.list.item(row).setToolTip(fault.words)
         self.list.setFixedHeight(min(len(self._faults), _MOST_ROWS) * _ROW_PX)
         kinds = ", ".join(counted(count, kind) for kind, count in Counter(fault.kind for fault in faults).items())
         found = f"{kinds}." if faults else f"No fault within {self.tolerance.number:g} mm."

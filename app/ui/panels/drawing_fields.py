@@ -40,7 +40,7 @@ class PointField(QWidget):
             field.edit.setFixedWidth(COORDINATE_WIDTH)
             field.committed.connect(lambda _: self.committed.emit((self.across.number, self.up.number)))
             grid.addWidget(field, 0, column)
-        grid.addWidget(muted(spec.unit), 0, 3)
+        grid.addWidget(self.across.unit, 0, 3)
         grid.addWidget(self.reason, 1, 0, 1, 4)
         grid.setColumnStretch(3, 1)
 

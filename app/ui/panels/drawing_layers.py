@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from itertools import count
+from itertools import count, pairwise
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QContextMenuEvent, QKeyEvent, QMouseEvent
@@ -22,7 +22,7 @@ from app.ui.theme import Theme
 
 ROW_PX = 28
 MOST_ROWS = 8
-TIP = "Click: draw on it; double click: rename; right click: more; Del: remove"
+TIP = "Click: draw on it; double click: rename; drag, Alt+Up, Alt+Down: order; right click: more; Del: remove"
 
 
 class LayerRow(Row):
@@ -150,8 +150,10 @@ class LayersSection(Section):
         """Show the layers as they are now; rows stay as long as the names do."""
         part = self._document.part
         names = [layer.name for layer in part.layers]
-        if names != list(self.rows_by_name):
+        if set(names) != set(self.rows_by_name):
             self._build(part.layers)
+        elif names != list(self.rows_by_name):
+            self._sort(names)
         counts = Counter(e.layer for e in part.entities) + Counter(n.layer for n in part.notes)
         for layer in part.layers:
             self.rows_by_name[layer.name].show_layer(layer, counts[layer.name], layer.name == self._document.layer)
@@ -176,12 +178,22 @@ class LayersSection(Section):
         if focused is not None:
             list(self.rows_by_name.values())[min(focused, len(layers) - 1)].setFocus()
 
+    def _sort(self, names: list[str]) -> None:
+        """Bring the rows into another order; a row that is being dragged stays under the mouse."""
+        self.rows_by_name = {name: self.rows_by_name[name] for name in names}
+        for at, row in enumerate(self.rows_by_name.values()):
+            self._column.removeWidget(row)
+            self._column.insertWidget(at, row)
+        for before, row in pairwise(self.rows_by_name.values()):
+            self.setTabOrder(before, row)
+
     def _row(self, layer: Layer) -> LayerRow:
         row, name = LayerRow(layer), layer.name
         row.asked.connect(self.asked)
         row.clicked.connect(lambda: self._make_current(name))
         row.removed.connect(lambda: self.remove(name))
         row.stepped.connect(lambda way: self._step(name, way))
+        row.moved.connect(lambda way: self._move(name, way))
         row.more.connect(lambda place: self.menu(name).popup(place))
         return row
 
@@ -195,6 +207,12 @@ class LayersSection(Section):
         if 0 <= at < len(rows):
             self.rows_by_name[rows[at]].setFocus()
             self.area.ensureWidgetVisible(self.rows_by_name[rows[at]], 0, 0)
+
+    def _move(self, name: str, way: int) -> None:
+        rows = list(self.rows_by_name)
+        at = rows.index(name) + way
+        if 0 <= at < len(rows):
+            self.asked.emit(f"order layer {name_text(name)} {'after' if way > 0 else 'before'} {name_text(rows[at])}")
 
     def _add(self) -> None:
         known = set(self.rows_by_name)
@@ -220,6 +238,8 @@ class LayersSection(Section):
             ("Put the selection &here", chosen, lambda: self.asked.emit(f"set layer {text}")),
             ("&Select what is on it", True, lambda: self.asked.emit(f"select layer {text}")),
             ("Re&name", True, self.rows_by_name[name].begin_rename),
+            ("Move &up", next(iter(self.rows_by_name)) != name, lambda: self._move(name, -1)),
+            ("Move &down", list(self.rows_by_name)[-1] != name, lambda: self._move(name, 1)),
             ("&Remove", not alone, lambda: self.remove(name)),
         )
         for words, possible, act in entries:

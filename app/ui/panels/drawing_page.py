@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLineEdit, QScrollArea, QVBoxLayout, QWidget
 
 from app.edit.document import Change, Document
-from app.edit.errors import CommandError
+from app.edit.errors import reason_of
 from app.edit.sample import Box
 from app.errors import HitofudeError
 from app.ui.panels.drawing_cleanup import CleanUpSection
@@ -70,7 +70,7 @@ class DrawingPage(QScrollArea):
         try:
             self._document.run(line)
         except HitofudeError as wrong:
-            reason = wrong.reason if isinstance(wrong, CommandError) else str(wrong)
+            reason = reason_of(wrong)
             if field is not None:
                 field.refuse(reason)
             else:
@@ -90,7 +90,8 @@ class DrawingPage(QScrollArea):
 
     def _reveal(self, section: Section) -> None:
         self.ensureWidgetVisible(section, 0, 0)
-        first = next((w for w in section.findChildren(QWidget) if w.isVisible() and w.focusPolicy() & Qt.FocusPolicy.TabFocus), None)
+        found = [w for w in section.findChildren(QWidget) if w.isVisible() and w.focusPolicy() & Qt.FocusPolicy.TabFocus]
+        first = next((w for w in found if isinstance(w, QLineEdit)), next(iter(found), None))
         if first is not None:
             first.setFocus(Qt.FocusReason.OtherFocusReason)
 

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from app.edit.area import enclosed_area
 from app.edit.dimension_lines import figure
 from app.edit.document import Document
-from app.edit.evaluate import number_of
+from app.edit.evaluate import length_of, number_of
 from app.edit.grammar import read_value
 from app.edit.properties import Kind, Property, Value, kind_name, properties_of
 from app.edit.sample import Box
@@ -29,6 +29,7 @@ from app.ui.panels.adding_up import AddingUp
 from app.ui.panels.drawing_fields import COORDINATE_WIDTH, Figure, PointField
 from app.ui.panels.fields import ListField, NumberField, Spec
 from app.ui.panels.section import EDGE, Section
+from app.ui.shown_unit import clean, shown_name, shown_size
 
 VARIOUS = "various"
 """What a field shows while what is selected differs in it."""
@@ -135,7 +136,7 @@ class PropertiesSection(Section):
         self._adding.start({n: s for n, s in zip(selected.ids, selected.shapes, strict=True) if isinstance(s, Curve)} if several else {})
 
     def _show_sum(self, length: float, box: Box) -> None:
-        self.figures[TOTAL].show_value(f"{grouped(length)} mm")
+        self.figures[TOTAL].show_value(_length(length))
         self.figures[EXTENT].show_value(_size(box))
 
     def _build(self, properties: Mapping[str, Property], figures: tuple[str, ...]) -> None:
@@ -171,7 +172,8 @@ class PropertiesSection(Section):
 
     def _read(self, units: Mapping[str, float], text: str) -> float:
         """Return what a text means here, where the drawing's names can be used."""
-        return number_of(read_value(text), replace(self._document.session.scope, units=units))
+        scope = replace(self._document.session.scope, units=units, plain=shown_size())
+        return number_of(read_value(text), scope) if units is ANGLE_UNITS else clean(length_of(read_value(text), scope))
 
 
 def _remark(selected: Selected) -> str:
@@ -190,14 +192,23 @@ def _kinds(selected: Selected) -> str:
 
 
 def _size(box: Box) -> str:
-    return f"{grouped(box[2] - box[0])} {TIMES} {grouped(box[3] - box[1])} mm"
+    return f"{_plain(box[2] - box[0])} {TIMES} {_length(box[3] - box[1])}"
+
+
+def _plain(length: float) -> str:
+    """Return a length in the unit that is shown, without its name; inches with a decimal more."""
+    return grouped(length) if shown_size() == 1.0 else grouped(length / shown_size(), 4)
+
+
+def _length(length: float) -> str:
+    return f"{_plain(length)} {shown_name('mm')}"
 
 
 def _figures(selected: Selected) -> dict[str, str]:
     """Return what there is to read of what is selected and cannot be set."""
     curves = [shape for shape in selected.shapes if isinstance(shape, Curve)]
     area = enclosed_area(curves) if len(curves) <= _MOST_ROUND else None
-    closed = {"Area": f"{grouped(area)} mm²"} if area is not None else {}
+    closed = {"Area": f"{grouped(area / shown_size() ** 2)} {shown_name('mm')}²"} if area is not None else {}
     if len(selected.ids) == 1:
         return (_of_curve(curves[0]) if curves else _of_note(selected.shapes[0])) | closed
     return {"Kinds": _kinds(selected)} | ({TOTAL: "", EXTENT: ""} if curves else {}) | closed
@@ -207,9 +218,9 @@ def _of_curve(curve: Curve) -> dict[str, str]:
     if isinstance(curve, Arc | Circle):
         return {"Direction": "counter-clockwise" if curve.ccw else "clockwise"}
     if isinstance(curve, Ellipse):
-        return {"Length": f"{grouped(curve_length(curve))} mm", "Direction": "counter-clockwise" if curve.ccw else "clockwise"}
+        return {"Length": _length(curve_length(curve)), "Direction": "counter-clockwise" if curve.ccw else "clockwise"}
     if isinstance(curve, Spline):
-        return {"Length": f"{grouped(curve_length(curve))} mm", "Degree": str(curve.degree),
+        return {"Length": _length(curve_length(curve)), "Degree": str(curve.degree),
                 "Control points": f"{len(curve.control_points)}{', weighted' * bool(curve.weights)}"}
     return {}
 
@@ -224,5 +235,5 @@ def _whole(document: Document, extent: Box | None) -> dict[str, str]:
     if part.notes:
         found["Notes"] = grouped(len(part.notes), 0)
     if extent is not None:
-        found |= {EXTENT: _size(extent), "Lower left": f"{grouped(extent[0])}, {grouped(extent[1])}"}
+        found |= {EXTENT: _size(extent), "Lower left": f"{_plain(extent[0])}, {_plain(extent[1])}"}
     return found | {"Units": _UNITS[part.units]}

@@ -13,6 +13,7 @@ from app.edit.errors import CommandError
 from app.edit.numbers import length
 from app.errors import HitofudeError
 from app.ui.labels import Elided, muted
+from app.ui.shown_unit import clean, shown_name, shown_size
 
 LABEL_WIDTH = 92
 VALUE_WIDTH = 84
@@ -25,7 +26,7 @@ class Spec:
     """What a number field asks for.
 
     Attributes:
-        name, unit: shown before and after the value.
+        name, unit: shown before and after the value; mm gives way to the unit that the window shows.
         low, high: range, ends included, in the unit.
         decimals: shown when the field is not being typed in.
         is_length: units such as 1in can be typed; else plain numbers only.
@@ -42,21 +43,30 @@ class Spec:
     tip: str = ""
     auto: str = ""
 
+    @property
+    def size(self) -> float:
+        """How much of the unit one of what is shown and typed is."""
+        return shown_size() if shown_name(self.unit) != self.unit else 1.0
+
+    def text(self, value: float) -> str:
+        """Return a value as it is shown: inches with a decimal more."""
+        return f"{value / self.size:.{self.decimals + (self.size != 1.0)}f}"
+
     def read(self, text: str) -> float:
-        """Return the value of a typed text.
+        """Return the value of a typed text, in the unit.
 
         Raises:
             HitofudeError: not a number, or out of range; a sentence.
         """
         if not self.is_length and text[:1].isnumeric() and any(letter.isalpha() or letter in "\"'°%" for letter in text):
-            kind = f"is in {self.unit}" if self.unit else "has no unit"
+            kind = f"is in {shown_name(self.unit)}" if self.unit else "has no unit"
             raise HitofudeError(f"{self.name} {kind}; type the number alone.")
-        value = length(text)
+        value = clean(length(text, self.size))
         if self.decimals == 0 and self.unit in _COUNTED and value != int(value):
             raise HitofudeError(f"{self.name} is {value:g}; use a whole number.")
         if not self.low <= value <= self.high:
-            unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
-            raise HitofudeError(f"{self.name} is {value:g}{unit}; use {self.low:g} to {self.high:g}.")
+            unit, size = self.unit if self.unit in ("", "°") else f" {shown_name(self.unit)}", self.size
+            raise HitofudeError(f"{self.name} is {value / size:g}{unit}; use {self.low / size:g} to {self.high / size:g}.")
         return value
 
 
@@ -112,6 +122,7 @@ class NumberField(QWidget):
         self._value: float | None = 0.0
         self._before: float | None = 0.0
         self.edit, self.note, self.reason = QLineEdit(), Elided(role="muted"), reason or reason_label()
+        self.unit = muted(shown_name(spec.unit))
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.edit.setFixedSize(VALUE_WIDTH, ROW_HEIGHT)
         self.edit.setAccessibleName(spec.name)
@@ -136,7 +147,7 @@ class NumberField(QWidget):
         grid.setVerticalSpacing(2)
         grid.addWidget(name, 0, 0)
         grid.addWidget(self.edit, 0, 1)
-        grid.addWidget(muted(self.spec.unit), 0, 2)
+        grid.addWidget(self.unit, 0, 2)
         self.note.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         grid.addWidget(self.note, 0, 3)
         grid.addWidget(self.reason, 1, 0, 1, 4)
@@ -162,8 +173,14 @@ class NumberField(QWidget):
 
     def _take(self, value: float | None) -> None:
         self._value = value
-        self.edit.setText(self.spec.auto if value is None else f"{value:.{self.spec.decimals}f}")
+        self.edit.setText(self.spec.auto if value is None else self.spec.text(value))
         self.edit.setModified(False)
+
+    def follow_unit(self) -> None:
+        """Show the same value in the unit that the window shows now; what is being typed is given up."""
+        self.unit.setText(shown_name(self.spec.unit))
+        self._take(self._value)
+        self._mark("")
 
     def refuse(self, reason: str) -> None:
         """Mark what was typed as wrong, for a reason that only the job knows; Escape brings back what was there."""

@@ -8,6 +8,7 @@ from dataclasses import replace
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
+from app.edit.numbers import length
 from app.errors import HitofudeError
 from app.model.job import Job
 from app.model.operation import ContourOperation, Direction, DrillOperation, Operation, PocketOperation, RestOperation, Side
@@ -147,8 +148,7 @@ class OperationForm(Form):
 
     def _read_stepover(self, text: str) -> float:
         share = text.strip().removesuffix("%")
-        spec = self.stepover.spec
-        value = spec.read(text) if share == text.strip() else spec.read(share) * self._diameter / 100
+        value = self.stepover.spec.read(text) if share == text.strip() else length(share) * self._diameter / 100
         if not 0 < value <= self._diameter:
             raise HitofudeError(_too_wide(value, self._diameter))
         return value

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
@@ -107,14 +109,14 @@ class Row(QWidget):
         if event.button() == Qt.MouseButton.LeftButton:
             self.clicked.emit()
             self.setFocus(Qt.FocusReason.MouseFocusReason)
-            self._pressed_at = event.position().y()
+            self._pressed_at = event.globalPosition().y()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Dragged by more than a row's height, move by one."""
+        """Dragged over the better part of a row, move by one."""
         if event.buttons() & Qt.MouseButton.LeftButton:
-            way = event.position().y() - self._pressed_at
-            if abs(way) > self.height():
-                self._pressed_at = event.position().y()
+            way = event.globalPosition().y() - self._pressed_at
+            if abs(way) > self.height() * 0.75:
+                self._pressed_at += math.copysign(self.height(), way)
                 self.moved.emit(1 if way > 0 else -1)
 
     def event(self, event: QEvent) -> bool:

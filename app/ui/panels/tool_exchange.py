@@ -7,7 +7,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
-from app.atomic import write_atomically
+from app.atomic import read_whole, write_atomically
 from app.errors import HitofudeError, InputError
 from app.files.tool_files import read_tools, write_tools
 from app.files.tool_library import ToolLibrary, own_folder, write_library
@@ -93,7 +93,7 @@ class ToolExchange(QObject):
 
 def _bytes(path: Path) -> bytes:
     try:
-        return path.read_bytes()
+        return read_whole(path)
     except OSError as error:
         raise InputError(f"Cannot read {path}: {error.strerror}; choose another file.") from error
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from app.atomic import read_whole
 from app.bitmap.codes import PixelCode, Plane
 from app.bitmap.doubts import Ambiguity, ambiguities
 from app.bitmap.faces import inner_faces, shows
@@ -105,7 +106,7 @@ def open_picture(path: Path, progress: Progress = NO_PROGRESS) -> Preview:
     """
     progress.step(0.0, f"Reading {path.name}")
     try:
-        data = path.read_bytes()
+        data = read_whole(path)
     except OSError as error:
         raise InputError(f"Cannot read {path}: {error.strerror}. Choose another file.") from error
     try:

@@ -175,6 +175,28 @@ def test_layers_show_their_state_and_a_click_draws_on_one(qtbot, page, document)
     assert document.layer == "0" and rows["0"].property("chosen") == "true" and last(document) == 'layer "0"'
 
 
+def test_layers_are_dragged_and_stepped_into_another_order(qtbot, page, document):
+    document.run("layer marks; layer 0")
+    page.refresh()
+    row = page.layers.rows_by_name["0"]
+    qtbot.mousePress(row, Qt.MouseButton.LeftButton, pos=QPoint(150, 10))
+    at = row.mapToGlobal(QPoint(150, 10))
+    for way in (10, 24, 40, 52, 60):
+        qtbot.mouseMove(row, row.mapFromGlobal(at + QPoint(0, way)))
+        page.refresh()
+    qtbot.mouseRelease(row, Qt.MouseButton.LeftButton)
+    assert list(page.layers.rows_by_name) == ["holes", "marks", "0"] == [layer.name for layer in document.part.layers]
+    assert [line.command for line in document.log[-2:]] == ['order layer "0" after "holes"', 'order layer "0" after "marks"']
+    row.setFocus()
+    qtbot.keyClick(row, Qt.Key.Key_Up, Qt.KeyboardModifier.AltModifier)
+    page.refresh()
+    assert list(page.layers.rows_by_name) == ["holes", "0", "marks"] and page.layers.rows_by_name["0"] is row
+    entries = {action.text().replace("&", ""): action for action in page.layers.menu("holes").actions()}
+    assert not entries["Move up"].isEnabled()
+    entries["Move down"].trigger()
+    assert last(document) == 'order layer "holes" after "0"'
+
+
 def test_eye_lock_and_colour_are_lines(qtbot, page, document):
     row = page.layers.rows_by_name["holes"]
     for button, line in ((row.eye, 'hide "holes"'), (row.bolt, 'lock "holes"'), (row.eye, 'show "holes"'), (row.bolt, 'unlock "holes"')):
