@@ -77,6 +77,8 @@ class Scope:
             return shape.line
         if shape is not None:
             raise wrong(f"{number} is a point or a dimension; a curve is wanted.", place)
+        if number >= self.part.next_id():
+            raise wrong(f"There is no curve {number}; the drawing's properties show the numbers that there are.", place)
         raise wrong(f"Curve {number} is no longer in the drawing; draw it again or leave this out.", place)
 
 

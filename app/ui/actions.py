@@ -204,6 +204,7 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         Spec("help_language", "Shape &language"),
         Spec("manual", "&Manual"),
         Spec("keys", "&Keys", "F1"),
+        Spec("what_is_this", "&What is this?", "Shift+F1"),
         Spec("tour", "&Tour"),
         Spec("session_1986", "A 1986 &session"),
         Spec("about", "&About Hitofude"),
@@ -261,6 +262,7 @@ class Actions:
     def _add(self, spec: Spec, window: QWidget) -> None:
         hint = f"\t{spec.key_hint}" if spec.key_hint and not spec.key else ""
         action = QAction(spec.text + hint, window)
+        action.setObjectName(spec.name)
         action.setCheckable(spec.checkable)
         action.setVisible(spec.group != "tool" or spec.name in _TOOLS)
         action.setIconVisibleInMenu(False)

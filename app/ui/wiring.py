@@ -50,6 +50,7 @@ from app.ui.underlaying import Underlaying
 from app.ui.unit_choice import UnitChoice
 from app.ui.verdict import Level, verdict
 from app.ui.views import View
+from app.ui.what_is_this import WhatIsThis
 
 TOOLS = {f"tool_{tool.value}": tool for tool in CanvasTool}
 WORDS = {
@@ -82,6 +83,7 @@ class Wiring(QObject):
         self.tools = ToolExchange(window, self.log)
         self.tabbing, self.unit_choice, self.underlaying = Tabbing(window), UnitChoice(window), Underlaying(window)
         self.language = LanguageWiring(window, self.showing)
+        self.what_is_this = WhatIsThis(window, self.language.help)
         self.files.saving.beside.watch(self.underlaying, self.language.control)
         self.advising = Advising(window)
         self.engaging = Engaging(window)

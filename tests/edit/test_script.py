@@ -130,9 +130,9 @@ def test_what_a_block_draws_is_undone_together_with_its_names() -> None:
     ("circle mid(1,2) 3", 1, 8, "Write mid(a, b)"),
     ("end", 1, 1, "no command"),
     ("circle 0,0 5\n  lime 0,0", 2, 3, "'lime' is no command"),
-    ("let r = start(3)", 1, 15, "Curve 3 is no longer"),
+    ("let r = start(3)", 1, 15, "no curve 3"),
     ("line 0,0 1e9,0", 1, 10, "too large"),
-    ("let a = meet(1,2)", 1, 14, "Curve 1 is no longer"),
+    ("let a = meet(1,2)", 1, 14, "no curve 1"),
 ])
 def test_what_is_wrong_is_told_with_line_and_column(text: str, line: int, column: int, says: str) -> None:
     document = Document()

@@ -1,0 +1,127 @@
+"""What is this? A question mark at the mouse: the thing that is clicked says what it is for, and opens the manual where it is told."""
+
+from __future__ import annotations
+
+from html import escape
+
+from PySide6.QtCore import QEvent, QObject, QTimer
+from PySide6.QtGui import QWhatsThisClickedEvent
+from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QMenuBar, QToolButton, QWhatsThis, QWidget
+
+from app.edit.language import command_word
+from app.ui.canvas.canvas import Canvas
+from app.ui.command_line import CommandLine
+from app.ui.cut.cut_panel import CutPanel
+from app.ui.cut.cut_view import CutView
+from app.ui.help_window import HelpWindow
+from app.ui.language.page import TextPage
+from app.ui.main_window import MainWindow
+from app.ui.nc.nc_view import NcView
+from app.ui.panels.drawing_page import DrawingPage
+from app.ui.panels.side_panel import SidePanel
+from app.ui.panels.side_tabs import SideTabs
+from app.ui.stages.stages_view import StagesView
+from app.ui.status_bar import StatusBar
+from app.ui.tool_strip import ToolStrip
+from app.ui.tour import Callout
+from app.ui.words import tr
+
+LANGUAGE = "language"
+LISTENING_MS = 60_000
+"""So long after the question a link in its answer opens the manual: nobody listens to every event for ever."""
+
+PLACES: dict[type[QWidget], tuple[str, str]] = {
+    Canvas: (
+        "The drawing, or the tool paths. The wheel zooms at the mouse, the middle button moves, F fits. Tools ask below what they need; "
+        "points can be clicked or typed.", LANGUAGE),
+    ToolStrip: (
+        "Tools that draw, change and measure. Choose one, then follow the line at the bottom; Esc leaves it, Enter repeats it.", LANGUAGE),
+    SideTabs: ("Job: tools and operations. Drawing: properties, layers, clean-up and history. Text: the drawing in words.", ""),
+    SidePanel: ("What is machined with which tool, how deep and how fast. F5 computes the paths anew.", ""),
+    DrawingPage: (
+        "Numbers of what is selected, to be changed; layers; what is wrong with the drawing; everything that was done.", LANGUAGE),
+    TextPage: ("The drawing as a text. What it would draw is shown while it is written; Ctrl+Enter draws it.", LANGUAGE),
+    CommandLine: (
+        "Type what a tool asks for, or a whole line such as circle 10,10 5. Above it is everything that was done, in the same words.",
+        LANGUAGE),
+    StatusBar: ("Where the mouse is, what it snaps to, and whether the paths are those of the drawing.", ""),
+    StagesView: ("The way of 1986, step by step, as the display memory held it.", ""),
+    CutView: (
+        "What the program leaves of the stock: gouges red, metal left blue. Drag to turn, click to be told depth and line.", ""),
+    CutPanel: ("What was cut, with which tools, and what was found.", ""),
+    NcView: ("The NC program as text and as path. A click on either shows the place in the other.", "posts"),
+    QMenuBar: ("Everything that the program can do, with its keys. Ctrl+Shift+Space finds all of it by name.", ""),
+    Callout: ("A tour of the window in six steps.", ""),
+}
+"""What the large parts of the window are for, and the page of the manual that tells more, or ""."""
+
+
+class WhatIsThis(QObject):
+    """Answers clicks after Shift+F1; built once for a window."""
+
+    def __init__(self, window: MainWindow, manual: HelpWindow) -> None:
+        super().__init__(window)
+        self._window, self._help = window, manual
+        self._own: set[QWidget] = set()
+        self._listening = QTimer(self)
+        self._listening.setSingleShot(True)
+        self._listening.setInterval(LISTENING_MS)
+        self._listening.timeout.connect(self._leave)
+        window.actions_["what_is_this"].triggered.connect(lambda *_: self.ask())
+
+    def ask(self) -> None:
+        """Wait for a click with the question mark."""
+        self.explain()
+        if (application := QApplication.instance()) is not None:
+            application.installEventFilter(self)  # links in explanations are told to the program alone
+        self._listening.start()
+        QWhatsThis.enterWhatsThisMode()
+
+    def _leave(self) -> None:
+        if (application := QApplication.instance()) is not None:
+            application.removeEventFilter(self)
+
+    def explain(self) -> None:
+        """Give every part of the window its explanation, in the words that it shows now."""
+        for widget in (self._window, *self._window.findChildren(QWidget)):
+            if not widget.whatsThis() or widget in self._own:
+                self._own.add(widget)
+                widget.setWhatsThis(explanation(widget))
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """A link in an explanation opens the manual."""
+        if isinstance(event, QWhatsThisClickedEvent):
+            page, _, word = event.href().partition(":")
+            QWhatsThis.hideText()
+            if word:
+                self._help.show_word(word)
+            else:
+                self._help.show_page(page)
+            return True
+        return super().eventFilter(watched, event)
+
+
+def explanation(widget: QWidget) -> str:
+    """Return what a widget is for, as rich text; "" where the one that holds it tells."""
+    if type(widget) in PLACES:
+        text, page = PLACES[type(widget)]
+        return f"<p>{escape(tr(text))}</p>{_link(page)}"
+    name = widget.accessibleName() or (widget.text() if isinstance(widget, QAbstractButton | QLabel) else "")
+    tip = widget.toolTip()
+    if not name and not tip:
+        return ""
+    head = f"<p><b>{escape(name)}</b></p>" if name and name != tip else ""
+    return f"{head}<p>{escape(tip)}</p>{_link(_page_of(widget))}" if tip else head
+
+
+def _page_of(widget: QWidget) -> str:
+    """Return where the manual tells of a tool."""
+    action = widget.defaultAction() if isinstance(widget, QToolButton) else None
+    if action is None:
+        return ""
+    word = command_word(action.objectName().removeprefix("tool_").partition("_")[0])
+    return f"{LANGUAGE}:{word}" if word and action.objectName().startswith("tool_") else ""
+
+
+def _link(page: str) -> str:
+    return f'<p><a href="{page}">{escape(tr("More in the manual"))}</a></p>' if page else ""
