@@ -51,12 +51,13 @@ QToolButton[role="tab"] { border-radius: 0; padding: 0 10px; color: $muted;
   border-bottom: 2px solid transparent; border-top: 2px solid transparent; }
 QToolButton[role="tab"]:hover { color: $ink; background: transparent; }
 QToolButton[role="tab"]:checked { color: $ink; font-weight: 600; border-bottom-color: $accent; }
-QToolButton[role="tab"]:focus { border-left: 0; border-right: 0; border-top: 2px solid transparent; color: $ink; }
+QToolButton[role="tab"]:focus { border-left: 0; border-right: 0; border-top: 2px solid transparent; color: $ink; background: $hover; }
 QToolButton[role="fold"] { padding: 2px 6px 2px 2px; font-weight: 600; }
+QToolButton[role="fold"]:focus { background: $hover; }
 QToolButton[role="choice"] { border-radius: 0; padding: 3px 1px; color: $muted; border-bottom: 2px solid transparent; }
 QToolButton[role="choice"]:hover { color: $ink; background: transparent; }
 QToolButton[role="choice"]:checked { color: $ink; font-weight: 600; border-bottom-color: $accent; }
-QToolButton[role="choice"]:focus { color: $accent_text; }
+QToolButton[role="choice"]:focus { color: $accent_text; background: $hover; }
 QToolButton[role="toggle"] { padding: 2px 5px; color: $muted; }
 QToolButton[role="toggle"]:checked { color: $ink; }
 QToolButton[role="toggle"][popupMode="1"] { padding-right: 16px; }

@@ -37,7 +37,7 @@ class ShapeEditor(QPlainTextEdit):
     """A text in the shape language.
 
     Signals:
-        run_asked(): Ctrl+Enter. help_asked(word, function): F1 on a word; a bracket follows it. find_asked(): Ctrl+F.
+        run_asked(): Ctrl+Enter. help_asked(word, function): F1 on a word; a bracket follows it. find_asked(): Ctrl+F. left(): Esc.
 
     Attributes:
         names: (name, whether it is a command) of what the drawing has named already.
@@ -46,6 +46,7 @@ class ShapeEditor(QPlainTextEdit):
     run_asked = Signal()
     help_asked = Signal(str, bool)
     find_asked = Signal()
+    left = Signal()
 
     def __init__(self) -> None:
         super().__init__()
@@ -164,6 +165,8 @@ class ShapeEditor(QPlainTextEdit):
             return self.run_asked.emit
         if plain and enter:
             return self._new_line
+        if event.key() == Qt.Key.Key_Escape and plain:
+            return self.left.emit  # Tab indents here, so this is the way out
         if event.key() == Qt.Key.Key_Tab and plain:
             return lambda: self._indent(1)
         if event.key() == Qt.Key.Key_Backtab:

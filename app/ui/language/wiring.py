@@ -32,6 +32,7 @@ class LanguageWiring(QObject):
         actions, status = window.actions_, window.status
         actions["help_language"].triggered.connect(lambda *_: self.help.show_page())
         actions["manual"].triggered.connect(lambda *_: self.help.show_page(_MANUAL))
+        self.control.page.editor.left.connect(window.canvas.setFocus)
         self.lines.progress.connect(status.show_progress)
         self.lines.busy_changed.connect(self._on_busy)
         window.closed.connect(self.lines.cancel)

@@ -101,6 +101,7 @@ class JobSection(ListSection):
             label.setFixedWidth(56)
             row = Row(label, value, stretch_after=1)
             row.setFixedHeight(24)
+            row.setAccessibleName(name)
             self._add_job_row(row)
 
     def _add_job_row(self, row: Row) -> None:
