@@ -1,7 +1,9 @@
 """Pictures become pixels with a size, and what their pixels leave open is found where it is."""
 
+import random
 import struct
 import zlib
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -262,3 +264,22 @@ def test_decoders_say_nothing_of_their_own(suffix: str, capfd: pytest.CaptureFix
 def test_a_picture_that_is_all_ink_says_so() -> None:
     assert "All of the picture is ink" in read_picture("a.png", coded(np.zeros((40, 40), np.uint8)), SIZED).remarks[0]
     assert read_picture("a.png", coded(paper()), SIZED).remarks == ()
+
+
+@pytest.mark.parametrize("seed", range(150))
+def test_damaged_pictures_are_pictures_or_sentences(seed: int, data: Path) -> None:
+    rng = random.Random(seed)
+    damaged = bytearray(rng.choice(sorted((data / "figures").glob("*.png"))).read_bytes())
+    way = rng.randrange(4)
+    if way == 0:
+        del damaged[rng.randrange(len(damaged)) :]
+    elif way == 1:
+        at = rng.randrange(len(damaged))
+        damaged[at:at] = rng.randbytes(20)
+    else:
+        for _ in range(rng.choice((1, 3, 30))):
+            damaged[rng.randrange(8, 60 if way == 2 else len(damaged))] = rng.randrange(256)
+    try:
+        read_picture("scan.png", bytes(damaged), PictureOptions(dpi=300))
+    except InputError as error:
+        assert "scan.png" in str(error)
