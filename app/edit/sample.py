@@ -60,10 +60,13 @@ def bounds(curve: Curve) -> Box:
     if isinstance(curve, Circle):
         (x, y), r = curve.centre, curve.radius
         return (x - r, y - r, x + r, y + r)
+    (x0, y0), (x1, y1) = curve.start, curve.end
+    if isinstance(curve, Line):
+        return (min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1))
     points = [curve.start, curve.end]
     if isinstance(curve, Arc):
         points += _quadrants_within(curve)
-    elif not isinstance(curve, Line):
+    else:
         points += [(float(x), float(y)) for x, y in sample(curve)]
     xs, ys = [p[0] for p in points], [p[1] for p in points]
     return (min(xs), min(ys), max(xs), max(ys))
@@ -86,10 +89,10 @@ def quadrants(curve: Arc | Circle) -> list[tuple[float, float]]:
 
 
 def _quadrants_within(arc: Arc) -> list[tuple[float, float]]:
-    (x, y), r, sweep = arc.centre, arc.radius, arc.sweep
+    (x, y), r, sweep, start = arc.centre, arc.radius, arc.sweep, arc.start_angle
     found = []
     for k, point in enumerate(((x + r, y), (x, y + r), (x - r, y), (x, y - r))):
-        ahead = (k * math.pi / 2 - arc.start_angle) * (1 if sweep > 0 else -1) % math.tau
+        ahead = (k * math.pi / 2 - start) * (1 if sweep > 0 else -1) % math.tau
         if ahead <= abs(sweep):
             found.append(point)
     return found

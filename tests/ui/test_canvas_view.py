@@ -11,9 +11,11 @@ from PySide6.QtGui import QPainterPath
 
 from app.edit.sample import sample, spline_points
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
+from app.model.part import Part
 from app.ui.canvas.curve_path import chain_path, curve_path
 from app.ui.canvas.grid import _text_at, grid_steps
-from app.ui.canvas.snap import Snap, SnapKind, best, no_snap_points, snap_points, to_grid
+from app.ui.canvas.part_picture import PartPicture
+from app.ui.canvas.snap import Snap, SnapKind, best, snaps_of, to_grid
 from app.ui.canvas.view import LARGEST_SCALE, View, fitted, nice_step
 
 AREA = QRectF(24, 24, 800, 600)
@@ -136,9 +138,9 @@ def test_a_chain_is_one_outline_that_can_be_filled() -> None:
 
 
 def test_snap_points_of_each_curve() -> None:
-    found = snap_points([Line((0, 0), (10, 0)), Circle((50, 50), 5), Arc((90, 0), (100, 10), (90, 10))])
-    pairs = list(zip(found.points.tolist(), found.kinds.tolist(), strict=True))
-    kinds = {kind: [tuple(point) for point, own in pairs if own == kind] for kind in SnapKind}
+    curves = (Line((0, 0), (10, 0)), Circle((50, 50), 5), Arc((90, 0), (100, 10), (90, 10)))
+    found = [snap for curve in curves for snap in snaps_of(curve)]
+    kinds = {kind: [snap.point for snap in found if snap.kind == kind] for kind in SnapKind}
     assert kinds[SnapKind.END] == [(0, 0), (10, 0), (90, 0), (100, 10)]
     assert kinds[SnapKind.MIDDLE][0] == (5, 0)
     assert kinds[SnapKind.MIDDLE][1] == pytest.approx((90 + 10 * math.sqrt(0.5), 10 - 10 * math.sqrt(0.5)))
@@ -147,11 +149,22 @@ def test_snap_points_of_each_curve() -> None:
 
 
 def test_ends_win_over_what_is_a_little_nearer() -> None:
-    points = snap_points([Line((0, 0), (1, 0))]).near((0.5, 0.0), 5.0)
+    points = snaps_of(Line((0, 0), (1, 0)))
     assert best(points, (0.3, 0.0), 1.0) == Snap((0, 0), SnapKind.END)
     assert best(points, (0.5, 0.0), 0.4) == Snap((0.5, 0), SnapKind.MIDDLE)
     assert best(points, (0.5, 5.0), 1.0) is None
-    assert no_snap_points().near((0.0, 0.0), 1.0) == []
+
+
+@pytest.mark.parametrize("curve", [
+    Line((0, 0), (10, 0)), Circle((50, 50), 5), Arc((10, 0), (8, 6), (0, 0)), Arc((8, 6), (10, 0), (0, 0), ccw=False),
+    Ellipse((3, 4), (20, 7), 0.37), Ellipse((3, 4), (20, 7), 0.37, 0.3, 2.0),
+])
+def test_every_point_of_a_curve_is_found_where_it_is_be_it_off_the_curve(curve: Curve) -> None:
+    picture = PartPicture()
+    picture.update(Part().with_curves([curve], "0"))
+    for snap in snaps_of(curve):
+        assert snap in picture.near_points(snap.point, 1e-9)
+    assert picture.near_points((-500.0, 0.0), 1.0) == []
 
 
 @given(st.floats(-1000, 1000), st.sampled_from([0.01, 0.05, 0.1, 0.25, 1.0, 5.0, 20.0]))

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from PySide6.QtGui import QPainterPath
 
 from app.edit.sample import Box, bounds
+from app.model.curves import Arc, Curve, Ellipse
 from app.model.part import Entity, Part
 from app.ui.canvas.curve_path import curve_path
-from app.ui.canvas.snap import SnapPoints, no_snap_points, snap_points
+from app.ui.canvas.snap import axis_ends
 
 _BITS = 6
 
@@ -30,14 +31,14 @@ class Chunk:
         paths: painter path in mm of each layer.
         boxes: (n, 4) x0, y0, x1, y1 of each entity, mm.
         box: of all of them.
-        snaps: where the mouse may snap to.
+        held: (n, 4) boxes that take in the points to snap to as well: centres may lie off the curve.
     """
 
     entities: tuple[Entity, ...]
     paths: dict[str, QPainterPath]
     boxes: NDArray[np.float64]
     box: Box
-    snaps: SnapPoints
+    held: NDArray[np.float64]
 
 
 class PartChunks:
@@ -46,7 +47,7 @@ class PartChunks:
     Attributes:
         chunks: chunks of the entities that can be seen, in the order of drawing.
         entities, boxes: those entities and their (n, 4) boxes, mm, row for row.
-        snaps: all their snap points.
+        held: (n, 4) boxes of those entities with their points to snap to, mm.
     """
 
     def __init__(self) -> None:
@@ -54,7 +55,7 @@ class PartChunks:
         self.chunks: list[Chunk] = []
         self.entities: tuple[Entity, ...] = ()
         self.boxes: NDArray[np.float64] = np.zeros((0, 4))
-        self.snaps = no_snap_points()
+        self.held: NDArray[np.float64] = np.zeros((0, 4))
         self._cache: dict[int, Chunk] = {}
 
     def update(self, part: Part) -> list[Box] | None:
@@ -70,7 +71,7 @@ class PartChunks:
         self.chunks = list(self._cache.values())
         self.entities = tuple(e for chunk in self.chunks for e in chunk.entities)
         self.boxes = np.concatenate([c.boxes for c in self.chunks]) if self.chunks else np.zeros((0, 4))
-        self.snaps = SnapPoints.joined([c.snaps for c in self.chunks])
+        self.held = np.concatenate([c.held for c in self.chunks]) if self.chunks else np.zeros((0, 4))
         changed = [key for key in before.keys() | self._cache.keys() if before.get(key) is not self._cache.get(key)]
         if len(changed) > _FEW:
             return None
@@ -102,7 +103,17 @@ def _by_number(entities: Iterable[Entity]) -> Iterable[tuple[int, Iterable[Entit
 def _built(entities: tuple[Entity, ...]) -> Chunk:
     layers = dict.fromkeys(e.layer for e in entities)
     paths = {layer: curve_path(*(e.curve for e in entities if e.layer == layer)) for layer in layers}
-    boxes = np.array([bounds(e.curve) for e in entities])
+    listed = [bounds(e.curve) for e in entities]
+    boxes = np.array(listed)
     (x0, y0), (x1, y1) = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
-    snaps = snap_points([e.curve for e in entities])
-    return Chunk(entities, paths, boxes, (float(x0), float(y0), float(x1), float(y1)), snaps)
+    held = np.array([_held(e.curve, box) for e, box in zip(entities, listed, strict=True)])
+    return Chunk(entities, paths, boxes, (float(x0), float(y0), float(x1), float(y1)), held)
+
+
+def _held(curve: Curve, box: Box) -> Box:
+    """Return the box of a curve and of its points to snap to."""
+    if not isinstance(curve, Arc | Ellipse):
+        return box
+    points = [curve.centre] if isinstance(curve, Arc) else [curve.centre, *axis_ends(curve)]
+    xs, ys = zip(box[:2], box[2:], *points, strict=True)
+    return (min(xs), min(ys), max(xs), max(ys))

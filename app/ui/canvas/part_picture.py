@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 
@@ -17,7 +18,7 @@ from app.ui.canvas.curve_path import MANY, curve_path
 from app.ui.canvas.near_snaps import distance_to
 from app.ui.canvas.notes_picture import NotesPicture, note_distance, paint_notes
 from app.ui.canvas.pens import FINE, screen_pen
-from app.ui.canvas.snap import Snap
+from app.ui.canvas.snap import Snap, snaps_of
 from app.ui.canvas.view import View
 from app.ui.theme import Theme
 
@@ -29,7 +30,7 @@ class PartPicture:
     """One part, ready to paint.
 
     Attributes:
-        lookup: its chunks, boxes and snap points.
+        lookup: its chunks and boxes.
         notes: its points, construction lines and dimensions.
         fine: whether curves are painted with pens of one px; that is decided for all that is in view.
     """
@@ -146,11 +147,15 @@ class PartPicture:
 
     def near_points(self, at: Point, reach: float) -> list[Snap]:
         """Return the points to snap to within `reach` mm of a point that curves and notes have by themselves."""
-        return [*self.lookup.snaps.near(at, reach), *self.notes.near_points(at, reach)]
+        found = (snap for entity in self._reached(self.lookup.held, at, reach) for snap in snaps_of(entity.curve))
+        within = [s for s in found if abs(s.point[0] - at[0]) <= reach and abs(s.point[1] - at[1]) <= reach]
+        return [*within, *self.notes.near_points(at, reach)]
 
     def _near(self, at: Point, reach: float) -> list[Entity]:
         """Return the entities whose boxes reach near a point."""
-        boxes = self.lookup.boxes
+        return self._reached(self.lookup.boxes, at, reach)
+
+    def _reached(self, boxes: NDArray[np.float64], at: Point, reach: float) -> list[Entity]:
         near = ((boxes[:, 0] <= at[0] + reach) & (boxes[:, 2] >= at[0] - reach)
                 & (boxes[:, 1] <= at[1] + reach) & (boxes[:, 3] >= at[1] - reach))
         return [self.lookup.entities[row] for row in np.flatnonzero(near)]

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import IntEnum
-
-import numpy as np
-from numpy.typing import NDArray
+from functools import lru_cache
 
 from app.edit.sample import quadrants
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point
@@ -56,46 +54,6 @@ class Snap:
     kind: SnapKind
 
 
-@dataclass(frozen=True)
-class SnapPoints:
-    """Points (n, 2) in mm and their kinds (n,)."""
-
-    points: NDArray[np.float64]
-    kinds: NDArray[np.uint8]
-
-    @classmethod
-    def joined(cls, parts: Sequence[SnapPoints]) -> SnapPoints:
-        """Return all points of several sets."""
-        if not parts:
-            return no_snap_points()
-        return cls(np.concatenate([p.points for p in parts]), np.concatenate([p.kinds for p in parts]))
-
-    @classmethod
-    def of(cls, snaps: Iterable[Snap]) -> SnapPoints:
-        """Return these points as a set."""
-        listed = list(snaps)
-        if not listed:
-            return no_snap_points()
-        return cls(np.array([s.point for s in listed], np.float64), np.array([s.kind for s in listed], np.uint8))
-
-    def near(self, at: Point, reach: float) -> list[Snap]:
-        """Return the points in a square of 2 `reach` mm about a point."""
-        if not len(self.points):
-            return []
-        rows = np.flatnonzero((np.abs(self.points[:, 0] - at[0]) <= reach) & (np.abs(self.points[:, 1] - at[1]) <= reach))
-        return [Snap((float(self.points[row, 0]), float(self.points[row, 1])), SnapKind(int(self.kinds[row]))) for row in rows]
-
-
-def no_snap_points() -> SnapPoints:
-    """Return the empty set."""
-    return SnapPoints(np.zeros((0, 2)), np.zeros(0, np.uint8))
-
-
-def snap_points(curves: Iterable[Curve]) -> SnapPoints:
-    """Return the snap points of some curves."""
-    return SnapPoints.of(snap for curve in curves for snap in snaps_of(curve))
-
-
 def best(snaps: Iterable[Snap], at: Point, reach: float) -> Snap | None:
     """Return the snap nearest to `at` within `reach` mm, or None.
 
@@ -119,10 +77,11 @@ def to_grid(at: Point, step: float) -> Point:
     return (round(round(at[0] / step) * step, digits) + 0.0, round(round(at[1] / step) * step, digits) + 0.0)
 
 
-def snaps_of(curve: Curve) -> list[Snap]:
-    """Return the snap points of one curve."""
+@lru_cache(maxsize=1 << 15)
+def snaps_of(curve: Curve) -> tuple[Snap, ...]:
+    """Return the snap points of one curve; they are kept, for the mouse asks for the same ones at every step."""
     if isinstance(curve, Circle):
-        return [Snap(curve.centre, SnapKind.CENTRE), *(Snap(p, SnapKind.QUADRANT) for p in quadrants(curve))]
+        return (Snap(curve.centre, SnapKind.CENTRE), *(Snap(p, SnapKind.QUADRANT) for p in quadrants(curve)))
     found = [Snap(p, SnapKind.END) for p in dict.fromkeys((curve.start, curve.end))]
     if isinstance(curve, Line):
         found.append(Snap(((curve.start[0] + curve.end[0]) / 2, (curve.start[1] + curve.end[1]) / 2), SnapKind.MIDDLE))
@@ -132,11 +91,11 @@ def snaps_of(curve: Curve) -> list[Snap]:
         found += [Snap(curve.centre, SnapKind.CENTRE), Snap((x + r * math.cos(turn), y + r * math.sin(turn)), SnapKind.MIDDLE)]
         found += [Snap(p, SnapKind.QUADRANT) for p in quadrants(curve)]
     elif isinstance(curve, Ellipse):
-        found += [Snap(curve.centre, SnapKind.CENTRE), *(Snap(p, SnapKind.QUADRANT) for p in _axis_ends(curve))]
-    return found
+        found += [Snap(curve.centre, SnapKind.CENTRE), *(Snap(p, SnapKind.QUADRANT) for p in axis_ends(curve))]
+    return tuple(found)
 
 
-def _axis_ends(curve: Ellipse) -> list[Point]:
+def axis_ends(curve: Ellipse) -> list[Point]:
     """Return the ends of an ellipse's axes that lie on it."""
     span = curve.end_parameter - curve.start_parameter
     quarters = (k * math.pi / 2 for k in range(4))
