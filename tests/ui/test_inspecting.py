@@ -70,7 +70,7 @@ def test_faults_are_listed_shown_and_mended(qtbot, wiring):
     section = looked(qtbot, wiring)
     assert section.words.text() == "1 duplicate, 1 gap. Mending: 1 duplicate removed, 1 gap closed."
     assert [section.list.item(at).text() for at in range(section.list.count())] == [
-        "Duplicate at 3.000, 5.000: exact", "Gap at 10.003, 0.000: 0.0060 mm wide"]
+        "Duplicate at 3,5: exact", "Gap at 10.003,0: 0.0060 mm wide"]
     section.list.itemClicked.emit(section.list.item(1))
     assert wiring.document.selection == {1, 2} and section.list.isVisible()
     qtbot.mouseClick(section.mend, Qt.MouseButton.LeftButton)
