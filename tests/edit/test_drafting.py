@@ -211,7 +211,7 @@ def test_parallels_lie_on_the_side_of_the_point(line: str, made: Curve) -> None:
     ("fillet 9 2 4", "No arc"), ("fillet 0 2 3", "do not meet"), ("fillet 1 1", "Two curves"),
     ("fillet 1 1-4", "No two"),
     ("chamfer 50 1 2", "use less"), ("chamfer 1 2 3", "Parallel"), ("offset 9 100,50 4", "nearer"), ("offset 1 0,0 9", "no entity 9"),
-    ("trim 9 0,0", "no longer"), ("trim 1 0,0 by 9", "no entity 9"),
+    ("trim 9 0,0", "no curve 9"), ("trim 1 0,0 by 9", "no entity 9"),
     ("offset 0 5,5 1", "greater than 0"), ("offset 1 5,5", "Nothing is selected"),
 ])
 def test_what_cannot_be_done_is_told(line: str, says: str) -> None:
