@@ -157,3 +157,17 @@ def test_points_within_facets_are_left_out_or_moved_within_the_tolerance(tmp_pat
     cut = after.kind >= MotionKind.ARC_CW
     radius = np.hypot(*(after.end - after.centre)[cut, :2].T)
     assert np.sum(cut) <= 6 and np.abs(radius - 50).max() < 0.08, "a circle again, and not the polygon"
+
+
+def test_a_control_that_is_named_is_also_the_one_that_reads(tmp_path: Path) -> None:
+    text, report = smoothed(tmp_path, HEAD + ring() + TAIL, "--post", "fanuc", "--as", "nurbs")
+    assert "G6.2" in text or "G06.2" in text
+    assert report["blocks"]["after"] < 70  # type: ignore[index]
+
+
+def test_words_of_another_control_than_the_one_that_reads_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    source, out = tmp_path / "in.ngc", tmp_path / "out.ngc"
+    source.write_text(HEAD + ring() + TAIL)
+    assert main(["smooth", str(source), "-o", str(out), "--post", "fanuc", "--dialect", "linuxcnc", "--as", "nurbs"]) == 2
+    assert "LinuxCNC does not read what Fanuc takes" in capsys.readouterr().err
+    assert not out.exists()

@@ -10,6 +10,7 @@ from app.ui.icons import icon
 from app.ui.theme import Theme
 
 TOP_HEIGHT = 46
+_VIEWS = ("view_draw", "view_stages", "view_paths", "view_cut", "view_curves", "view_nc")
 
 
 def _line(width: int, height: int) -> QFrame:
@@ -50,7 +51,7 @@ class TopBar(QWidget):
                 row.addSpacing(4)
                 row.addWidget(_line(1, 20))
                 row.addSpacing(4)
-        self.tabs = {name: self._tab(name) for name in ("view_draw", "view_stages", "view_paths", "view_cut", "view_nc")}
+        self.tabs = {name: self._tab(name) for name in _VIEWS}
         for tab in self.tabs.values():
             row.addWidget(tab)
         row.addStretch(1)

@@ -17,6 +17,7 @@ from app.ui.bars import TopBar
 from app.ui.canvas.canvas import Canvas
 from app.ui.command_line import CommandLine
 from app.ui.computation import Computation
+from app.ui.curves.curves_panel import CurvesPanel
 from app.ui.cut.cut_panel import CutPanel
 from app.ui.cut.setup_form import SetupForm
 from app.ui.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
@@ -64,7 +65,7 @@ class MainWindow(QMainWindow):
         self.side.add_page("Job", self.panel, "stock, tools and operations")
         self.drawing_page = DrawingPage(document, lambda: self.canvas.picture.lookup.box)
         self.side.add_page("Drawing", self.drawing_page, "properties, layers and history of what is drawn")
-        self.cut_form = SetupForm()
+        self.cut_form, self.curves_panel = SetupForm(), CurvesPanel()
         self.stages_panel, self.import_panel, self.plot_panel = StagesPanel(), ImportPanel(), PlotPanel()
         self.notice, self.command_line, self.status = Notice(), CommandLine(), StatusBar()
         self.top_bar, self.tool_strip = TopBar(self.actions_), ToolStrip(self.actions_)
@@ -88,7 +89,7 @@ class MainWindow(QMainWindow):
         middle.addWidget(self.tool_strip)
         middle.addLayout(centre, 1)
         middle.addWidget(self.side)
-        for widget in (self.import_panel, self.stages_panel, self.cut_panel, self.cut_form, self.plot_panel):
+        for widget in (self.import_panel, self.stages_panel, self.cut_panel, self.cut_form, self.curves_panel, self.plot_panel):
             middle.addWidget(widget)
             widget.hide()
         root = QWidget()

@@ -41,6 +41,7 @@ NO_NC = Missing("There is no NC program yet.", "Compute  F5", "compute")
 NO_PROGRAM = Missing("There is no NC program yet. Draw a part and compute it, or open a program.", "Open an NC program", "nc_open")
 NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
 CUT_PROMPT = "Drag turns the cut, the middle button shifts it, Ctrl+drag measures a profile; click the metal to go to its line"
+CURVES_PROMPT = "Say how near curves must keep to the moves, then Smooth; click the deviation to see the place"
 STAGES_PROMPT = "Space plays, Left and Right step; click a traced line to see its chain code"
 PICTURE_PROMPT = "Say what is ink and how large a pixel is; what lies green is machined"
 COMPUTING = Missing("The paths are being computed.", "Cancel  Shift+F5", "cancel")
@@ -112,7 +113,7 @@ class Showing(QObject):
 
     def show_prompt(self) -> None:
         """Say what the command line takes: on the canvas what the tool in hand wants, beside a program what it is for."""
-        prompts = {View.STAGES: STAGES_PROMPT, View.CUT: CUT_PROMPT, View.NC: NC_PROMPT}
+        prompts = {View.STAGES: STAGES_PROMPT, View.CUT: CUT_PROMPT, View.CURVES: CURVES_PROMPT, View.NC: NC_PROMPT}
         picture = self.view is View.STAGES and self._window.import_panel.reading is not None
         self._window.command_line.set_prompt(PICTURE_PROMPT if picture else prompts.get(self.view, self._window.canvas.prompt))
 
@@ -162,7 +163,9 @@ class Showing(QObject):
         window.cut_form.setVisible(asks)
         window.cut_panel.setVisible(tells and not asks)
         window.stages_panel.setVisible(stages)
-        window.side.setVisible(not (asks or tells or stages or picture or plotting))
+        curves = self.view is View.CURVES and not plotting
+        window.curves_panel.setVisible(curves)
+        window.side.setVisible(not (asks or tells or stages or picture or curves or plotting))
 
     def _missing(self) -> Missing:
         if self._has_something():
@@ -172,10 +175,10 @@ class Showing(QObject):
         if self._computation.state is State.RUNNING:
             return COMPUTING if self.view is not View.DRAW else NOTHING
         if not self._document.part.entities:
-            if self.view is View.NC:
+            if self.view in (View.CURVES, View.NC):
                 return NO_PROGRAM
             return NOTHING if self.writing or self._window.canvas.tool is not CanvasTool.SELECT else NO_DRAWING
-        return {View.PATHS: NO_PATHS, View.CUT: NO_CUT, View.NC: NO_NC}.get(self.view, NOTHING)
+        return {View.PATHS: NO_PATHS, View.CUT: NO_CUT, View.CURVES: NO_NC, View.NC: NO_NC}.get(self.view, NOTHING)
 
     def _has_something(self) -> bool:
         """Return whether the view at the front shows something besides the drawing."""
@@ -184,7 +187,7 @@ class Showing(QObject):
             return views.stages.film is not None or self._window.import_panel.reading is not None
         if self.view is View.CUT:
             return views.cut.picture is not None or bool(views.cut.sentence.text())
-        return self._computation.made is not None or (self.view is View.NC and len(views.nc.pane.text.text) > 0)
+        return self._computation.made is not None or (self.view in (View.CURVES, View.NC) and len(views.nc.pane.text.text) > 0)
 
     def show_hovered(self, text: str) -> None:
         """Show what the mouse is over, or else where the paths stand."""
@@ -196,7 +199,7 @@ class Showing(QObject):
     def _show_standing(self) -> None:
         """Show what the status bar says when nothing else is to be said: of a run that failed, why it did."""
         views, computation = self._window.views, self._computation
-        words = {View.NC: views.nc.summary, View.STAGES: views.stages.summary}.get(self.view, "")
+        words = {View.CURVES: views.curves.summary, View.NC: views.nc.summary, View.STAGES: views.stages.summary}.get(self.view, "")
         self._window.status.show_message(words or computation.error or computation.state.value, error=bool(computation.error and not words))
 
     def _on_computation(self) -> None:

@@ -1,4 +1,4 @@
-"""The middle of the window: Draw and Paths on one canvas, Stages as pixels, Cut in space, NC as text; or what is missing."""
+"""The middle of the window: the canvas, Stages as pixels, Cut in space, Curves over moves, NC as text; or what is missing."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QLabel, QPushButton, QStackedWidget, QVBoxLayout, 
 
 from app.ui.canvas.canvas import Canvas
 from app.ui.canvas.modes import CanvasMode
+from app.ui.curves.curves_view import CurvesView
 from app.ui.cut.cut_view import CutView
 from app.ui.fade import Fade
 from app.ui.legend import Legend
@@ -30,6 +31,7 @@ class View(Enum):
     STAGES = "view_stages"
     PATHS = "view_paths"
     CUT = "view_cut"
+    CURVES = "view_curves"
     NC = "view_nc"
 
 
@@ -72,16 +74,17 @@ class EmptyState(QWidget):
 
 
 class Views(QStackedWidget):
-    """Canvas, stages, cut and NC text, with legend and empty state laid over them."""
+    """Canvas, stages, cut, curves and NC text, with legend and empty state laid over them."""
 
     def __init__(self, canvas: Canvas) -> None:
         super().__init__()
-        self.canvas, self.stages, self.cut, self.nc = canvas, StagesView(), CutView(), NcView()
-        self._own: dict[View, QWidget] = {View.STAGES: self.stages, View.CUT: self.cut, View.NC: self.nc}
+        self.canvas, self.stages, self.cut, self.curves, self.nc = canvas, StagesView(), CutView(), CurvesView(), NcView()
+        self._own: dict[View, QWidget] = {View.STAGES: self.stages, View.CUT: self.cut, View.CURVES: self.curves, View.NC: self.nc}
         self.view, self.plot = View.DRAW, PlotPreview()
         self.addWidget(canvas)
         self.addWidget(self.stages)
         self.addWidget(self.cut)
+        self.addWidget(self.curves)
         self.addWidget(self.nc)
         self.addWidget(self.plot)
         self.legend, self.empty, self.fade = Legend(self), EmptyState(self), Fade(self)
@@ -126,6 +129,8 @@ class Views(QStackedWidget):
             return self.cut
         if self.view is View.STAGES:
             return self.stages
+        if self.view is View.CURVES:
+            return self.curves.path
         return self.nc.path if self.view is View.NC else self.canvas
 
     def show_missing(self, sentence: str, button: str, shows_paths: bool) -> None:

@@ -15,6 +15,7 @@ from app.ui.advising import Advising
 from app.ui.canvas.modes import CanvasTool
 from app.ui.cleaning import Cleaning
 from app.ui.context_menu import ContextMenu
+from app.ui.curves.smoothing import Smoothing
 from app.ui.cut.cutting import Cutting
 from app.ui.cut.saving import CutSaving
 from app.ui.drawing_export import DrawingExport
@@ -103,6 +104,8 @@ class Wiring(QObject):
         self._connect_canvas()
         self._nc_wiring = NcWiring(window, self.nc, self.showing)
         self.nc.failed.connect(self._say_error)
+        self.smoothing = Smoothing(window, self.nc, self.showing, self.log)
+        self.smoothing.failed.connect(self._say_error)
         self.snapping = Snapping(window)
         self.tour, self.translating = Tour(window), Translating(window)
         self._unsubscribe = self.document.subscribe(self.showing.refresh)

@@ -29,7 +29,7 @@ from app.nc.curve_blocks import Spelling, curve_blocks
 from app.nc.linuxcnc_biarcs import driven
 from app.nc.post import NurbsForm, Post
 from app.nc.posts import load_post
-from app.nc.read.dialect import Dialect
+from app.nc.read.dialect import HABITS, Dialect
 from app.nc.read.guess import guess_dialect
 from app.nc.read.options import PATIENT, ReadOptions
 from app.nc.read.program import NcProgram
@@ -90,7 +90,7 @@ class SmoothOptions:
         degree: of splines, 3 or 5.
         corner: bends of more than this are kept exactly, radians.
         post: in whose words; None = those of the control that the text looks to be for.
-        dialect: how the program is read; None = as the text looks.
+        dialect: how the program is read; None = as the post's control reads it, or, without a post, as the text looks.
         effective: method D; None: the curve goes by all points.
     """
 
@@ -124,6 +124,7 @@ class Piece:
         judgement: of that curve against the points; None where it stayed.
         kept: why it stayed, or "".
         before, after: how smooth it is.
+        corners: numbers of its points that are kept exactly, the outer ones among them.
     """
 
     stretch: Stretch
@@ -134,6 +135,7 @@ class Piece:
     kept: str
     before: Smoothness
     after: Smoothness
+    corners: NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,7 +181,7 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
         InputError: the program cannot be read to its end, or has nothing that can be smoothed.
         Cancelled: the job was asked to stop.
     """
-    dialect = options.dialect or guess_dialect(data)
+    dialect = options.dialect or (options.post.dialect if options.post is not None else guess_dialect(data))
     post = options.post or load_post(_POSTS.get(dialect, "linuxcnc"))
     read = ReadOptions(dialect, limits=PATIENT)
     before = read_program(data, read, progress.part(0.0, 0.1))
@@ -191,6 +193,8 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
     while True:
         new = rewrite(data, found.stretches, blocks, ())
         after = read_program(new.data, read, progress.part(0.7, 0.8))
+        if after.error is not None:
+            raise InputError(f"{HABITS[dialect].title} does not read what {post.title} takes; choose the control that {name} is for.")
         judged = work.judged(after, new, progress.part(0.8, 1.0))
         failed = [k for k, (_, judgement) in judged.items() if judgement.answer is not Answer.INSIDE]
         if not failed:
@@ -292,9 +296,9 @@ class _Work:
         at = corners(points, self._options.corner, _REACH * self._tube.widest) if len(points) > 2 else np.array([0])
         before = of_points(points, points[at])
         if judged is None:
-            return Piece(stretch, points, (count, count), None, None, kept, before, before)
+            return Piece(stretch, points, (count, count), None, None, kept, before, before, at)
         curve, judgement = judged
-        return Piece(stretch, points, (count, blocks), curve, judgement, "", before, of_curve(curve, points[at]))
+        return Piece(stretch, points, (count, blocks), curve, judgement, "", before, of_curve(curve, points[at]), at)
 
 
 def _knots(curve: Nurbs) -> int:

@@ -84,6 +84,10 @@ class NcControl(QObject):
         if name:
             self.open(Path(name))
 
+    def show_text(self, source: Source) -> None:
+        """Show a program that is in no file yet."""
+        self._read(source)
+
     def restart_here(self) -> None:
         """Make a program that leads in to the picked line and goes on from there, and show it."""
         shown, row = self._view.shown, self._view.pane.text.selection[0]

@@ -17,7 +17,8 @@ BAR_PX = 36
 _ROOM_PX = 320
 
 
-def _bar(widget: QWidget, spacing: int = 8) -> QHBoxLayout:
+def bar(widget: QWidget, spacing: int = 8) -> QHBoxLayout:
+    """Make a widget a bar over what is below it; return its row."""
     widget.setObjectName("ncBar")
     widget.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
     widget.setFixedHeight(BAR_PX)
@@ -54,7 +55,7 @@ class TextHead(QWidget):
         self.dialect.setFixedHeight(24)
         self.dialect.activated.connect(lambda at: self.dialect_chosen.emit(self.dialect.itemData(at)))
         self._offer("as it looks")
-        row = _bar(self)
+        row = bar(self)
         row.addWidget(self.name, 1)
         row.addWidget(self.files, 1)
         row.addWidget(self.detail)
@@ -111,7 +112,7 @@ class Banner(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        row = _bar(self)
+        row = bar(self)
         self.sentence, self.button = Elided(role="muted"), QPushButton()
         self.button.setProperty("role", "link")
         self.button.setCursor(Qt.CursorShape.PointingHandCursor)
@@ -151,7 +152,7 @@ class PathHead(QWidget):
             for button in field.buttons.values():
                 button.setToolTip(f"{what} {button.text()}")
                 button.setAccessibleName(f"{what} {button.text()}")
-        row = _bar(self, 4)
+        row = bar(self, 4)
         row.addWidget(self.side)
         row.addStretch(1)
         self.key = muted("Colour by")

@@ -302,8 +302,12 @@ class PathView(Viewport):
         self._hover = motion
         shapes = self.picture.shapes
         self._under = shapes.path(np.array([motion]), self.picture.side) if motion is not None else QPainterPath()
-        self.hovered.emit(describe_motion(shapes, motion) if motion is not None else "")
+        self.hovered.emit(self.described(motion) if motion is not None else "")
         self.update()
+
+    def described(self, motion: int) -> str:
+        """Return what there is to say about a motion under the mouse."""
+        return describe_motion(self.picture.shapes, motion) if self.picture is not None else ""
 
 
 def _union(boxes: Iterable[Box | None]) -> Box | None:

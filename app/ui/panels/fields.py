@@ -303,6 +303,12 @@ class ListField(QWidget):
             self.box.clear()
             self.box.addItems([text for _, text in choices])
 
+    @property
+    def value(self) -> object:
+        """What is shown; None where nothing is."""
+        at = self.box.currentIndex()
+        return self._values[at] if at >= 0 else None
+
     def show_value(self, value: object, wrong: str = "") -> None:
         """Show the job's value, and what is wrong with it."""
         _mark(self.box, self.reason, wrong)
