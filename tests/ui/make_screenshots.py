@@ -144,6 +144,27 @@ def cut_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
     return {"place": place, "foreign": foreign, "asked": lambda: program("tux.ngc")}
 
 
+def curves_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
+    """Return what the Curves view is photographed with: an engraving as arcs, and the place where both paths are farthest apart."""
+    view, panel = wiring.window_.views.curves, wiring.window_.curves_panel
+
+    def arcs() -> None:
+        open_program(wiring, PROGRAMS / "jsdc.gcode")
+        wiring.showing.show_view(View.CURVES)
+        panel.preset.buttons[0.05].click()
+        panel.smooth.click()
+        wait_until(lambda: view.curves is not None and not wiring.smoothing.reading.worker.busy)
+
+    def farthest() -> None:
+        spot = view.curves.track.farthest() if view.curves is not None else None
+        if spot is not None:
+            view.go_to(spot)
+        wait(400)
+        view.path.zoom_by(40.0)
+
+    return {"arcs": arcs, "farthest": farthest}
+
+
 def stage_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
     """Return what the Stages view is photographed with: traced lines, a peel, paths, fitted lines, letters, a picture taken in."""
     view, panel = wiring.window_.views.stages, wiring.window_.stages_panel
@@ -217,6 +238,9 @@ def main() -> None:
             for name, arrange in nc_states(wiring, Path(os.environ["HITOFUDE_CONFIG"])).items():
                 arrange()
                 take(wiring, folder / f"nc-{name}-{theme.value}-{width}.png")
+            for name, arrange in curves_states(wiring).items():
+                arrange()
+                take(wiring, folder / f"curves-{name}-{theme.value}-{width}.png")
             for name, arrange in cut_states(wiring).items():
                 arrange()
                 take(wiring, folder / f"cut-{name}-{theme.value}-{width}.png")

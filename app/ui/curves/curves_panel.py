@@ -225,7 +225,7 @@ def _headline(told: dict[str, Any], kept: set[str]) -> str:
         return "No straight feed moves follow one another here, so there is nothing to smooth."
     if not changed:
         return f"Nothing was written anew: {'; '.join(sorted(kept))}."
-    name = told["as"] if told["as"] != "nurbs" else "NURBS"
+    name = {"lines": "straight lines", "nurbs": "NURBS"}.get(told["as"], told["as"])
     return f"{changed} of {of} written anew as {name}, and proven as written."
 
 

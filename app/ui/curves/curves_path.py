@@ -117,7 +117,7 @@ class CurvesPath(PathView):
         if self._layers is None or self.curves is None:
             return super()._key()
         rows = [KeyRow("Before", _before(theme))] if len(self.curves.changed) else []
-        return rows + super()._key()
+        return rows + super()._key() + ([KeyRow("Curvature", theme.left)] if self._comb else [])
 
     def _within(self, points: Floats, side: Side, box: Box) -> Floats:
         """Return (k, 2) those of some points that a box shows, on the screen, px."""
@@ -155,12 +155,12 @@ class CurvesPath(PathView):
         tip = foot + tooth * np.minimum(1.0, _TALLEST_PX / np.maximum(size, 1e-12))
         area = QRectF(self.area).adjusted(-_TALLEST_PX, -_TALLEST_PX, _TALLEST_PX, _TALLEST_PX)
         near = np.all((foot >= (area.left(), area.top())) & (foot <= (area.right(), area.bottom())), axis=1)
-        colour = QColor(self._how.theme.plunge)
+        colour = QColor(self._how.theme.left)
         colour.setAlphaF(0.55)
         painter.setPen(screen_pen(painter, colour, FINE))
         painter.drawLines([QLineF(*a, *b) for a, b in zip(foot[near].tolist(), tip[near].tolist(), strict=True)])
         along = near[1:] & near[:-1] & (comb.piece[1:] == comb.piece[:-1])
-        painter.setPen(screen_pen(painter, self._how.theme.plunge, 1.0))
+        painter.setPen(screen_pen(painter, self._how.theme.left, 1.0))
         painter.drawLines([QLineF(*a, *b) for a, b in zip(tip[:-1][along].tolist(), tip[1:][along].tolist(), strict=True)])
 
 

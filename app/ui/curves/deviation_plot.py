@@ -12,6 +12,7 @@ from app.ui.curves.track import Spot, Track
 from app.ui.labels import Elided
 from app.ui.panels.section import heading
 from app.ui.theme import LIGHT, Theme, text_font
+from app.ui.words import tr
 
 if TYPE_CHECKING:
     from pyqtgraph import InfiniteLine, PlotWidget
@@ -119,7 +120,7 @@ class DeviationPlot(QWidget):
             axis.setPen(mkPen(theme.hairline))
             axis.setTextPen(mkPen(theme.muted))
             axis.setStyle(tickFont=text_font(11))
-            axis.setLabel(words, color=theme.muted.name())
+            axis.setLabel(tr(words), color=theme.muted.name())
             axis.setSIPrefixEnableRanges(())  # mm whatever the height: switched off only, it still scales once more
         fill = QColor(theme.muted)
         fill.setAlphaF(0.16)
