@@ -11,6 +11,8 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QMenuBar, Q
 from app.edit.language import command_word
 from app.ui.canvas.canvas import Canvas
 from app.ui.command_line import CommandLine
+from app.ui.curves.curves_panel import CurvesPanel
+from app.ui.curves.curves_view import CurvesView
 from app.ui.cut.cut_panel import CutPanel
 from app.ui.cut.cut_view import CutView
 from app.ui.help_window import HelpWindow
@@ -49,6 +51,9 @@ PLACES: dict[type[QWidget], tuple[str, str]] = {
     CutView: (
         "What the program leaves of the stock: gouges red, metal left blue. Drag to turn, click to be told depth and line.", ""),
     CutPanel: ("What was cut, with which tools, and what was found.", ""),
+    CurvesView: (
+        "The program's moves, and the proven curves in their stead. Below: how far they are apart; click there to see the place.", ""),
+    CurvesPanel: ("How near curves must keep to the moves, and the certificate of what was written.", ""),
     NcView: ("The NC program as text and as path. A click on either shows the place in the other.", "posts"),
     QMenuBar: ("Everything that the program can do, with its keys. Ctrl+Shift+Space finds all of it by name.", ""),
     Callout: ("A tour of the window in six steps.", ""),
