@@ -165,7 +165,7 @@ def _biarcs(points: Floats, weights: Floats) -> tuple[Floats, Callable[[Floats],
     above, below = (BSpline(knots, part, 3).derivative()(ends) for part in (points * weights[:, None], weights))
     slope = above - place * below[:, None]
     p, t = place[:, 0] + 1j * place[:, 1], slope[:, 0] + 1j * slope[:, 1]
-    t = t / np.abs(t)
+    t = t / np.where(t == 0, 1, np.abs(t))
     way = p[:-1] - p[1:]
     a = 2 * ((t[:-1] * t[1:].conj()).real - 1)
     b = 2 * (way * (t[:-1] + t[1:]).conj()).real
@@ -177,7 +177,7 @@ def _biarcs(points: Floats, weights: Floats) -> tuple[Floats, Callable[[Floats],
     start = np.column_stack([p[:-1], (one + two) / 2]).ravel()
     end = np.append(start[1:], p[-1])
     along = np.column_stack([t[:-1], (two - one) / np.where(two == one, 1, np.abs(two - one))]).ravel()
-    half = np.angle((end - start) / along)
+    half = np.where(along == 0, 0, np.angle((end - start) / np.where(along == 0, 1, along)))
 
     def at(share: Floats) -> Floats:
         k = np.minimum((share * len(start)).astype(int), len(start) - 1)
