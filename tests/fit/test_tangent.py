@@ -85,7 +85,8 @@ def test_a_rounded_rectangle_is_its_sides_and_corners_again(roll: int, step: flo
 
 def test_an_s_of_arcs_is_few_arcs() -> None:
     low = (5.0, -15 - 10 * math.sin(math.pi / 3))
-    points = chorded([arc((0, 0), 5, 180, 270), arc((0, -15), 10, 90, -60), side(low, (low[0] - 8, low[1] - 8 * math.tan(math.pi / 6)))], 0.02, 4)
+    way = (low[0] - 8, low[1] - 8 * math.tan(math.pi / 6))
+    points = chorded([arc((0, 0), 5, 180, 270), arc((0, -15), 10, 90, -60), side(low, way)], 0.02, 4)
     path = fit_arcs(points, ArcOptions(TOLERANCE))
     assert len(path.motions) <= 4
     assert bends(path).max() < 0.1
