@@ -171,3 +171,11 @@ def test_words_of_another_control_than_the_one_that_reads_are_refused(tmp_path: 
     assert main(["smooth", str(source), "-o", str(out), "--post", "fanuc", "--dialect", "linuxcnc", "--as", "nurbs"]) == 2
     assert "LinuxCNC does not read what Fanuc takes" in capsys.readouterr().err
     assert not out.exists()
+
+
+def test_where_the_control_has_no_splines_in_space_arcs_of_the_other_planes_stand(tmp_path: Path) -> None:
+    t = np.linspace(0, math.pi, 200)
+    rows = [f"G1 X{30 * math.cos(a):.4f} Z{-10 - 30 * math.sin(a):.4f}" for a in t]
+    text, report = smoothed(tmp_path, HEAD + "\n".join(rows) + "\n" + TAIL, "--post", "linuxcnc", "--as", "nurbs", "--tolerance", "0.02")
+    assert "G18" in text and "G5.2" not in text
+    assert report["blocks"]["after"] <= 8  # type: ignore[index]

@@ -9,14 +9,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.fit.corners import corners
-from app.fit.fitted import FittedPath
-from app.model.motion import Floats, MotionKind, Motions, Plane
+from app.fit.fitted import FittedPath, arcs_between, chained
+from app.fit.space_curve import curve_of_motions
+from app.fit.tube import Answer, Tube, judge
+from app.model.motion import Floats, Plane
 from app.progress import NO_PROGRESS, Progress
 
 Ints = NDArray[np.int64]
 
 _REACH = 4.0
 """Corners are looked for over so many tolerances of the path."""
+_BEND = math.radians(0.5)
+"""A joint may turn by so much, or as much as the points do there."""
+_SHARES = (0.999, 0.9)
+"""Of the tolerance, that joints are moved in: between the samples that they are held to a little more is used."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,10 +43,12 @@ class ArcOptions:
 
 
 def fit_arcs(points: Floats, options: ArcOptions, progress: Progress = NO_PROGRESS) -> FittedPath:
-    """Return lines and arcs that begin and end at points; each is the longest that keeps within the tolerance from where it begins.
+    """Return lines and arcs that stand for points, few of them, and tangent where the points do not bend.
 
-    Arcs lie in the plane X Y, Z X or Y Z; along its normal they rise in step with the angle (helices). None stands for fewer
-    than three chords, and none turns by more than 230 degrees.
+    Each is the longest that keeps within the tolerance from the point where it begins. What lies in one plane, X Y, Z X or
+    Y Z, is then made tangent by moving its joints within the tolerance, with as many more pieces as that takes: no joint turns
+    by more than the points do. Other arcs are helices: along the plane's normal they rise in step with the angle. No arc
+    turns by more than 230 degrees.
 
     Args:
         points: (n, 3) mm, n >= 2, no two in a row alike.
@@ -50,43 +58,106 @@ def fit_arcs(points: Floats, options: ArcOptions, progress: Progress = NO_PROGRE
     Raises:
         Cancelled: the job was asked to stop.
     """
+    at = corners(points, options.corner, _REACH * options.tolerance)
+    parts = []
+    for k in range(len(at) - 1):
+        share = progress.part(k / (len(at) - 1), (k + 1) / (len(at) - 1))
+        parts.append(_between_corners(points[at[k] : at[k + 1] + 1], options, share))
+    return chained(parts)
+
+
+def _between_corners(points: Floats, options: ArcOptions, progress: Progress) -> FittedPath:
+    progress.step(0.0, "Fitting lines and arcs")
+    greedy = _greedy(points, options)
+    if not options.arcs or len(greedy) < 2:
+        return greedy.path(points)
+    parts = []
+    for first, stop, plane in _runs(points, greedy):
+        share = progress.part(first / len(greedy), stop / len(greedy))
+        part = greedy.part(first, stop)
+        a, b = part.at[0], part.at[-1]
+        smooth = _tangent(points[a : b + 1], options, plane, share) if plane is not None and len(part) > 1 else None
+        parts.append(smooth or part.path(points))
+    return chained(parts)
+
+
+@dataclass(frozen=True, eq=False)
+class _Greedy:
+    """Pieces from point to point.
+
+    Attributes:
+        at: (m + 1,) their ends' points. plane: (m,). half: (m,) half of the sweep, radians, positive to the left; 0 a line.
+    """
+
+    at: Ints
+    plane: NDArray[np.uint8]
+    half: Floats
+
+    def __len__(self) -> int:
+        return len(self.half)
+
+    def part(self, first: int, stop: int) -> _Greedy:
+        """Return some of them."""
+        return _Greedy(self.at[first : stop + 1], self.plane[first:stop], self.half[first:stop])
+
+    def path(self, points: Floats) -> FittedPath:
+        """Return them as motions between these points."""
+        return FittedPath(arcs_between(points[self.at], self.half, self.plane), self.at[1:] - self.at[0])
+
+
+def _greedy(points: Floats, options: ArcOptions) -> _Greedy:
+    """Return the longest pieces, one after the other."""
     from app.fit import arc_fit_kernels as kernels
 
-    at = corners(points, options.corner, _REACH * options.tolerance)
-    views = [Plane.XY, Plane.ZX, Plane.YZ] if options.arcs else [Plane.XY]
+    level = np.ptp(points, axis=0) == 0
+    views = [plane for plane in Plane if not level[list(plane.axes[:2])].any()] if options.arcs else []
+    views = views or [Plane.XY]
     planes = np.ascontiguousarray(np.stack([points[:, plane.axes] for plane in views]))
     rows, heights = np.empty((len(points), 3), np.int64), np.empty(len(points))
-    count = 0
-    for k in range(len(at) - 1):
-        progress.step(k / len(at), "Fitting lines and arcs")
-        count += kernels.greedy(
-            planes, at[k], at[k + 1], options.tolerance, options.largest_radius, int(options.arcs), rows[count:], heights[count:]
-        )
-    return _path(points, rows[:count], heights[:count], views)
-
-
-def _path(points: Floats, rows: Ints, heights: Floats, views: list[Plane]) -> FittedPath:
-    """Return what the kernel found as motions."""
-    last, count = rows[:, 0].copy(), len(rows)
-    start, end = points[np.concatenate([[0], last[:-1]])], points[last]
-    arc = rows[:, 1] == 1
-    kind = np.where(arc, np.where(heights > 0, MotionKind.ARC_CW, MotionKind.ARC_CCW), MotionKind.LINE).astype(np.uint8)
-    plane = np.where(arc, np.array(views)[rows[:, 2]], Plane.XY).astype(np.uint8)
+    count = kernels.greedy(planes, 0, len(points) - 1, options.tolerance, options.largest_radius, int(options.arcs), rows, heights)
+    at = np.concatenate([[0], rows[:count, 0]])
+    plane = np.array(views, np.uint8)[rows[:count, 2]]
     axes = np.array([each.axes for each in Plane])[plane]
-    row = np.arange(count)[:, None]
-    a, b = start[row, axes], end[row, axes]
-    chord = b[:, :2] - a[:, :2]
-    size = np.hypot(chord[:, 0], chord[:, 1])
-    flat = np.where(arc, heights, 1.0)
-    up = np.where(arc, (0.25 * size**2 - flat**2) / (2 * flat) / np.where(arc, size, 1.0), 0.0)
-    own = a.copy()
-    own[:, 0] = (a[:, 0] + b[:, 0]) / 2 + up * chord[:, 1]
-    own[:, 1] = (a[:, 1] + b[:, 1]) / 2 - up * chord[:, 0]
-    centre = np.empty_like(own)
-    centre[row, axes] = own
-    centre[~arc] = np.nan
-    whole = np.zeros(count, np.int32)
-    motions = Motions(
-        start, end, centre, kind, plane, arc.astype(np.int32), np.full(count, np.nan), whole, whole.copy(),
-    )  # fmt: skip
-    return FittedPath(motions, last)
+    row = np.arange(count)
+    chords = points[at[1:]] - points[at[:-1]]
+    sizes = np.hypot(chords[row, axes[:, 0]], chords[row, axes[:, 1]])
+    arc = rows[:count, 1] == kernels.ARC
+    half = np.where(arc, -2 * np.arctan2(heights[:count], 0.5 * sizes), 0.0)
+    return _Greedy(at, plane, half)
+
+
+def _runs(points: Floats, greedy: _Greedy) -> list[tuple[int, int, Plane | None]]:
+    """Return pieces that follow one another in one plane: the first, the one behind the last, and the plane; None: they lie in none."""
+    arc = greedy.half != 0
+    moves = np.concatenate([np.zeros((1, 3), np.int64), np.cumsum(np.diff(points, axis=0) != 0, axis=0)])[greedy.at]
+    level = np.diff(moves, axis=0) == 0
+    within = np.column_stack([level[:, plane.axes[2]] & (~arc | (greedy.plane == plane)) for plane in Plane])
+    runs: list[tuple[int, int, Plane | None]] = []
+    first, now = 0, within[0]
+    for k in range(1, len(greedy) + 1):
+        both = now & within[k] if k < len(greedy) else np.zeros(3, bool)
+        if k == len(greedy) or both.any() != now.any():
+            runs.append((first, k, Plane(int(np.argmax(now))) if now.any() else None))
+            first, both = k, within[k] if k < len(greedy) else both
+        now = both
+    return runs
+
+
+def _tangent(points: Floats, options: ArcOptions, plane: Plane, progress: Progress) -> FittedPath | None:
+    """Return tangent pieces in a plane, proven to keep to the tolerance; None where they are not."""
+    from app.fit.tangent import Polyline, TangentFit
+
+    axes = list(plane.axes)
+    line = Polyline(points[:, axes[:2]])
+    for share in _SHARES:
+        chain = TangentFit(line, share * options.tolerance, _BEND, options.largest_radius).chain(progress)
+        if chain is None or len(chain) >= len(points):
+            return None
+        z = line.joints(chain)
+        places = np.empty((len(z), 3))
+        places[:, axes[0]], places[:, axes[1]], places[:, axes[2]] = z.real, z.imag, points[0, axes[2]]
+        places[0], places[-1] = points[0], points[-1]
+        motions = arcs_between(places, chain.half, np.full(len(chain), plane, np.uint8))
+        if judge(curve_of_motions(motions), points, Tube(options.tolerance)).answer is Answer.INSIDE:
+            return FittedPath(motions, line.nearest(chain.s[1:]))
+    return None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ class FittedPath:
 
     Attributes:
         motions: m lines, arcs (in any plane; helices) and splines; feed NaN, line and state 0.
-        last: (m,) index of the point that each motion's end answers to: strictly rising, the last one n - 1.
+        last: (m,) index of the point nearest to each motion's end along the polyline: never falling, the last one n - 1.
     """
 
     motions: Motions
@@ -32,17 +32,43 @@ def lines_between(points: Floats) -> Motions:
     return _motions(points[:-1], points[1:], np.full(len(points) - 1, MotionKind.LINE, np.uint8))
 
 
+def arcs_between(places: Floats, half: Floats, plane: NDArray[np.uint8]) -> Motions:
+    """Return lines and arcs from each place to the next.
+
+    Args:
+        places: (m + 1, 3) mm.
+        half: (m,) half of each sweep, radians, positive to the left as seen from the plane's normal; 0 a line.
+        plane: (m,) of the arcs.
+    """
+    count = len(half)
+    arc = half != 0
+    plane = np.where(arc, plane, Plane.XY).astype(np.uint8)
+    axes, row = np.array([each.axes for each in Plane])[plane], np.arange(count)[:, None]
+    a, b = places[:-1][row, axes], places[1:][row, axes]
+    chord = b - a
+    up = np.where(arc, 0.5 / np.tan(np.where(arc, half, 1.0)), 0.0)  # from the chord's middle to the centre, in chords to the left
+    own = a.copy()
+    own[:, 0] = (a[:, 0] + b[:, 0]) / 2 - up * chord[:, 1]
+    own[:, 1] = (a[:, 1] + b[:, 1]) / 2 + up * chord[:, 0]
+    motions = _motions(places[:-1], places[1:], np.where(arc, np.where(half > 0, MotionKind.ARC_CCW, MotionKind.ARC_CW), MotionKind.LINE))
+    centre = np.empty((count, 3))
+    centre[row, axes] = own
+    centre[~arc] = np.nan
+    return replace(motions, centre=centre, plane=plane, turns=arc.astype(np.int32))
+
+
 def spline_motion(curve: Nurbs) -> Motions:
     """Return one motion along a spline."""
     ends = curve.points[[0]], curve.points[[-1]]
     return _motions(*ends, np.full(1, MotionKind.SPLINE, np.uint8), {0: curve})
 
 
-def _motions(start: Floats, end: Floats, kind: NDArray[np.uint8], splines: dict[int, Nurbs] | None = None) -> Motions:
+def _motions(start: Floats, end: Floats, kind: NDArray[Any], splines: dict[int, Nurbs] | None = None) -> Motions:
     count = len(kind)
     whole = np.zeros(count, np.int32)
     return Motions(
-        start=start.copy(), end=end.copy(), centre=np.full((count, 3), np.nan), kind=kind, plane=np.full(count, Plane.XY, np.uint8),
+        start=start.copy(), end=end.copy(), centre=np.full((count, 3), np.nan), kind=kind.astype(np.uint8),
+        plane=np.full(count, Plane.XY, np.uint8),
         turns=whole.copy(), feed=np.full(count, np.nan), line=whole.copy(), state=whole.copy(), splines=splines or {},
     )  # fmt: skip
 

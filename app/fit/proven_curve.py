@@ -28,7 +28,9 @@ class SplineOptions:
         degree: 3 or 5.
         corner: where the path turns by more than this its corner is kept, radians, in (0, pi].
         blocks: how many blocks a spline takes; one that takes more than its chords gives way to these.
-        level: the control knows splines at one height only; chords stand where the path rises or falls.
+        level: the control knows splines at one height only.
+        rest: what stands where there is no spline: where the path rises or falls and must be level, where a spline would
+            take more blocks than chords; chords unless said otherwise.
     """
 
     tube: Tube
@@ -36,10 +38,11 @@ class SplineOptions:
     corner: float = np.radians(30.0)
     blocks: Callable[[Nurbs], int] = lambda curve: len(curve.points)
     level: bool = False
+    rest: Callable[[Floats, Progress], FittedPath] = lambda points, _: _chords(points)
 
 
 def fit_splines(points: Floats, options: SplineOptions, progress: Progress = NO_PROGRESS) -> FittedPath:
-    """Return splines from corner to corner; chords where no spline is in the tube, or one would take more blocks.
+    """Return splines from corner to corner, and the rest where there is none.
 
     Args:
         points: (n, 3) mm, n >= 2, no two in a row alike.
@@ -60,13 +63,13 @@ def fit_splines(points: Floats, options: SplineOptions, progress: Progress = NO_
 def _fitted(points: Floats, options: SplineOptions, progress: Progress) -> list[FittedPath]:
     """Return what replaces the points between two corners, cut at further ones where it has to be."""
     if len(points) <= options.degree + 1 or (options.level and np.ptp(points[:, 2]) > 0):
-        return [_chords(points)]
+        return [options.rest(points, progress)]
     made = fit_spline(points, options.tube, options.degree, progress)
     if isinstance(made, np.ndarray):
         edges = [0, *made.tolist(), len(points) - 1]
         return [part for a, b in pairwise(edges) for part in _fitted(points[a : b + 1], options, progress)]
     if options.blocks(made.curve) > len(points) - 1:
-        return [_chords(points)]
+        return [options.rest(points, progress)]
     return [FittedPath(spline_motion(made.curve), np.array([len(points) - 1]))]
 
 

@@ -260,11 +260,14 @@ class _Work:
                 )
         tube = Tube(self._tube.radius - slack, None if self._tube.middle is None else self._tube.middle - slack)
         form, nurbs = self._options.form, self._post.nurbs.form
-        if form is Form.NURBS and nurbs is not NurbsForm.NONE:
-            level = nurbs is NurbsForm.BEZIER
-            return fit_splines(points, SplineOptions(tube, 3, self._options.corner, _quarters if level else _knots, level), progress)
         largest = min(self._post.arcs.largest_radius_mm, LARGEST_RADIUS)
-        return fit_arcs(points, ArcOptions(tube.radius, self._options.corner, largest, form is not Form.LINES))
+        arcs = ArcOptions(tube.radius, self._options.corner, largest, form is not Form.LINES)
+        if form is not Form.NURBS or nurbs is NurbsForm.NONE:
+            return fit_arcs(points, arcs, progress)
+        level = nurbs is NurbsForm.BEZIER
+        blocks, uncut = _quarters if level else _knots, replace(arcs, corner=math.pi)
+        splines = SplineOptions(tube, 3, self._options.corner, blocks, level, lambda part, share: fit_arcs(part, uncut, share))
+        return fit_splines(points, splines, progress)
 
     def judged(self, after: NcProgram, new: Rewritten, progress: Progress) -> dict[int, tuple[SpaceCurve, Judgement]]:
         """Return what each stretch that was written anew has become, and the judge's answer."""
