@@ -16,8 +16,8 @@ Places = NDArray[np.complex128]
 
 _STARTS = (1.0, 0.9, 0.8, 0.7)
 """Pieces are first as long as they are within so much of the limit; what needs the fewest in the end is taken."""
-_SURE = 0.99
-"""Joints are moved within so much of the limit: they are held to some of the points only, and then all are looked at."""
+_SURE = 0.985
+"""Joints are moved within so much of the limit: they are held to samples, and then looked at whole."""
 _ROUNDS = 12
 _HALVINGS = 7
 _PLENTY = 200

@@ -16,8 +16,8 @@ from app.jit import kernel
 
 _R, _Z, _BANDS, _FRAMES = "float64[::1]", "complex128[::1]", "float64[:, ::1]", "complex128[:, ::1]"
 _SAMPLES = 32
-"""A piece is held to so many points and quarters of chords at least, to all if there are no more than twice as many."""
-_QUARTERS = 4
+_EACH = 8
+"""A piece is held to so many samples at least, to all if there are no more than twice as many; a chord has so many."""
 _BAND = 8
 """Variables that meet in one bend are so near one another."""
 _STEPS = 80
@@ -57,15 +57,15 @@ def _bend(z, half, j):  # type: ignore[no-untyped-def]
 
 @kernel(f"complex128({_Z}, int64)", counts=False)
 def _sample(xy, s):  # type: ignore[no-untyped-def]
-    """Return sample s of a polyline: its points and, between them, the quarters of its chords."""
-    k, share = s // _QUARTERS, (s % _QUARTERS) / _QUARTERS
+    """Return sample s of a polyline: its points and, between them, places that part its chords evenly."""
+    k, share = s // _EACH, (s % _EACH) / _EACH
     return xy[k] if share == 0.0 else xy[k] + share * (xy[k + 1] - xy[k])
 
 
 @kernel("UniTuple(int64, 3)(float64, float64)", counts=False)
 def _samples(low, high):  # type: ignore[no-untyped-def]
     """Return first, stop and step of the samples between two feet."""
-    first, stop = math.floor(_QUARTERS * low) + 1, math.ceil(_QUARTERS * high)
+    first, stop = math.floor(_EACH * low) + 1, math.ceil(_EACH * high)
     return first, stop, max(1, (stop - first) // _SAMPLES)
 
 
@@ -80,16 +80,35 @@ def place(xy, along, ahead, s, left, first, stop, feet, z):  # type: ignore[no-u
         z[j] = xy[k] + share * (xy[k + 1] - xy[k]) + left[j] * 1j * way / abs(way)
 
 
+@kernel(f"float64({_Z}, complex128, complex128, float64, float64, float64)", counts=False)
+def _farthest(xy, a, b, half, low, high):  # type: ignore[no-untyped-def]
+    """Return how far the polyline between two feet is from the circle that a piece is of: at its points, and where a chord is parallel."""
+    c = b - a
+    tangent, bent = c / abs(c) * cmath.exp(-1j * half), 2.0 * math.sin(half) / abs(c)
+    worst = 0.0
+    for k in range(int(low), min(math.ceil(high), len(xy) - 1)):
+        first, last = max(low - k, 0.0), min(high - k, 1.0)
+        d, w = xy[k + 1] - xy[k], xy[k] - a
+        flat = bent * (d.real * d.real + d.imag * d.imag)
+        rise = (d * tangent.conjugate()).imag - bent * (w.conjugate() * d).real
+        if first * flat < rise < last * flat or last * flat < rise < first * flat:
+            worst = max(worst, abs(_apart(a, b, half, xy[k] + rise / flat * d)))
+        if last == 1.0:
+            worst = max(worst, abs(_apart(a, b, half, xy[k + 1])))
+    return worst
+
+
 @kernel(f"void({_Z}, {_Z}, {_R}, {_R}, {_R}, int64, int64, boolean, {_R})", counts=False)
 def measure(xy, z, feet, left, half, first, stop, whole, off):  # type: ignore[no-untyped-def]
-    """Write how far each of pieces first to stop - 1 is from its samples, or from all of them, or its joints from the polyline."""
+    """Write how far each of pieces first to stop - 1 is from its samples, or from the whole polyline, or its joints from it, at most."""
     for k in range(first, stop):
+        off[k] = max(abs(left[k]), abs(left[k + 1]))
+        if whole:
+            off[k] = max(off[k], _farthest(xy, z[k], z[k + 1], half[k], feet[k], feet[k + 1]))
+            continue
         low, high, step = _samples(feet[k], feet[k + 1])
-        step = 1 if whole else step
-        worst = max(abs(left[k]), abs(left[k + 1]))
         for s in range(low, high, step):
-            worst = max(worst, abs(_apart(z[k], z[k + 1], half[k], _sample(xy, s))))
-        off[k] = worst
+            off[k] = max(off[k], abs(_apart(z[k], z[k + 1], half[k], _sample(xy, s))))
 
 
 @kernel(f"float64({_Z}, {_Z}, {_R}, {_R}, {_R}, int64, int64, {_R}, {_R}, float64)", counts=False)
