@@ -17,6 +17,8 @@ from app.model.motion import Floats, MotionKind, Motions, Nurbs, Plane
 STEPS = 4
 """Steps a control point."""
 _STRAIGHT = 1e-12
+_LEAST_TURN = 1e-5
+"""Radians; where a step turns by less, the control's own formula divides by nothing, or by next to it."""
 
 
 def driven(curve: Nurbs) -> Motions:
@@ -25,6 +27,21 @@ def driven(curve: Nurbs) -> Motions:
     Args:
         curve: in a plane of constant Z, with evenly spaced knots, clamped.
     """
+    points, along = _steps(curve)
+    parts = [_pair(points[k], points[k + 1], along[k], along[k + 1]) for k in range(len(points) - 1)]
+    return chained(parts).motions
+
+
+def turns_all_along(curve: Nurbs) -> bool:
+    """Tell whether every step of a planar spline turns, as it must where the control is to find its arcs."""
+    _, along = _steps(curve)
+    sizes = np.hypot(along[:, 0], along[:, 1])
+    cross = along[:-1, 0] * along[1:, 1] - along[:-1, 1] * along[1:, 0]
+    return bool(np.all(np.abs(cross) > _LEAST_TURN * sizes[:-1] * sizes[1:]))
+
+
+def _steps(curve: Nurbs) -> tuple[Floats, Floats]:
+    """Return the places (n, 3) that the control joins, and the directions (n, 2) there."""
     from scipy.interpolate import BSpline
 
     homogeneous = BSpline(curve.knots, np.column_stack([curve.points * curve.weights[:, None], curve.weights]), curve.degree)
@@ -33,8 +50,7 @@ def driven(curve: Nurbs) -> Motions:
     points = value[:, :3] / value[:, 3:]
     points[0], points[-1] = curve.points[0], curve.points[-1]
     along = (slope[:, :2] - points[:, :2] * slope[:, 3:]) / value[:, 3:]
-    parts = [_pair(points[k], points[k + 1], along[k], along[k + 1]) for k in range(len(at) - 1)]
-    return chained(parts).motions
+    return points, along
 
 
 def _pair(start: Floats, end: Floats, leaving: Floats, arriving: Floats) -> FittedPath:

@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.fit.bezier import cut_at_knots
-from app.model.motion import Nurbs
+from app.model.motion import MotionKind, Nurbs
 from app.model.part import Units
 from app.nc.grid import counts, numeral
+from app.nc.linuxcnc_biarcs import turns_all_along
 from app.nc.post import NurbsForm, Post
 
 Floats = NDArray[np.float64]
@@ -26,6 +27,8 @@ LARGEST_WEIGHT = 9999.0
 WEIGHT_DIGITS = 9
 """Of P of G5.2."""
 MOST_KNOTS = 99999
+_UNEVEN = 0.4
+"""Where a piece is cut whose turn is none at one of LinuxCNC's steps: not in the middle, where the turn may be none again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,14 +66,57 @@ def nurbs_blocks(curve: Nurbs, post: Post, units: Units) -> tuple[str, ...] | No
 def _pieces(curve: Nurbs, post: Post, units: Units) -> list[str]:
     """Return cubic pieces of four control points; the first is where the tool stands, with its weight alone."""
     blocks: list[str] = []
-    for piece in _cubics(_bezier(curve)):
+    for piece in [part for whole in _cubics(_bezier(curve)) for part in _that_turn(whole, post, units)]:
         weights = piece[:, 3] / piece[:, 3].max()
         spelled = _spelled(piece[:, :3] / piece[:, 3:], post, units)
+        if _straight(piece, post, units):
+            blocks.append(f"{post.words.motion[MotionKind.LINE]} {spelled.x[-1]} {spelled.y[-1]}")
+            continue
         p = [f"P{weight:.{WEIGHT_DIGITS}f}".rstrip("0").rstrip(".") for weight in weights]
         blocks.append(f"{post.nurbs.word} {p[0]} L{CUBIC + 1}")
         blocks += [f"{spelled.x[k]} {spelled.y[k]} {p[k]}" for k in range(1, CUBIC + 1)]
         blocks.append(post.nurbs.end)
     return blocks
+
+
+def _straight(piece: Floats, post: Post, units: Units) -> bool:
+    """Tell whether a cubic piece (4, 4) is no farther than a step of the last decimal from its chord, and runs along it."""
+    z = _places(piece, post, units)
+    way = z[-1] - z[0]
+    if way == 0:
+        return False
+    share, off = (z - z[0]) / way, _step(post, units) / abs(way)
+    return bool(np.all(np.abs(share.imag) <= off) and np.all(np.diff(share.real) >= 0))
+
+
+def _that_turn(piece: Floats, post: Post, units: Units, depth: int = 3) -> list[Floats]:
+    """Return a cubic piece in parts that LinuxCNC finds its arcs for: all their steps turn, or they are straight."""
+    z = _places(piece, post, units)
+    written = Nurbs(np.column_stack([z.real, z.imag, 0 * z.real]), piece[:, 3] / piece[:, 3].max(), np.repeat([0.0, 1.0], 4), CUBIC)
+    if depth == 0 or _straight(piece, post, units) or turns_all_along(written):
+        return [piece]
+    return [part for half in _cut(piece, _UNEVEN) for part in _that_turn(half, post, units, depth - 1)]
+
+
+def _cut(piece: Floats, at: float) -> tuple[Floats, Floats]:
+    """Return both parts of a cubic piece that is cut at a parameter (de Casteljau)."""
+    left, right = [piece[0]], [piece[-1]]
+    while len(piece) > 1:
+        piece = (1 - at) * piece[:-1] + at * piece[1:]
+        left.append(piece[0])
+        right.append(piece[-1])
+    return np.array(left), np.array(right[::-1])
+
+
+def _places(piece: Floats, post: Post, units: Units) -> NDArray[np.complex128]:
+    """Return the control points as they are written, complex, mm."""
+    step = _step(post, units)
+    flat = np.rint(piece[:, :2] / piece[:, 3:] / step) * step
+    return flat[:, 0] + 1j * flat[:, 1]
+
+
+def _step(post: Post, units: Units) -> float:
+    return 10.0 ** -post.digits(units).X * units.value
 
 
 def _with_knots(curve: Nurbs, post: Post, units: Units) -> list[str]:

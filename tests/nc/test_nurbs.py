@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from app.fit.bezier import cut_at_knots
 from app.model.motion import MotionKind, Nurbs
 from app.model.part import Units
+from app.nc.linuxcnc_biarcs import turns_all_along
 from app.nc.nurbs import nurbs_blocks
 from app.nc.posts import load_post, post_names
 from app.nc.read.options import ReadOptions
@@ -142,3 +143,27 @@ def test_who_carries_what(name: str) -> None:
     high = curve([(float(k), float(k % 2), 0.0) for k in range(5)], [1.0] * 5, [], 4)
     carried = [nurbs_blocks(each, post, Units.MM) is not None for each in (QUARTER, steep, high)]
     assert carried == {"linuxcnc": [True, False, False], "fanuc": [True, True, False]}.get(name, [False, False, False])
+
+
+S_SHAPED = curve([(0, 0, -1), (4, 3, -1), (8, -3, -1), (12, 0, -1)], [1.0] * 4, [], 3)
+STRAIGHT = curve([(0, 0, -1), (4, 0, -1), (8, 0, -1), (12, 0, -1)], [1.0] * 4, [], 3)
+
+
+def g52(meant: Nurbs) -> str:
+    rows = "\n".join(f"X{x:g} Y{y:g} P1" for x, y, _ in meant.points[1:])
+    return f"G17 G90 G94 G21\nG0 X0 Y0 Z-1\nF100\nG5.2 P1 L4\n{rows}\nG5.3\nM30\n"
+
+
+@pytest.mark.parametrize("meant", [S_SHAPED, STRAIGHT], ids=["s", "straight"])
+def test_linuxcnc_is_never_given_a_piece_with_a_step_that_does_not_turn(meant: Nurbs) -> None:
+    """Its own formula for two arcs divides by the turn; a straight piece goes out as a line, another is cut unevenly."""
+    post = load_post("linuxcnc")
+    assert not turns_all_along(meant), "or this test tests nothing"
+    blocks = nurbs_blocks(meant, post, Units.MM)
+    assert blocks is not None
+    program = read_program("\n".join(["G17 G90 G94 G21", "G0 X0 Y0 Z-1", "F100", *blocks, "M30", ""]).encode(), ReadOptions(dialect=post.dialect))
+    motions = program.motions
+    assert len(motions) - 1 == (1 if meant is STRAIGHT else 2)
+    assert all(turns_all_along(spline) for spline in motions.splines.values())
+    assert (MotionKind.LINE in motions.kind) is (meant is STRAIGHT)
+    assert np.allclose(motions.end[-1], (12, 0, -1), atol=1e-9)
