@@ -32,10 +32,12 @@ _LIGHT = 0.05
 _IDLE = 0.5
 """Spans whose curve uses less of the tolerance may be joined."""
 _JOININGS = 8
-_SPREADINGS = 5
+_SPREADINGS = 6
 _MENDINGS = 6
 _USE = 0.7
-"""How much of the tolerance a span is to use up."""
+"""How much of the tolerance a span is to use up at first."""
+_LESS = 0.7
+"""By so much less of it when that cannot be proven, or saves nothing."""
 _STRETCH = (0.4, 1.3)
 """How much denser breaks may become at once."""
 
@@ -187,17 +189,19 @@ class _Work:
 
     def spread(self, state: _State) -> _State:
         """Return a proven spline with spans as long as lets their curves be equally far from the points, if it has fewer."""
+        share = _USE
         for _ in range(_SPREADINGS):
             self._progress.step(0.4, f"fitting a curve: {len(state.pieces)} spans")
-            made = self._halved_from(self._evened(state), state.places)
+            made = self._halved_from(self._evened(state, share), state.places)
             if made is None or len(made.pieces) >= len(state.pieces):
-                break
-            state = made
+                share *= _LESS
+            else:
+                state = made
         return state
 
-    def _evened(self, state: _State) -> Floats:
-        """Return breaks so that every span is expected to use up the same share of the tolerance (after de Boor's newknot)."""
-        use = self._off(state) / (_USE * self._tube.radius)
+    def _evened(self, state: _State, share: float) -> Floats:
+        """Return breaks so that every span is expected to use up a share of the tolerance (after de Boor's newknot)."""
+        use = self._off(state) / (share * self._tube.radius)
         density = np.clip(use ** (1 / (self._degree + 1)), *_STRETCH)
         total = np.concatenate([[0.0], np.cumsum(density)])
         goals = np.linspace(0.0, total[-1], max(1, int(np.ceil(total[-1]))) + 1)
