@@ -161,8 +161,8 @@ def test_linuxcnc_is_never_given_a_piece_with_a_step_that_does_not_turn(meant: N
     assert not turns_all_along(meant), "or this test tests nothing"
     blocks = nurbs_blocks(meant, post, Units.MM)
     assert blocks is not None
-    program = read_program("\n".join(["G17 G90 G94 G21", "G0 X0 Y0 Z-1", "F100", *blocks, "M30", ""]).encode(), ReadOptions(dialect=post.dialect))
-    motions = program.motions
+    text = "\n".join(["G17 G90 G94 G21", "G0 X0 Y0 Z-1", "F100", *blocks, "M30", ""])
+    motions = read_program(text.encode(), ReadOptions(dialect=post.dialect)).motions
     assert len(motions) - 1 == (1 if meant is STRAIGHT else 2)
     assert all(turns_all_along(spline) for spline in motions.splines.values())
     assert (MotionKind.LINE in motions.kind) is (meant is STRAIGHT)

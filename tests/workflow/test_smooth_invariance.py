@@ -44,7 +44,6 @@ FEW = {"cubic": 1.4, "quintic": 1.4, "arcs": 1.15, "lines": 1.15}
 fails, so that few decisions make many of them."""
 
 
-
 @dataclass(frozen=True)
 class Change:
     """Another form of the same path: `there` of its points, `back` of the curve; the tolerance goes with its scale."""
