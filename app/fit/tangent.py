@@ -116,13 +116,16 @@ class TangentFit:
         Raises:
             Cancelled: the job was asked to stop.
         """
-        count = len(_STARTS)
-        made = [self._repaired(start, progress.part(k / count, (k + 1) / count)) for k, start in enumerate(_STARTS)]
-        return min((chain for chain in made if chain is not None), key=len, default=None)
+        best: Chain | None = None
+        for k, start in enumerate(_STARTS):
+            plain = _greedy(self.line, start * self.limit, self.largest)
+            if best is None or len(plain) < len(best):
+                made = self._repaired(plain, progress.part(k / len(_STARTS), (k + 1) / len(_STARTS)))
+                best = made if best is None or (made is not None and len(made) < len(best)) else best
+        return best
 
-    def _repaired(self, start: float, progress: Progress) -> Chain | None:
-        """Return pieces that were first fitted within a share of the limit; where joints cannot be moved well enough there is one more."""
-        chain = _greedy(self.line, start * self.limit, self.largest)
+    def _repaired(self, chain: Chain, progress: Progress) -> Chain | None:
+        """Return pieces whose joints were moved; where they cannot be moved well enough there is one more."""
         chain.bent[self._round(chain)] = True
         dirty, off = np.ones(len(chain), bool), np.zeros(len(chain))
         for n in range(_ROUNDS):
