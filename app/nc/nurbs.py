@@ -69,6 +69,8 @@ def _pieces(curve: Nurbs, post: Post, units: Units) -> list[str]:
     for piece in [part for whole in _cubics(_bezier(curve)) for part in _that_turn(whole, post, units)]:
         weights = piece[:, 3] / piece[:, 3].max()
         spelled = _spelled(piece[:, :3] / piece[:, 3:], post, units)
+        if not np.any(np.diff(_places(piece, post, units))):
+            continue  # the control stands there
         if _straight(piece, post, units):
             blocks.append(f"{post.words.motion[MotionKind.LINE]} {spelled.x[-1]} {spelled.y[-1]}")
             continue
