@@ -67,7 +67,8 @@ def _parser() -> OptionParser:
                         help="what is written (default arcs)")
     parser.add_argument("--region", metavar="cylinder|barrel:MID", type=_region, default=None,
                         help="the tube's shape: T wide all along, or MID wide half way between two points (default cylinder)")
-    parser.add_argument("--degree", type=int, choices=[3, 5], default=3, help="of splines (default 3)")
+    parser.add_argument("--degree", type=int, choices=[3, 5], default=3,
+                        help="of splines (default 3); 5, which no control knows, goes out as cubics near it")
     parser.add_argument("--corner", metavar="ANGLE", type=_angle, default=math.radians(30),
                         help="bends above it are kept, degrees (default 30)")
     parser.add_argument("--post", metavar="NAME", type=typed(load_post),

@@ -10,6 +10,7 @@ import numpy as np
 
 from app.fit.bspline import fit_spline
 from app.fit.corners import corners
+from app.fit.cubic_near import cubic_near
 from app.fit.fitted import FittedPath, chained, lines_between, spline_motion
 from app.fit.tube import Tube
 from app.model.motion import Floats, Nurbs
@@ -26,6 +27,7 @@ class SplineOptions:
     Attributes:
         tube: region round the points.
         degree: 3 or 5.
+        cubic: a spline of degree 5 is given as a cubic one no farther from it than this, mm; 0: as it is.
         corner: where the path turns by more than this its corner is kept, radians, in (0, pi].
         blocks: how many blocks a spline takes; one that takes more than its chords gives way to these.
         level: the control knows splines at one height only.
@@ -35,6 +37,7 @@ class SplineOptions:
 
     tube: Tube
     degree: int = 3
+    cubic: float = 0.0
     corner: float = np.radians(30.0)
     blocks: Callable[[Nurbs], int] = lambda curve: len(curve.points)
     level: bool = False
@@ -68,9 +71,10 @@ def _fitted(points: Floats, options: SplineOptions, progress: Progress) -> list[
     if isinstance(made, np.ndarray):
         edges = [0, *made.tolist(), len(points) - 1]
         return [part for a, b in pairwise(edges) for part in _fitted(points[a : b + 1], options, progress)]
-    if options.blocks(made.curve) > len(points) - 1:
+    curve = cubic_near(made.curve, options.cubic) if options.cubic else made.curve
+    if options.blocks(curve) > len(points) - 1:
         return [options.rest(points, progress)]
-    return [FittedPath(spline_motion(made.curve), np.array([len(points) - 1]))]
+    return [FittedPath(spline_motion(curve), np.array([len(points) - 1]))]
 
 
 def _chords(points: Floats) -> FittedPath:

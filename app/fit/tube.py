@@ -60,6 +60,10 @@ class Tube:
         """Largest radius, mm."""
         return self.radius if self.middle is None else self.middle
 
+    def narrower(self, by: float) -> Tube:
+        """Return the tube with all radii less by something, mm."""
+        return Tube(self.radius - by, None if self.middle is None else self.middle - by)
+
     def squares(self, slack: float) -> tuple[float, float]:
         """Return squared radius at the points and what the parabola adds (4 (middle^2 - radius^2)), with all radii less by a slack."""
         end = max(self.radius - slack, 0.0) ** 2
