@@ -8,9 +8,9 @@ from typing import TypeVar
 
 from app.cli_options import OptionParser, number
 from app.errors import InputError
-from app.fit.correction import CorrectionOptions, Curve, Move, Select
+from app.fit.correction import CorrectionOptions, Move, Select
+from app.fit.effective_method import EffectiveMethod, second_embodiment
 from app.fit.effective_points import EffectiveOptions, Ends
-from app.workflow.smooth import EffectiveMethod
 
 Kind = TypeVar("Kind")
 
@@ -59,11 +59,8 @@ def effective_method(arguments: argparse.Namespace) -> EffectiveMethod | None:
         if late := [name for name in ("before", "after", "move", "select") if name in given]:
             raise InputError(f"--{late[0]} belongs to --embodiment 2; give that too, or leave it out")
         return EffectiveMethod(choose)
-    select, most = arguments.select or (_DEFAULTS.select, _DEFAULTS.limit)
-    before = _DEFAULTS.before if arguments.before is None else arguments.before
-    after = _DEFAULTS.after if arguments.after is None else arguments.after
     move = Move.PERPENDICULAR if arguments.move == "perpendicular" else Move.NEAREST
-    return EffectiveMethod(choose, CorrectionOptions(most, select, before, after, Curve.NEAR, move))
+    return EffectiveMethod(choose, second_embodiment(arguments.select, arguments.before, arguments.after, move))
 
 
 def _pair(kinds: dict[str, Kind]) -> Callable[[str], tuple[Kind, float]]:

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from app.errors import InputError, ParameterError
 from app.fit.arc_fit import ArcOptions, fit_arcs
 from app.fit.corners import corners
-from app.fit.correction import CorrectionOptions, corrected
-from app.fit.effective_points import EffectiveOptions, effective_points
+from app.fit.effective_method import EffectiveMethod, PointClasses, without_repeats
 from app.fit.fitted import FittedPath
 from app.fit.proven_curve import SplineOptions, fit_splines
 from app.fit.smoothness import Smoothness, of_curve, of_points
@@ -43,6 +42,8 @@ from app.workflow.smooth_report import certificate
 TOLERANCES = (1e-4, 10.0)
 """mm; what a tolerance may be."""
 
+_FOR_CUBICS = 0.25
+"""Of the tolerance: what cubics in place of a spline of degree 5 take up."""
 _REACH = 4.0
 """Corners are looked for over so many tolerances of the path."""
 
@@ -59,27 +60,6 @@ class Form(Enum):
 
 
 @dataclass(frozen=True)
-class EffectiveMethod:
-    """Method D: curves go by the points that lie on the true shape, and not by those within facets.
-
-    Attributes:
-        choose: which points these are.
-        correct: how the others, and these, are moved first (second embodiment); None: the others are left out (first).
-    """
-
-    choose: EffectiveOptions
-    correct: CorrectionOptions | None = None
-
-    def passed(self, points: Floats, corners: NDArray[np.int64]) -> tuple[Floats, float]:
-        """Return the places (m, 3) that the final curve goes by, and how far the given points lie from their path at most, mm."""
-        effective = effective_points(points, self.choose, corners.tolist())
-        if self.correct is None:
-            return np.ascontiguousarray(points[effective.passed]), self.choose.epsilon
-        moved = corrected(points, effective.state, self.correct, corners.tolist())
-        return _without_repeats(moved.places[moved.passed]), self.choose.epsilon + float(moved.moved.max())
-
-
-@dataclass(frozen=True)
 class SmoothOptions:
     """How to smooth.
 
@@ -87,7 +67,7 @@ class SmoothOptions:
         tolerance: by how much curve and moves may be apart, both ways, mm.
         form: what is written.
         middle: half way between two points the curve may be so far away, mm; None: no farther than at them.
-        degree: of splines, 3 or 5.
+        degree: of splines, 3 or 5; no control knows degree 5, which goes out as cubics that take up part of the tolerance.
         corner: bends of more than this are kept exactly, radians.
         post: in whose words; None = those of the control that the text looks to be for.
         dialect: how the program is read; None = as the post's control reads it, or, without a post, as the text looks.
@@ -125,6 +105,7 @@ class Piece:
         kept: why it stayed, or "".
         before, after: how smooth it is.
         corners: numbers of its points that are kept exactly, the outer ones among them.
+        classes: what its points are by method D; None without it, and of a stretch that is too short.
     """
 
     stretch: Stretch
@@ -136,6 +117,7 @@ class Piece:
     before: Smoothness
     after: Smoothness
     corners: NDArray[np.int64]
+    classes: PointClasses | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -220,8 +202,9 @@ class _Work:
 
     def __init__(self, options: SmoothOptions, post: Post, program: NcProgram, found: Found) -> None:
         self._options, self._post, self._program, self._found = options, post, program, found
-        self._points = [_without_repeats(stretch.points) for stretch in found.stretches]
+        self._points = [without_repeats(stretch.points) for stretch in found.stretches]
         self._tube = Tube(options.tolerance, options.middle)
+        self._classes: dict[int, PointClasses] = {}
 
     def written(self, progress: Progress) -> tuple[dict[int, tuple[str, ...]], dict[int, str]]:
         """Return the new blocks of stretches, and why others stay."""
@@ -251,14 +234,16 @@ class _Work:
             raise InputError(f"the tolerance of {self._options.tolerance:g} mm is too near to the last decimal of {self._post.title}, "
                              f"{step:g} mm; use {5 * step:g} mm or more, or a post with more decimals.")
         if self._options.effective is not None:
-            points, spent = self._options.effective.passed(points, corners(points, self._options.corner, _REACH * self._tube.widest))
+            classes = self._options.effective.classes(points, corners(points, self._options.corner, _REACH * self._tube.widest))
+            self._classes[k] = classes
+            points, spent = classes.passed, classes.off
             slack += spent
             if not self._tube.radius > slack:
                 raise InputError(
                     f"Points of lines {stretch.first_line} to {stretch.last_line} are up to {spent:.4g} mm off the path by the effective "
                     f"ones, which leaves nothing of the tolerance; use a smaller epsilon, or more than {slack:.4g} mm."
                 )
-        tube = Tube(self._tube.radius - slack, None if self._tube.middle is None else self._tube.middle - slack)
+        tube = self._tube.narrower(slack)
         form, nurbs = self._options.form, self._post.nurbs.form
         largest = min(self._post.arcs.largest_radius_mm, LARGEST_RADIUS)
         arcs = ArcOptions(tube.radius, self._options.corner, largest, form is not Form.LINES)
@@ -266,7 +251,11 @@ class _Work:
             return fit_arcs(points, arcs, progress)
         level = nurbs is NurbsForm.BEZIER
         blocks, uncut = _quarters if level else _knots, replace(arcs, corner=math.pi)
-        splines = SplineOptions(tube, 3, self._options.corner, blocks, level, lambda part, share: fit_arcs(part, uncut, share))
+        cubic = _FOR_CUBICS * tube.radius if self._options.degree != 3 else 0.0
+        tube = tube.narrower(cubic)
+        splines = SplineOptions(
+            tube, self._options.degree, cubic, self._options.corner, blocks, level, lambda part, share: fit_arcs(part, uncut, share)
+        )
         return fit_splines(points, splines, progress)
 
     def judged(self, after: NcProgram, new: Rewritten, progress: Progress) -> dict[int, tuple[SpaceCurve, Judgement]]:
@@ -294,14 +283,14 @@ class _Work:
 
     def piece(self, k: int, judged: tuple[SpaceCurve, Judgement] | None, kept: str, blocks: int) -> Piece:
         """Return one stretch, before and after."""
-        stretch, points = self._found.stretches[k], self._points[k]
+        stretch, points, classes = self._found.stretches[k], self._points[k], self._classes.get(k)
         count = stretch.stop - stretch.first
         at = corners(points, self._options.corner, _REACH * self._tube.widest) if len(points) > 2 else np.array([0])
         before = of_points(points, points[at])
         if judged is None:
-            return Piece(stretch, points, (count, count), None, None, kept, before, before, at)
+            return Piece(stretch, points, (count, count), None, None, kept, before, before, at, classes)
         curve, judgement = judged
-        return Piece(stretch, points, (count, blocks), curve, judgement, "", before, of_curve(curve, points[at]), at)
+        return Piece(stretch, points, (count, blocks), curve, judgement, "", before, of_curve(curve, points[at]), at, classes)
 
 
 def _knots(curve: Nurbs) -> int:
@@ -312,8 +301,3 @@ def _knots(curve: Nurbs) -> int:
 def _quarters(curve: Nurbs) -> int:
     """Blocks of a spline as cubic pieces."""
     return 5 * len(np.unique(curve.knots)) - 4
-
-
-def _without_repeats(points: Floats) -> Floats:
-    kept = np.concatenate([[True], np.any(np.diff(points, axis=0) != 0, axis=1)])
-    return np.ascontiguousarray(points[kept])

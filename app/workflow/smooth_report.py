@@ -6,6 +6,9 @@ import json
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from app.fit.effective_points import PointState
 from app.model.finding import Finding, FindingKind
 
 if TYPE_CHECKING:
@@ -31,6 +34,7 @@ def certificate(done: Smoothed) -> tuple[str, ...]:
         f"{max(piece.judgement.from_points for piece in changed if piece.judgement):.6f} mm",
         f"largest bend {math.degrees(bend[0]):.3f} deg before, {math.degrees(bend[1]):.3f} after; curvature step {step[0]:.4g} per mm "
         f"before, {step[1]:.4g} after; corners above {math.degrees(done.options.corner):g} deg kept",
+        *(f"effective points: {told['effective']} of {told['all']}, {told['corrected']} corrected" for told in _points(done)),
         "the control may add what its own blending allows",
     )
 
@@ -61,6 +65,7 @@ def report(done: Smoothed) -> Json:
         "blocks": {"before": came, "after": left, "moves_left_alone": {reason.value: n for reason, n in done.found.left.items() if n}},
         "largest_bend_deg": {"before": math.degrees(bend[0]), "after": math.degrees(bend[1])},
         "largest_curvature_step_per_mm": {"before": step[0], "after": step[1]},
+        "points": next(iter(_points(done)), None),
         "corner_deg": math.degrees(done.options.corner),
         "stretches": {"found": len(done.pieces), "changed": len(changed), "listed": [_listed(piece) for piece in listed]},
     }  # fmt: skip
@@ -92,6 +97,15 @@ def _changed(done: Smoothed) -> list[Piece]:
 
 def _blocks(done: Smoothed) -> tuple[int, int]:
     return sum(piece.blocks[0] for piece in done.pieces), sum(piece.blocks[1] for piece in done.pieces)
+
+
+def _points(done: Smoothed) -> list[Json]:
+    """Return how many points of the stretches that changed are effective and corrected, of how many; nothing without method D."""
+    classes = [piece.classes for piece in _changed(done) if piece.classes is not None]
+    if not classes:
+        return []
+    states = np.bincount(np.concatenate([each.state for each in classes]), minlength=len(PointState)).tolist()
+    return [{"effective": states[PointState.EFFECTIVE], "corrected": states[PointState.CORRECTED], "all": sum(states)}]
 
 
 def _most(done: Smoothed, name: str) -> tuple[float, float]:
