@@ -148,7 +148,7 @@ def _tangent(points: Floats, options: ArcOptions, plane: Plane, progress: Progre
     from app.fit.tangent import Polyline, TangentFit
 
     axes = list(plane.axes)
-    line = Polyline(points[:, axes[:2]])
+    line = Polyline(points[:, axes[:2]], _REACH * options.tolerance)
     for share in _SHARES:
         chain = TangentFit(line, share * options.tolerance, _BEND, options.largest_radius).chain(progress)
         if chain is None or len(chain) >= len(points):

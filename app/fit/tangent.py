@@ -62,11 +62,11 @@ class Polyline:
     Attributes:
         points: (n, 3) mm, with a normal of 0. xy: (n,) the same, complex.
         along: (n,) distance from the first, mm. ahead: (n,) unit direction at each point.
-        turns: (n,) by how much it turns at each point, radians; 0 at both ends.
+        turns: (n,) by how much it bends at each point, radians; 0 at both ends.
     """
 
-    def __init__(self, points: Floats) -> None:
-        """Take points (n, 2), n >= 2, mm, no two in a row alike."""
+    def __init__(self, points: Floats, reach: float) -> None:
+        """Take points (n, 2), n >= 2, mm, no two in a row alike; what is no bend over a length, mm, is none."""
         self.points = np.ascontiguousarray(np.column_stack([points, np.zeros(len(points))]))
         self.xy: Places = np.ascontiguousarray(points[:, 0] + 1j * points[:, 1])
         steps = np.diff(self.xy)
@@ -75,7 +75,7 @@ class Polyline:
         sizes = np.abs(both)
         self.ahead: Places = np.where(sizes > 1e-6, both / np.maximum(sizes, 1e-6), np.append(ways, ways[-1]))
         self.along: Floats = np.concatenate([[0.0], np.cumsum(np.abs(steps))])
-        self.turns: Floats = np.concatenate([[0.0], np.abs(np.angle(ways[1:] / ways[:-1])), [0.0]])
+        self.turns: Floats = np.minimum(np.concatenate([[0.0], np.abs(np.angle(ways[1:] / ways[:-1])), [0.0]]), _bends(self.points, reach))
 
     def joints(self, chain: Chain) -> Places:
         """Return the places (m + 1,) of a chain's joints."""
@@ -215,7 +215,7 @@ class TangentFit:
         if stop <= first:
             return old
         some = np.unique(np.linspace(first, stop, min(stop - first + 1, _PLENTY)).astype(np.int64))
-        few = Polyline(self.line.points[some, :2])
+        few = Polyline(self.line.points[some, :2], self.limit)
         low, high = 1e-2 * self.limit, 4.0 * self.limit
         best = _greedy(few, self.limit, self.largest)
         for _ in range(_HALVINGS):
@@ -229,6 +229,20 @@ class TangentFit:
         for end in (0, -1):
             best.s[end], best.left[end] = old.s[end], old.left[end]
         return best
+
+
+def _bends(points: Floats, reach: float) -> Floats:
+    """Return by how much a polyline bends at its points, chord by chord or over a length where chords are shorter, radians.
+
+    A curve turns half as much over half the length, where a bend turns as much: so chords that rounding has turned, and
+    narrow curves, bend by next to nothing.
+    """
+    from app.fit import corner_kernels
+
+    along, near, wide = np.empty(len(points)), np.empty(len(points)), np.empty(len(points))
+    corner_kernels.turns(points, reach / 2, along, near)
+    corner_kernels.turns(points, reach, along, wide)
+    return np.minimum(wide, np.maximum(2 * near - wide, 0.0))
 
 
 def _greedy(line: Polyline, limit: float, largest: float) -> Chain:

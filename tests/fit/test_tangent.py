@@ -124,6 +124,17 @@ def test_moved_joints_cost_next_to_nothing() -> None:
     assert len(path.motions) <= 1.15 * len(plain)
 
 
+@pytest.mark.parametrize("tolerance", [0.01, 0.05])
+def test_bends_that_only_rounding_makes_are_not_there_any_more(tolerance: float) -> None:
+    """Chords of 4 um in steps of 0.1 um turn by up to 3 degrees, where the wave that they are cut from turns by none."""
+    t = np.linspace(0, math.tau, 100_001)
+    r = 60 + 4 * np.sin(9 * t) + 0.8 * np.sin(31 * t)
+    points = np.round(np.column_stack([r * np.cos(t), r * np.sin(t), 0 * t]), 4)
+    path = fit_arcs(points, ArcOptions(tolerance))
+    assert bends(path).max() < 0.5
+    assert len(path.motions) <= {0.01: 165, 0.05: 95}[tolerance]
+
+
 def test_chords_that_were_thinned_become_arcs_that_meet() -> None:
     """Eight chords of a circle and its tangents, far apart: no piece is evidence of an arc, their bends are."""
     t = np.radians(np.arange(0, 91, 7.5))
