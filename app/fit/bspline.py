@@ -38,6 +38,8 @@ _USE = 0.7
 """How much of the tolerance a span is to use up at first."""
 _LESS = 0.7
 """By so much less of it when that cannot be proven, or saves nothing."""
+_TORN = 8.0
+"""By so much more than their distance the places of two samples may be apart, if that is more than the tolerance."""
 _STRETCH = (0.4, 1.3)
 """How much denser breaks may become at once."""
 
@@ -185,7 +187,20 @@ class _Work:
         bspline_kernels.tried(
             breaks, self._degree, samples.points, places, samples.weights, samples.every, *self._squares, control, pieces, feet, moved, bad
         )
-        return _State(breaks, moved, control, pieces, feet, bad)
+        return _State(breaks, self._mended(moved), control, pieces, feet, bad)
+
+    def _mended(self, places: Floats) -> Floats:
+        """Return places of samples, spread again where two lie so far apart that nothing holds the curve between them."""
+        along = self._samples.along
+        gaps = np.diff(places)
+        torn = np.flatnonzero(gaps > np.maximum(_TORN * np.diff(along), self._tube.radius))
+        if not len(torn):
+            return places
+        free = np.zeros(len(places), bool)
+        for k in torn.tolist():
+            free[slice(*np.searchsorted(along, (along[k] - 2 * gaps[k], along[k + 1] + 2 * gaps[k])))] = True
+        free[0] = free[-1] = False
+        return np.asarray(np.interp(along, along[~free], places[~free]))
 
     def spread(self, state: _State) -> _State:
         """Return a proven spline with spans as long as lets their curves be equally far from the points, if it has fewer."""

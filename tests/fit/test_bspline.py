@@ -118,3 +118,13 @@ def test_adversaries_end_and_are_proven() -> None:
         made = fit_splines(points, SplineOptions(Tube(0.01)))
         assert judge(curve_of_motions(made.motions), points, Tube(0.01)).answer is Answer.INSIDE, name
         assert len(made.motions) <= len(points) - 1, name
+
+
+@pytest.mark.parametrize("tolerance", [0.01, 0.05])
+def test_a_dense_wave_is_one_spline_of_few_spans(tolerance: float) -> None:
+    """In narrow places samples' places draw away from one another; the curve between them must not be left without hold."""
+    t = np.linspace(0, 2 * np.pi, 100_001)
+    r = 60 + 4 * np.sin(9 * t) + 0.8 * np.sin(31 * t)
+    points = np.round(np.column_stack([r * np.cos(t), r * np.sin(t), 0 * t]), 4)
+    curve = fitted(points, Tube(tolerance)).curve
+    assert len(curve.points) <= {0.01: 190, 0.05: 140}[tolerance]
