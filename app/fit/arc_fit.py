@@ -30,16 +30,23 @@ class ArcOptions:
     """How lines and arcs are fitted.
 
     Attributes:
-        tolerance: mm, > 0.
+        tolerance: at the points, mm, > 0.
         corner: where the path turns by more than this its corner is kept, radians, in (0, pi].
         largest_radius: mm; what is flatter is a line.
         arcs: whether there may be any.
+        middle: half way between two points, mm, >= tolerance; None: the same.
     """
 
     tolerance: float
     corner: float = math.radians(30.0)
     largest_radius: float = 1e5
     arcs: bool = True
+    middle: float | None = None
+
+    @property
+    def tube(self) -> Tube:
+        """The region round the points."""
+        return Tube(self.tolerance, self.middle)
 
 
 def fit_arcs(points: Floats, options: ArcOptions, progress: Progress = NO_PROGRESS) -> FittedPath:
@@ -58,7 +65,7 @@ def fit_arcs(points: Floats, options: ArcOptions, progress: Progress = NO_PROGRE
     Raises:
         Cancelled: the job was asked to stop.
     """
-    at = corners(points, options.corner, _REACH * options.tolerance)
+    at = corners(points, options.corner, _REACH * options.tube.widest)
     parts = []
     for k in range(len(at) - 1):
         share = progress.part(k / (len(at) - 1), (k + 1) / (len(at) - 1))
@@ -114,7 +121,9 @@ def _greedy(points: Floats, options: ArcOptions) -> _Greedy:
     views = views or [Plane.XY]
     planes = np.ascontiguousarray(np.stack([points[:, plane.axes] for plane in views]))
     rows, heights = np.empty((len(points), 3), np.int64), np.empty(len(points))
-    count = kernels.greedy(planes, 0, len(points) - 1, options.tolerance, options.largest_radius, int(options.arcs), rows, heights)
+    count = kernels.greedy(
+        planes, 0, len(points) - 1, options.tolerance, options.tube.swell, options.largest_radius, int(options.arcs), rows, heights
+    )
     at = np.concatenate([[0], rows[:count, 0]])
     plane = np.array(views, np.uint8)[rows[:count, 2]]
     axes = np.array([each.axes for each in Plane])[plane]
@@ -148,9 +157,9 @@ def _tangent(points: Floats, options: ArcOptions, plane: Plane, progress: Progre
     from app.fit.tangent import Polyline, TangentFit
 
     axes = list(plane.axes)
-    line = Polyline(points[:, axes[:2]], _REACH * options.tolerance)
+    line = Polyline(points[:, axes[:2]], _REACH * options.tube.widest)
     for share in _SHARES:
-        chain = TangentFit(line, share * options.tolerance, _BEND, options.largest_radius).chain(progress)
+        chain = TangentFit(line, share * options.tolerance, _BEND, options.largest_radius, options.tube.swell).chain(progress)
         if chain is None or len(chain) >= len(points):
             return None
         z = line.joints(chain)
@@ -158,6 +167,6 @@ def _tangent(points: Floats, options: ArcOptions, plane: Plane, progress: Progre
         places[:, axes[0]], places[:, axes[1]], places[:, axes[2]] = z.real, z.imag, points[0, axes[2]]
         places[0], places[-1] = points[0], points[-1]
         motions = arcs_between(places, chain.half, np.full(len(chain), plane, np.uint8))
-        if judge(curve_of_motions(motions), points, Tube(options.tolerance)).answer is Answer.INSIDE:
+        if judge(curve_of_motions(motions), points, options.tube).answer is Answer.INSIDE:
             return FittedPath(motions, line.nearest(chain.s[1:]))
     return None

@@ -17,6 +17,8 @@ _HIGHEST = 2.0
 """Tangent of a quarter of a sweep, a little more than the widest has."""
 _LAG = 0.02
 """Along a chord and along its arc the normal rises alike but for so much, times its rise and the squared angle."""
+_PLACES, _SURE = 16, 0.98
+"""Where on a chord a circle is held to a region that is wider between points, and how much of the squared distance it may use there."""
 _PATIENCE = 8
 """Arcs are tried up to so many times as far as a line goes, though none shorter holds: noise hides what short pieces are."""
 
@@ -66,8 +68,24 @@ def _nearest(points, k, cx, cy):  # type: ignore[no-untyped-def]
     return math.sqrt((px - share * dx) ** 2 + (py - share * dy) ** 2)
 
 
-@kernel("boolean(float64[:, ::1], int64, int64, float64, float64, float64, float64[::1])", counts=False)
-def _holds(points, i, j, limit, largest, height, found):  # type: ignore[no-untyped-def]
+@kernel("boolean(float64[:, ::1], int64, float64, float64, float64, float64, float64, float64)", counts=False)
+def _bulges(points, k, cx, cy, radius, limit, swell, lag):  # type: ignore[no-untyped-def]
+    """Tell whether a circle leaves the region round the chord behind point k to its other side."""
+    if swell == 0.0:
+        bulge = max(radius - _nearest(points, k, cx, cy), 0.0)
+        return bulge * bulge + lag * lag > limit * limit
+    for n in range(1, _PLACES):
+        share = n / _PLACES
+        px = points[k, 0] + share * (points[k + 1, 0] - points[k, 0]) - cx
+        py = points[k, 1] + share * (points[k + 1, 1] - points[k, 1]) - cy
+        bulge = max(radius - math.sqrt(px * px + py * py), 0.0)
+        if bulge * bulge + lag * lag > _SURE * limit * limit * (1.0 + 4.0 * swell * share * (1.0 - share)):
+            return True
+    return False
+
+
+@kernel("boolean(float64[:, ::1], int64, int64, float64, float64, float64, float64, float64[::1])", counts=False)
+def _holds(points, i, j, limit, swell, largest, height, found):  # type: ignore[no-untyped-def]
     """Tell whether the arc of a height keeps within a limit of the path, both ways and in order, its normal in step."""
     dx, dy = points[j, 0] - points[i, 0], points[j, 1] - points[i, 1]
     chord = math.sqrt(dx * dx + dy * dy)
@@ -98,21 +116,21 @@ def _holds(points, i, j, limit, largest, height, found):  # type: ignore[no-unty
         if ox * ox + oy * oy + oz * oz > limit * limit:
             return False
         lag = max(beside, abs(oz)) + _LAG * (here - before) ** 2 * abs(points[k, 2] - points[k - 1, 2])
-        bulge = max(radius - _nearest(points, k - 1, cx, cy), 0.0)
-        if bulge * bulge + lag * lag > limit * limit:
+        if _bulges(points, k - 1, cx, cy, radius, limit, swell, lag):
             return False
         before, beside = here, abs(oz)
     found[0] = height
     return True
 
 
-@kernel("boolean(float64[:, ::1], int64, int64, float64, float64, float64[::1])", counts=False)
-def arc_holds(points, i, j, limit, largest, found):  # type: ignore[no-untyped-def]
+@kernel("boolean(float64[:, ::1], int64, int64, float64, float64, float64, float64[::1])", counts=False)
+def arc_holds(points, i, j, limit, swell, largest, found):  # type: ignore[no-untyped-def]
     """Tell whether an arc from point i to point j keeps within a limit of the path between; write its height over the chord.
 
     Every point and every middle of a chord allows heights between two values; one between all of them is tried.
 
     Args:
+        swell: the squared limit half way between two points exceeds that at them by so many times that.
         largest: radius, mm.
         found: (1,) out: signed height of the arc over its chord, left of it positive, mm.
     """
@@ -123,33 +141,34 @@ def arc_holds(points, i, j, limit, largest, found):  # type: ignore[no-untyped-d
     ux, uy = 0.5 * dx / half, 0.5 * dy / half
     mx, my = 0.5 * (points[i, 0] + points[j, 0]), 0.5 * (points[i, 1] + points[j, 1])
     low, high = -_HIGHEST, _HIGHEST  # of tan(sweep / 4), signed
+    wide = limit * math.sqrt(1.0 + swell)
     for k in range(2 * (i + 1), 2 * j):
         a, b = k // 2, k // 2 + k % 2
         px = 0.5 * (points[a, 0] + points[b, 0]) - mx
         py = 0.5 * (points[a, 1] + points[b, 1]) - my
         x, y = (px * ux + py * uy) / half, (py * ux - px * uy) / half
-        first, last = _heights(x, y, limit / half)
+        first, last = _heights(x, y, (limit if a == b else wide) / half)
         low, high = max(low, first), min(high, last)
         if low > high:
             return False
-    return _holds(points, i, j, limit, largest, 0.5 * (low + high) * half, found)
+    return _holds(points, i, j, limit, swell, largest, 0.5 * (low + high) * half, found)
 
 
-@kernel("boolean(float64[:, ::1], int64, int64, int64, float64, float64, float64[::1])", counts=False)
-def holds(points, i, j, kind, limit, largest, found):  # type: ignore[no-untyped-def]
+@kernel("boolean(float64[:, ::1], int64, int64, int64, float64, float64, float64, float64[::1])", counts=False)
+def holds(points, i, j, kind, limit, swell, largest, found):  # type: ignore[no-untyped-def]
     """Tell whether a line, or an arc in the points' plane, stands for points i to j."""
     if kind == LINE:
         return line_holds(points, i, j, limit)
-    return arc_holds(points, i, j, limit, largest, found)
+    return arc_holds(points, i, j, limit, swell, largest, found)
 
 
-@kernel("int64(float64[:, ::1], int64, int64, int64, int64, float64, float64, float64[::1])", counts=False)
-def _reach(points, i, stop, least, kind, limit, largest, found):  # type: ignore[no-untyped-def]
+@kernel("int64(float64[:, ::1], int64, int64, int64, int64, float64, float64, float64, float64[::1])", counts=False)
+def _reach(points, i, stop, least, kind, limit, swell, largest, found):  # type: ignore[no-untyped-def]
     """Return the last point beyond `least` that one line or arc from point i can end at, or `least`; an arc's height to `found[1]`.
 
     Looked for all the way first: noise may hide from shorter pieces what holds for all. Then in doubled steps, then by halving.
     """
-    if least < stop and holds(points, i, stop, kind, limit, largest, found):
+    if least < stop and holds(points, i, stop, kind, limit, swell, largest, found):
         found[1] = found[0]
         return stop
     good, bad = least, stop
@@ -157,7 +176,7 @@ def _reach(points, i, stop, least, kind, limit, largest, found):  # type: ignore
     patience = _PATIENCE * step
     while i + step < stop:
         j = i + step
-        if holds(points, i, j, kind, limit, largest, found):
+        if holds(points, i, j, kind, limit, swell, largest, found):
             good, found[1] = j, found[0]
         elif kind == LINE or good > least or step >= patience:
             bad = j
@@ -165,27 +184,27 @@ def _reach(points, i, stop, least, kind, limit, largest, found):  # type: ignore
         step *= 2
     while bad - good > 1:
         j = (good + bad) // 2
-        if holds(points, i, j, kind, limit, largest, found):
+        if holds(points, i, j, kind, limit, swell, largest, found):
             good, found[1] = j, found[0]
         else:
             bad = j
     return good
 
 
-@kernel("UniTuple(int64, 3)(float64[:, :, ::1], int64, int64, float64, float64, int64, float64[::1])", counts=False)
-def farthest(planes, i, stop, limit, largest, kinds, found):  # type: ignore[no-untyped-def]
+@kernel("UniTuple(int64, 3)(float64[:, :, ::1], int64, int64, float64, float64, float64, int64, float64[::1])", counts=False)
+def farthest(planes, i, stop, limit, swell, largest, kinds, found):  # type: ignore[no-untyped-def]
     """Return the last point that one line (or, with kinds 1, arc) from point i can end at, its kind and plane; its height to `found[1]`."""
-    best, kind, plane, height = _reach(planes[0], i, stop, i + 1, LINE, limit, largest, found), LINE, 0, 0.0
+    best, kind, plane, height = _reach(planes[0], i, stop, i + 1, LINE, limit, swell, largest, found), LINE, 0, 0.0
     for p in range(kinds * len(planes)):
-        j = _reach(planes[p], i, stop, best, ARC, limit, largest, found)
+        j = _reach(planes[p], i, stop, best, ARC, limit, swell, largest, found)
         if j > best:
             best, kind, plane, height = j, ARC, p, found[1]
     found[1] = height
     return best, kind, plane
 
 
-@kernel("int64(float64[:, :, ::1], int64, int64, float64, float64, int64, int64[:, ::1], float64[::1])")
-def greedy(planes, first, stop, limit, largest, kinds, rows, heights):  # type: ignore[no-untyped-def]
+@kernel("int64(float64[:, :, ::1], int64, int64, float64, float64, float64, int64, int64[:, ::1], float64[::1])")
+def greedy(planes, first, stop, limit, swell, largest, kinds, rows, heights):  # type: ignore[no-untyped-def]
     """Cover points first to stop with the longest lines and arcs, one after the other; return how many.
 
     Args:
@@ -194,7 +213,7 @@ def greedy(planes, first, stop, limit, largest, kinds, rows, heights):  # type: 
     """
     count, i, found = 0, first, np.zeros(2)
     while i < stop:
-        i, kind, plane = farthest(planes, i, stop, limit, largest, kinds, found)
+        i, kind, plane = farthest(planes, i, stop, limit, swell, largest, kinds, found)
         rows[count, 0], rows[count, 1], rows[count, 2], heights[count] = i, kind, plane, found[1]
         count += 1
     return count

@@ -20,6 +20,8 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
+_GRID = 2**20
+"""Knots are whole numbers up to it, so that words of a few digits hold them."""
 _SPAN = 32
 """Chords of a span to begin with, at least."""
 _ANGLE, _LEAST = 0.8, 4
@@ -49,7 +51,8 @@ class SplineFit:
     """A B-spline in the tube round its points.
 
     Attributes:
-        curve: its ends are the outer points; smooth of the second order (degree 3) or the fourth (degree 5) within.
+        curve: its ends are the outer points; smooth of the second order (degree 3) or the fourth (degree 5) within. Its
+            knots are whole numbers.
         feet: (n,) places on its Bézier pieces that answer to the points, in [0, number of pieces].
     """
 
@@ -106,7 +109,7 @@ def fit_spline(points: Floats, tube: Tube, degree: int = 3, progress: Progress =
     if not isinstance(state, _State):
         return state
     state = work.joined(work.spread(state))
-    knots = work.knots(state.breaks)
+    knots = work.knots(np.rint(state.breaks / work.unit))
     return SplineFit(Nurbs(state.control, np.ones(len(state.control)), knots, degree), state.feet)
 
 
@@ -117,6 +120,7 @@ class _Work:
         self._points = np.ascontiguousarray(points, np.float64)
         self._samples, self._degree, self._progress = _Samples(self._points), degree, progress
         self._tube, self._squares = tube, tube.squares(1e-9)
+        self.unit: float = self._samples.along[-1] / _GRID
 
     def knots(self, breaks: Floats) -> Floats:
         """Return the knots of spans that end at breaks."""
@@ -181,6 +185,7 @@ class _Work:
         """Return the least-squares spline over breaks, its samples' places moved to the nearest, and what is not proven."""
         from app.fit import bspline_kernels
 
+        breaks = np.unique(np.rint(breaks / self.unit)) * self.unit
         samples, spans = self._samples, len(breaks) - 1
         control, pieces = np.empty((spans + self._degree, 3)), np.empty((spans, DEGREE + 1, 3))
         feet, moved, bad = np.empty(len(self._points)), np.empty(len(places)), np.empty(len(self._points) - 1, np.bool_)

@@ -96,16 +96,18 @@ class TangentFit:
 
     Attributes:
         line: the polyline.
-        limit: how far they may be apart, mm, > 0.
+        limit: how far they may be apart at its points, mm, > 0.
         bend: pieces may turn by so much where they meet, radians, > 0; or by twice as much as the polyline does along both
             of them, but by no more than it does anywhere.
         largest: radius of arcs, mm.
+        swell: the squared limit half way between two points exceeds that at them by so many times that.
     """
 
     line: Polyline
     limit: float
     bend: float
     largest: float
+    swell: float = 0.0
 
     def chain(self, progress: Progress = NO_PROGRESS) -> Chain | None:
         """Return the pieces; None where it does not come about.
@@ -118,7 +120,7 @@ class TangentFit:
         """
         best: Chain | None = None
         for k, start in enumerate(_STARTS):
-            plain = _greedy(self.line, start * self.limit, self.largest)
+            plain = self._greedy(self.line, start * self.limit)
             if best is None or len(plain) < len(best):
                 made = self._repaired(plain, progress.part(k / len(_STARTS), (k + 1) / len(_STARTS)))
                 best = made if best is None or (made is not None and len(made) < len(best)) else best
@@ -154,8 +156,9 @@ class TangentFit:
         """Tell which lines may as well be arcs: about as long as both neighbours, with bends that an arc takes within the limit."""
         sizes, at = self._sizes(chain), self.line.nearest(chain.s)
         shorter = np.minimum(np.append(sizes[1:], np.inf), np.append(np.inf, sizes[:-1]))
+        wide = self.limit * math.sqrt(1 + self.swell)
         turn = np.maximum(self.line.turns[at[1:]], self.line.turns[at[:-1]])
-        some: Flags = (np.diff(at) < _LEAST_CHORDS) & (sizes <= _EVEN * shorter) & (turn > self.bend) & (sizes * turn <= 8 * self.limit)
+        some: Flags = (np.diff(at) < _LEAST_CHORDS) & (sizes <= _EVEN * shorter) & (turn > self.bend) & (sizes * turn <= 8 * wide)
         return some
 
     def _tune(self, chain: Chain, dirty: Flags, off: Floats, progress: Progress) -> None:
@@ -169,7 +172,8 @@ class TangentFit:
                 end = min(begin + _BLOCK, stop)
                 progress.step(begin / len(chain), "Moving joints")
                 kernels.tune(
-                    line.xy, line.along, line.ahead, chain.s, chain.left, chain.half, chain.bent, begin, end, _SURE * self.limit, off,
+                    line.xy, line.along, line.ahead, chain.s, chain.left, chain.half, chain.bent, begin, end,
+                    _SURE * self.limit, self.swell, off,
                 )  # fmt: skip
                 begin = end - _OVERLAP
 
@@ -217,10 +221,10 @@ class TangentFit:
         some = np.unique(np.linspace(first, stop, min(stop - first + 1, _PLENTY)).astype(np.int64))
         few = Polyline(self.line.points[some, :2], self.limit)
         low, high = 1e-2 * self.limit, 4.0 * self.limit
-        best = _greedy(few, self.limit, self.largest)
+        best = self._greedy(few, self.limit)
         for _ in range(_HALVINGS):
             middle = math.sqrt(low * high)
-            made = _greedy(few, middle, self.largest)
+            made = self._greedy(few, middle)
             if len(made) <= count:
                 best, high = made, middle
             else:
@@ -229,6 +233,18 @@ class TangentFit:
         for end in (0, -1):
             best.s[end], best.left[end] = old.s[end], old.left[end]
         return best
+
+    def _greedy(self, line: Polyline, limit: float) -> Chain:
+        """Return the longest lines and arcs from point to point."""
+        from app.fit import arc_fit_kernels as kernels
+
+        stop = len(line.xy) - 1
+        rows, heights = np.empty((stop, 3), np.int64), np.empty(stop)
+        count = kernels.greedy(line.points[None], 0, stop, limit, self.swell, self.largest, 1, rows, heights)
+        at = np.concatenate([[0], rows[:count, 0]])
+        bent = rows[:count, 1] == kernels.ARC
+        half = np.where(bent, -2 * np.arctan2(heights[:count], 0.5 * np.abs(np.diff(line.xy[at]))), 0.0)
+        return Chain(line.along[at], np.zeros(count + 1), half, bent)
 
 
 def _bends(points: Floats, reach: float) -> Floats:
@@ -243,19 +259,6 @@ def _bends(points: Floats, reach: float) -> Floats:
     corner_kernels.turns(points, reach / 2, along, near)
     corner_kernels.turns(points, reach, along, wide)
     return np.minimum(wide, np.maximum(2 * near - wide, 0.0))
-
-
-def _greedy(line: Polyline, limit: float, largest: float) -> Chain:
-    """Return the longest lines and arcs from point to point."""
-    from app.fit import arc_fit_kernels as kernels
-
-    stop = len(line.xy) - 1
-    rows, heights = np.empty((stop, 3), np.int64), np.empty(stop)
-    count = kernels.greedy(line.points[None], 0, stop, limit, largest, 1, rows, heights)
-    at = np.concatenate([[0], rows[:count, 0]])
-    bent = rows[:count, 1] == kernels.ARC
-    half = np.where(bent, -2 * np.arctan2(heights[:count], 0.5 * np.abs(np.diff(line.xy[at]))), 0.0)
-    return Chain(line.along[at], np.zeros(count + 1), half, bent)
 
 
 def _joined(parts: list[Chain]) -> Chain:

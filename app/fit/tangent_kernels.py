@@ -55,6 +55,12 @@ def _bend(z, half, j):  # type: ignore[no-untyped-def]
     return turn - 2.0 * math.pi * round(turn / (2.0 * math.pi))
 
 
+@kernel("float64(float64, float64)", counts=False)
+def _ease(share, swell):  # type: ignore[no-untyped-def]
+    """Return what a distance from a place of a chord counts for, where the region is wider between points than at them."""
+    return 1.0 / math.sqrt(1.0 + 4.0 * swell * share * (1.0 - share))
+
+
 @kernel(f"complex128({_Z}, int64)", counts=False)
 def _sample(xy, s):  # type: ignore[no-untyped-def]
     """Return sample s of a polyline: its points and, between them, places that part its chords evenly."""
@@ -62,11 +68,20 @@ def _sample(xy, s):  # type: ignore[no-untyped-def]
     return xy[k] if share == 0.0 else xy[k] + share * (xy[k + 1] - xy[k])
 
 
-@kernel("UniTuple(int64, 3)(float64, float64)", counts=False)
-def _samples(low, high):  # type: ignore[no-untyped-def]
-    """Return first, stop and step of the samples between two feet."""
+@kernel(f"float64({_Z}, complex128, complex128, float64, int64, float64)", counts=False)
+def _off(xy, a, b, half, s, swell):  # type: ignore[no-untyped-def]
+    """Return how far sample s lies left of the circle that a piece from a to b is of, as it counts."""
+    return _apart(a, b, half, _sample(xy, s)) * _ease((s % _EACH) / _EACH, swell)
+
+
+@kernel("UniTuple(int64, 3)(float64, float64, float64)", counts=False)
+def _samples(low, high, swell):  # type: ignore[no-untyped-def]
+    """Return first, stop and step of the samples between two feet: of many those at points, where these have less room."""
     first, stop = math.floor(_EACH * low) + 1, math.ceil(_EACH * high)
-    return first, stop, max(1, (stop - first) // _SAMPLES)
+    step = max(1, (stop - first) // _SAMPLES)
+    if swell > 0.0 and step > 1:
+        first, step = _EACH * (math.floor(low) + 1), _EACH * max(1, step // _EACH)
+    return first, stop, step
 
 
 @kernel(f"void({_Z}, {_R}, {_Z}, {_R}, {_R}, int64, int64, {_R}, {_Z})", counts=False)
@@ -80,8 +95,8 @@ def place(xy, along, ahead, s, left, first, stop, feet, z):  # type: ignore[no-u
         z[j] = xy[k] + share * (xy[k + 1] - xy[k]) + left[j] * 1j * way / abs(way)
 
 
-@kernel(f"float64({_Z}, complex128, complex128, float64, float64, float64)", counts=False)
-def _farthest(xy, a, b, half, low, high):  # type: ignore[no-untyped-def]
+@kernel(f"float64({_Z}, complex128, complex128, float64, float64, float64, float64)", counts=False)
+def _farthest(xy, a, b, half, low, high, swell):  # type: ignore[no-untyped-def]
     """Return how far the polyline between two feet is from the circle that a piece is of: at its points, and where a chord is parallel."""
     c = b - a
     tangent, bent = c / abs(c) * cmath.exp(-1j * half), 2.0 * math.sin(half) / abs(c)
@@ -92,27 +107,28 @@ def _farthest(xy, a, b, half, low, high):  # type: ignore[no-untyped-def]
         flat = bent * (d.real * d.real + d.imag * d.imag)
         rise = (d * tangent.conjugate()).imag - bent * (w.conjugate() * d).real
         if first * flat < rise < last * flat or last * flat < rise < first * flat:
-            worst = max(worst, abs(_apart(a, b, half, xy[k] + rise / flat * d)))
+            share = rise / flat
+            worst = max(worst, abs(_apart(a, b, half, xy[k] + share * d)) * _ease(share, swell))
         if last == 1.0:
             worst = max(worst, abs(_apart(a, b, half, xy[k + 1])))
     return worst
 
 
-@kernel(f"void({_Z}, {_Z}, {_R}, {_R}, {_R}, int64, int64, boolean, {_R})", counts=False)
-def measure(xy, z, feet, left, half, first, stop, whole, off):  # type: ignore[no-untyped-def]
+@kernel(f"void({_Z}, {_Z}, {_R}, {_R}, {_R}, int64, int64, boolean, float64, {_R})", counts=False)
+def measure(xy, z, feet, left, half, first, stop, whole, swell, off):  # type: ignore[no-untyped-def]
     """Write how far each of pieces first to stop - 1 is from its samples, or from the whole polyline, or its joints from it, at most."""
     for k in range(first, stop):
-        off[k] = max(abs(left[k]), abs(left[k + 1]))
+        off[k] = max(abs(left[k]) * _ease(feet[k] % 1.0, swell), abs(left[k + 1]) * _ease(feet[k + 1] % 1.0, swell))
         if whole:
-            off[k] = max(off[k], _farthest(xy, z[k], z[k + 1], half[k], feet[k], feet[k + 1]))
+            off[k] = max(off[k], _farthest(xy, z[k], z[k + 1], half[k], feet[k], feet[k + 1], swell))
             continue
-        low, high, step = _samples(feet[k], feet[k + 1])
+        low, high, step = _samples(feet[k], feet[k + 1], swell)
         for s in range(low, high, step):
-            off[k] = max(off[k], abs(_apart(z[k], z[k + 1], half[k], _sample(xy, s))))
+            off[k] = max(off[k], abs(_off(xy, z[k], z[k + 1], half[k], s, swell)))
 
 
-@kernel(f"float64({_Z}, {_Z}, {_R}, {_R}, {_R}, int64, int64, {_R}, {_R}, float64)", counts=False)
-def _merit(xy, z, feet, left, half, first, stop, limits, sizes, weight):  # type: ignore[no-untyped-def]
+@kernel(f"float64({_Z}, {_Z}, {_R}, {_R}, {_R}, int64, int64, {_R}, {_R}, float64, float64)", counts=False)
+def _merit(xy, z, feet, left, half, first, stop, limits, sizes, weight, swell):  # type: ignore[no-untyped-def]
     """Return what is to be least: squared bends, and walls at the limits; inf beyond these."""
     walls, count = 0.0, len(half)
     for k in range(first, stop):
@@ -120,14 +136,14 @@ def _merit(xy, z, feet, left, half, first, stop, limits, sizes, weight):  # type
         if feet[k + 1] <= feet[k] or abs(half[k]) >= _WIDEST or size <= sizes[k]:
             return np.inf
         walls -= math.log(size - sizes[k])
-        low, high, step = _samples(feet[k], feet[k + 1])
+        low, high, step = _samples(feet[k], feet[k + 1], swell)
         for s in range(low, high, step):
-            room = 1.0 - (_apart(z[k], z[k + 1], half[k], _sample(xy, s)) / limits[k]) ** 2
+            room = 1.0 - (_off(xy, z[k], z[k + 1], half[k], s, swell) / limits[k]) ** 2
             if not room > 0.0:
                 return np.inf
             walls -= math.log(room)
     for j in range(first + 1, stop):
-        room = 1.0 - (left[j] / min(limits[j - 1], limits[j])) ** 2
+        room = 1.0 - (left[j] * _ease(feet[j] % 1.0, swell) / min(limits[j - 1], limits[j])) ** 2
         if not room > 0.0:
             return np.inf
         walls -= math.log(room)
@@ -185,16 +201,16 @@ def _frames(xy, along, ahead, feet, left, first, stop, frames):  # type: ignore[
         frames[j, 1] = 1j * way
 
 
-@kernel(f"void({_Z}, {_Z}, {_R}, {_R}, {_FRAMES}, int64, int64, {_R}, {_R}, float64, {_BANDS}, {_R})")
-def _walls(xy, z, feet, half, frames, first, stop, limits, sizes, weight, band, slope):  # type: ignore[no-untyped-def]
+@kernel(f"void({_Z}, {_Z}, {_R}, {_R}, {_FRAMES}, int64, int64, {_R}, {_R}, float64, float64, {_BANDS}, {_R})")
+def _walls(xy, z, feet, half, frames, first, stop, limits, sizes, weight, swell, band, slope):  # type: ignore[no-untyped-def]
     """Add the walls: of piece first + i its half at 3 i, of joint first + i its distances at 3 i - 2 and 3 i - 1."""
     part, found = np.empty(5), np.empty(3, np.complex128)
     for k in range(first, stop):
         at = 3 * (k - first) - 2
-        low, high, step = _samples(feet[k], feet[k + 1])
-        square = limits[k] * limits[k]
+        low, high, step = _samples(feet[k], feet[k + 1], swell)
         for s in range(low, high, step):
             p = _sample(xy, s)
+            square = (limits[k] / _ease((s % _EACH) / _EACH, swell)) ** 2
             d = _apart(z[k], z[k + 1], half[k], p)
             room = 1.0 - d * d / square
             pull = 2.0 * d / (square * room)
@@ -211,11 +227,11 @@ def _walls(xy, z, feet, half, frames, first, stop, limits, sizes, weight, band, 
         _add(band, slope, at, part, -weight / size, weight / (size * size))
 
 
-@kernel(f"void({_R}, int64, int64, {_R}, float64, {_BANDS}, {_R})", counts=False)
-def _rails(left, first, stop, limits, weight, band, slope):  # type: ignore[no-untyped-def]
+@kernel(f"void({_R}, {_R}, int64, int64, {_R}, float64, float64, {_BANDS}, {_R})", counts=False)
+def _rails(feet, left, first, stop, limits, weight, swell, band, slope):  # type: ignore[no-untyped-def]
     """Add the walls of the joints."""
     for j in range(first + 1, stop):
-        square = min(limits[j - 1], limits[j]) ** 2
+        square = (min(limits[j - 1], limits[j]) / _ease(feet[j] % 1.0, swell)) ** 2
         room = 1.0 - left[j] * left[j] / square
         pull = 2.0 * left[j] / (square * room)
         at = 3 * (j - first) - 1
@@ -293,13 +309,13 @@ def _limits(off, first, stop, limit, limits):  # type: ignore[no-untyped-def]
     return beyond, nearer
 
 
-@kernel(f"float64({_Z}, {_Z}, {_R}, {_R}, {_FRAMES}, {_R}, boolean[::1], int64, int64, {_R}, {_R}, float64, {_BANDS}, {_R})")
-def _way_down(xy, z, feet, left, frames, half, bent, first, stop, limits, sizes, weight, band, way):  # type: ignore[no-untyped-def]
+@kernel(f"float64({_Z}, {_Z}, {_R}, {_R}, {_FRAMES}, {_R}, boolean[::1], int64, int64, {_R}, {_R}, float64, float64, {_BANDS}, {_R})")
+def _way_down(xy, z, feet, left, frames, half, bent, first, stop, limits, sizes, weight, swell, band, way):  # type: ignore[no-untyped-def]
     """Write Newton's step, to be taken off; return by how much the merit falls along it at first, -1 if there is none."""
     slope = np.zeros(len(way))
     band[:] = 0.0
-    _walls(xy, z, feet, half, frames, first, stop, limits, sizes, weight, band, slope)
-    _rails(left, first, stop, limits, weight, band, slope)
+    _walls(xy, z, feet, half, frames, first, stop, limits, sizes, weight, swell, band, slope)
+    _rails(feet, left, first, stop, limits, weight, swell, band, slope)
     _turns(z, half, frames, first, stop, band, slope)
     _hold(band, slope, bent, first, stop)
     way[:] = slope
@@ -321,8 +337,8 @@ def _stepped(s, left, half, first, stop, way, share, s_new, left_new, half_new):
             s_new[k], left_new[k] = s[k] - share * way[i - 2], left[k] - share * way[i - 1]
 
 
-@kernel(f"float64({_Z}, {_R}, {_Z}, {_R}, {_R}, {_R}, boolean[::1], int64, int64, float64, {_R})")
-def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, off):  # type: ignore[no-untyped-def]
+@kernel(f"float64({_Z}, {_R}, {_Z}, {_R}, {_R}, {_R}, boolean[::1], int64, int64, float64, float64, {_R})")
+def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, swell, off):  # type: ignore[no-untyped-def]
     """Move joints first + 1 to stop - 1 and bend pieces first to stop - 1, in place, so that the path turns as little as it can there.
 
     Newton's method on squared bends and a logarithmic wall at the limit. A piece that is beyond it has its wall farther out
@@ -331,7 +347,8 @@ def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, off):  # typ
     Args:
         s: (m + 1,) of each joint, its distance along the polyline, mm. left: (m + 1,) its distance left of it, mm.
         half: (m,) of each piece. bent: (m,) whether it may be an arc.
-        limit: how far path and polyline may be apart, mm.
+        limit: how far path and polyline may be apart at the points, mm.
+        swell: the squared limit half way between two points exceeds that at them by so many times that.
         off: (m,) out: how far they are, of pieces first to stop.
 
     Returns:
@@ -347,17 +364,17 @@ def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, off):  # typ
     s_new, left_new, half_new, feet_new, z_new = s.copy(), left.copy(), half.copy(), feet.copy(), z.copy()
     weight, beyond = _FIRST, False
     for _ in range(_STEPS):
-        measure(xy, z, feet, left, half, first, stop, False, off)
+        measure(xy, z, feet, left, half, first, stop, False, swell, off)
         was = beyond
         beyond, nearer = _limits(off, first, stop, limit, limits)
         weight = _FIRM if beyond else _FIRST if was else weight
         _frames(xy, along, ahead, feet, left, near, end, frames)
-        falls = _way_down(xy, z, feet, left, frames, half, bent, first, stop, limits, sizes, weight, band, way)
-        here, share = _merit(xy, z, feet, left, half, first, stop, limits, sizes, weight), 1.0
+        falls = _way_down(xy, z, feet, left, frames, half, bent, first, stop, limits, sizes, weight, swell, band, way)
+        here, share = _merit(xy, z, feet, left, half, first, stop, limits, sizes, weight, swell), 1.0
         while share > _LEAST and falls > 0.0:
             _stepped(s, left, half, first, stop, way, share, s_new, left_new, half_new)
             place(xy, along, ahead, s_new, left_new, first + 1, stop, feet_new, z_new)
-            if _merit(xy, z_new, feet_new, left_new, half_new, first, stop, limits, sizes, weight) <= here - 1e-4 * share * falls:
+            if _merit(xy, z_new, feet_new, left_new, half_new, first, stop, limits, sizes, weight, swell) <= here - 1e-4 * share * falls:
                 half[first:stop], s[inner], left[inner] = half_new[first:stop], s_new[inner], left_new[inner]
                 feet[inner], z[inner] = feet_new[inner], z_new[inner]
                 break
@@ -366,7 +383,7 @@ def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, off):  # typ
             if weight <= _LIGHT or (beyond and not nearer):
                 break
             weight *= 1.0 if beyond else 0.1
-    measure(xy, z, feet, left, half, first, stop, True, off)
+    measure(xy, z, feet, left, half, first, stop, True, swell, off)
     most = 0.0
     for j in range(max(first, 1), min(stop, count - 1) + 1):
         most = max(most, abs(_bend(z, half, j)))

@@ -60,6 +60,11 @@ class Tube:
         """Largest radius, mm."""
         return self.radius if self.middle is None else self.middle
 
+    @property
+    def swell(self) -> float:
+        """By how many times that at the points the squared radius is more half way between them."""
+        return (self.widest / self.radius) ** 2 - 1.0
+
     def narrower(self, by: float) -> Tube:
         """Return the tube with all radii less by something, mm."""
         return Tube(self.radius - by, None if self.middle is None else self.middle - by)

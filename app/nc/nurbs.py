@@ -27,6 +27,8 @@ LARGEST_WEIGHT = 9999.0
 WEIGHT_DIGITS = 9
 """Of P of G5.2."""
 MOST_KNOTS = 99999
+_UNITS = tuple(2.0**-k for k in range(13))
+"""Knots that are multiples of one of them are written as they are."""
 _UNEVEN = 0.4
 """Where a piece is cut whose turn is none at one of LinuxCNC's steps: not in the middle, where the turn may be none again."""
 
@@ -123,19 +125,20 @@ def _step(post: Post, units: Units) -> float:
 
 def _with_knots(curve: Nurbs, post: Post, units: Units) -> list[str]:
     """Return every control point with its knot, and its weight where they are not all alike; then the last knots."""
-    homogeneous, knots = _homogeneous(curve), _whole(curve.knots)
+    decimals, zeros = post.digits(units).X, post.words.trailing_zeros
+    homogeneous, knots = _homogeneous(curve), _whole(curve.knots, decimals)
     if knots is None:
         pieces = _bezier(curve)
         homogeneous = np.concatenate([pieces[0, :1], pieces[:, 1:].reshape(-1, 4)])
         inner = np.repeat(np.arange(1, len(pieces)), curve.degree)
-        knots = [0] * (curve.degree + 1) + inner.tolist() + [len(pieces)] * (curve.degree + 1)
+        whole = np.array([0] * (curve.degree + 1) + inner.tolist() + [len(pieces)] * (curve.degree + 1))
+        knots = whole * 10**decimals
     weights = homogeneous[:, 3] / homogeneous[:, 3].max()
     spelled = _spelled(homogeneous[:, :3] / homogeneous[:, 3:], post, units)
-    decimals, zeros = post.digits(units).X, post.words.trailing_zeros
     r = [f" R{numeral(count, decimals, zeros)}" for count in counts(weights * LARGEST_WEIGHT, decimals)]
     if np.ptp(weights) == 0:
         r = [""] * len(weights)
-    k = [f"K{numeral(knot * 10**decimals, decimals, zeros)}" for knot in knots]
+    k = [f"K{numeral(knot, decimals, zeros)}" for knot in knots.tolist()]
     blocks = [" ".join(words) + weight for *words, weight in zip(k, spelled.x, spelled.y, spelled.z, r, strict=False)]
     return [f"{post.nurbs.word} P{curve.degree + 1} {blocks[0]}", *blocks[1:], *k[len(blocks) :]]
 
@@ -168,9 +171,15 @@ def _cubics(pieces: Floats) -> Floats:
     return pieces
 
 
-def _whole(knots: Floats) -> list[int] | None:
-    """Return the knots as whole numbers that draw the same curve, where there are such; None where there are not."""
-    steps = np.diff(knots)
-    moved = (knots - knots[0]) / np.min(steps[steps > 0])
-    near = np.rint(moved)
-    return near.astype(int).tolist() if near[-1] <= MOST_KNOTS and np.allclose(moved, near, rtol=0, atol=1e-9) else None
+def _whole(knots: Floats, decimals: int) -> NDArray[np.int64] | None:
+    """Return the knots, in steps of the last decimal, that draw the same curve where there are such; None where there are not."""
+    moved = knots - knots[0]
+    steps = np.diff(moved)
+    for unit in (np.min(steps[steps > 0]), *_UNITS):
+        near = np.rint(moved / unit)
+        if np.allclose(moved / unit, near, rtol=0, atol=1e-9):
+            if near[-1] <= MOST_KNOTS:
+                return np.asarray(near * 10**decimals, np.int64)
+            if near[-1] <= MOST_KNOTS * 10**decimals:
+                return np.asarray(near, np.int64)
+    return None

@@ -246,7 +246,7 @@ class _Work:
         tube = self._tube.narrower(slack)
         form, nurbs = self._options.form, self._post.nurbs.form
         largest = min(self._post.arcs.largest_radius_mm, LARGEST_RADIUS)
-        arcs = ArcOptions(tube.radius, self._options.corner, largest, form is not Form.LINES)
+        arcs = ArcOptions(tube.radius, self._options.corner, largest, form is not Form.LINES, tube.middle)
         if form is not Form.NURBS or nurbs is NurbsForm.NONE:
             return fit_arcs(points, arcs, progress)
         level = nurbs is NurbsForm.BEZIER

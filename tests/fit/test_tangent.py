@@ -145,6 +145,18 @@ def test_chords_that_were_thinned_become_arcs_that_meet() -> None:
     assert bends(path).max() < 0.6 < 7.5
 
 
+@pytest.mark.parametrize("count", [24, 48])
+def test_a_barrel_lets_arcs_stand_for_long_chords(count: int) -> None:
+    """The points are on the circle to the last digit, the chords' middles 0.02 and 0.09 mm off it: cylinders hold no arc."""
+    t = np.linspace(0, math.tau, count + 1)
+    points = np.column_stack([10 * np.cos(t), 10 * np.sin(t), 0 * t])
+    assert not np.any(fit_arcs(points, ArcOptions(0.01)).motions.kind >= MotionKind.ARC_CW)
+    path = fit_arcs(points, ArcOptions(0.01, middle=0.1))
+    assert len(path.motions) == 2
+    assert judge(curve_of_motions(path.motions), points, Tube(0.01, 0.1)).answer is Answer.INSIDE
+    assert len(fit_arcs(points, ArcOptions(0.01, middle=0.02)).motions) > 2
+
+
 def test_long_sides_stay_straight_beside_crumbs() -> None:
     """A side of 60 mm between small chamfers is no arc, though one would keep within the tolerance."""
     points = np.array([[0, 0, 0], [60, 0, 0], [60.3, 0.1, 0], [60.5, 0.3, 0], [60.6, 0.6, 0], [60.6, 40, 0.0]])

@@ -134,12 +134,12 @@ ADVERSARIES: dict[str, tuple[Callable[[], Floats], float]] = {
 }  # fmt: skip
 
 
-def held(data: bytes, tolerance: float, way: str) -> Smoothed:
+def held(data: bytes, tolerance: float, way: str, middle: float | None = None) -> Smoothed:
     """Smooth, and hold the written text against the given one."""
     form, post = WAYS[way]
-    done = smooth("in.nc", data, SmoothOptions(tolerance, form, post=load_post(post)))
+    done = smooth("in.nc", data, SmoothOptions(tolerance, form, middle, post=load_post(post)))
     stated = report(done)["tolerance"]["proven_mm"]
-    assert stated == done.bound <= tolerance
+    assert stated == done.bound <= (middle or tolerance)
     old, new = data.decode(), done.data.decode()
     given, written = moves_of(old), moves_of(new)
     pairs = paired(old.splitlines(), new.splitlines(), done)
@@ -161,6 +161,7 @@ def held(data: bytes, tolerance: float, way: str) -> Smoothed:
         out, missed = float(off(curve, polyline).max()), float(off(polyline, curve).max())
         assert out <= bound + EXACT, "the curve leaves the tube"
         assert missed <= bound + CHORDS, "the curve leaves out some of the moves"
+        assert middle is None or off(points, curve).max() <= tolerance + CHORDS, "only between the points there is more room"
         one, two = along(made, math.ceil(WALK * share)), spread(points, math.ceil(WALK * share))
         step = max(np.sqrt((np.diff(places, axis=0) ** 2).sum(axis=1)).max() for places in (one, two))
         assert in_order(one, two, bound + step), "the curve does not run in the order of the moves"
@@ -198,6 +199,25 @@ def assert_anew(done: Smoothed, name: str, way: str) -> None:
 def test_no_adversary_gets_the_curve_beyond_the_stated_bound(adversary: str, way: str) -> None:
     points, tolerance = ADVERSARIES[adversary]
     assert_anew(held(program(points()), tolerance, way), adversary, way)
+
+
+def rounded_chords() -> Floats:
+    """A circle in 40 chords, whose middles are 0.06 mm off it."""
+    return ring(np.linspace(0, math.tau, 41))
+
+
+def thinned() -> Floats:
+    """A wave in few chords."""
+    x = np.linspace(0, 60, 80)
+    return flat(x, 5 * np.sin(x / 5))
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("points", [rounded_chords, thinned, lambda: helix()[::8]], ids=["circle", "wave", "helix"])
+def test_in_a_barrel_there_is_more_room_between_the_points_and_only_there(points: Callable[[], Floats], way: str) -> None:
+    done = held(program(points()), 0.01, way, 0.07)
+    assert way == "lines" or any(piece.judgement for piece in done.pieces)
+    assert way != "arcs" or done.bound > 0.01, "the room is used"
 
 
 @pytest.mark.parametrize("way", WAYS)
