@@ -19,6 +19,7 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
 
+from app.fit.correction import Select
 from app.settings import ThemeChoice
 from app.ui.computation import State
 from app.ui.memory import choose_theme
@@ -27,6 +28,7 @@ from app.ui.nc.motion_shapes import Side
 from app.ui.start import build
 from app.ui.views import View
 from app.ui.wiring import Wiring
+from tests.ui.curves.facets import facets
 from tests.ui.drawing_states import DrawingStates
 from tests.ui.stages.scan import scan
 
@@ -149,6 +151,7 @@ def curves_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
     view, panel = wiring.window_.views.curves, wiring.window_.curves_panel
 
     def arcs() -> None:
+        panel.points.points.buttons[False].click()
         open_program(wiring, PROGRAMS / "jsdc.gcode")
         wiring.showing.show_view(View.CURVES)
         panel.preset.buttons[0.05].click()
@@ -162,7 +165,22 @@ def curves_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
         wait(400)
         view.path.zoom_by(40.0)
 
-    return {"arcs": arcs, "farthest": farthest}
+    def points() -> None:
+        path = Path(os.environ["HITOFUDE_CONFIG"]) / "facets.ngc"
+        path.write_text(facets())
+        open_program(wiring, path)
+        wiring.showing.show_view(View.CURVES)
+        panel.tolerance.show_value(0.2)
+        panel.tolerance.committed.emit(0.2)
+        panel.points.points.buttons[True].click()
+        panel.points.others.buttons["corrected"].click()
+        panel.points.select.buttons[Select.RATIO].click()
+        panel.points.near.show_value(0.3)
+        panel.smooth.click()
+        wait_until(lambda: view.curves is not None and not wiring.smoothing.reading.worker.busy)
+        farthest()
+
+    return {"arcs": arcs, "farthest": farthest, "points": points}
 
 
 def stage_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:

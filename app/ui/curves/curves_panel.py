@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
+from app.ui.curves.points_form import PointsForm
 from app.ui.figures import counted, grouped
 from app.ui.labels import muted
 from app.ui.panels.fields import ChoiceField, ListField, NumberField, Spec, reason_label
@@ -52,7 +53,9 @@ class CurvesPanel(QScrollArea):
         self.region = ChoiceField("Region", [("cylinder", "Cylinder"), ("barrel", "Barrel")])
         self.middle = NumberField(Spec("Middle", low=1e-4, high=10.0, decimals=4,
                                        tip="How far the curve may be away half way between two points"))
+        self.degree = ChoiceField("Degree", [(3, "3"), (5, "5")])
         self.corner = NumberField(Spec("Corner", "°", 0.1, 180.0, 1, False, "Bends of more than this are kept exactly"))
+        self.points = PointsForm()
         self.post = ListField("Control", [(None, "As the program looks")])
         self.smooth, self.save, self.nc = QPushButton("Smooth"), QPushButton("Save as…"), QPushButton("Open in NC")
         self.smooth.setProperty("role", "primary")
@@ -71,7 +74,7 @@ class CurvesPanel(QScrollArea):
         column.setSpacing(4)
         self.program.setWordWrap(True)
         self.title.setWordWrap(True)
-        fields = (self.preset, self.tolerance, self.form, self.region, self.middle, self.corner, self.post)
+        fields = (self.preset, self.tolerance, self.form, self.degree, self.region, self.middle, self.corner, self.points, self.post)
         for widget in (heading("Proven curves"), self.program, *fields):
             column.addWidget(widget)
         column.addSpacing(6)
@@ -108,6 +111,7 @@ class CurvesPanel(QScrollArea):
         self.preset.chosen.connect(self._take_preset)
         self.tolerance.committed.connect(lambda _: self._show_preset())
         self.region.chosen.connect(self._show_region)
+        self.form.chosen.connect(lambda form: self.degree.setVisible(form == "nurbs"))
         for field in (self.tolerance, self.middle, self.corner):
             field.edit.returnPressed.connect(self.smooth.setFocus)
 
@@ -121,6 +125,8 @@ class CurvesPanel(QScrollArea):
         self.post.show_value(None)
         self.tolerance.show_value(options.tolerance)
         self.form.show_value(options.form.value)
+        self.degree.show_value(options.degree)
+        self.degree.setVisible(options.form.value == "nurbs")
         self.corner.show_value(math.degrees(options.corner))
         self.region.show_value("cylinder" if options.middle is None else "barrel")
         self.middle.show_value(options.middle or _BARREL * options.tolerance)
@@ -138,15 +144,15 @@ class CurvesPanel(QScrollArea):
 
         name = self.post.value
         return replace(
-            base, tolerance=self.tolerance.number, form=Form(next(key for key, button in self.form.buttons.items() if button.isChecked())),
+            base, tolerance=self.tolerance.number, form=Form(self.form.value), degree=5 if self.degree.value == 5 else 3,
             middle=self.middle.number if self.barrel else None, corner=math.radians(self.corner.number),
-            post=load_post(str(name)) if name is not None else None,
+            post=load_post(str(name)) if name is not None else None, effective=self.points.method(),
         )  # fmt: skip
 
     @property
     def barrel(self) -> bool:
         """Whether the tube is wider between the points than at them."""
-        return self.region.buttons["barrel"].isChecked()
+        return self.region.value == "barrel"
 
     def show_program(self, name: str) -> None:
         """Name the program that would be smoothed, "" = there is none."""
@@ -233,6 +239,10 @@ def _figures(told: dict[str, Any]) -> list[tuple[str, str, str]]:
     """Return name, value and meaning of each figure of a report."""
     apart, blocks, bend, step = told["tolerance"], told["blocks"], told["largest_bend_deg"], told["largest_curvature_step_per_mm"]
     arrow = " → "
+    points = [] if told["points"] is None else [
+        ("Effective", f"{grouped(told['points']['effective'], 0)} of {grouped(told['points']['all'], 0)}", "Points on the true shape"),
+        ("Corrected", grouped(told["points"]["corrected"], 0), "Points within facets that were moved to it"),
+    ]  # fmt: skip
     return [
         ("Tolerance", f"{apart['asked_mm']:g} mm", "What was asked for"),
         ("Proven", f"{apart['proven_mm']:.6f} mm", "Nowhere are curve and moves farther apart, both ways"),
@@ -241,4 +251,5 @@ def _figures(told: dict[str, Any]) -> list[tuple[str, str, str]]:
         ("Blocks", f"{grouped(blocks['before'], 0)}{arrow}{grouped(blocks['after'], 0)}", "Of all stretches, before and after"),
         ("Largest bend", f"{bend['before']:.2f}°{arrow}{bend['after']:.2f}°", "Change of direction at one place, corners left out"),
         ("Curvature step", f"{step['before']:.3g}{arrow}{step['after']:.3g} /mm", "Change of curvature at one place, corners left out"),
+        *points,
     ]

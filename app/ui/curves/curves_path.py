@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import numpy as np
-from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
+from PySide6.QtCore import QLineF, QPointF, QRectF
 from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QWidget
 
@@ -14,6 +14,7 @@ from app.ui.canvas import overlay
 from app.ui.canvas.grid import paint_origin
 from app.ui.canvas.pens import FINE, screen_pen
 from app.ui.curves.curves_shown import CurvesShown, Layers
+from app.ui.curves.point_marks import are_apart, key_rows, paint_points
 from app.ui.curves.track import Spot
 from app.ui.nc.motion_picture import MotionPicture, PathColour, PathPaint
 from app.ui.nc.motion_shapes import Floats, Side
@@ -21,9 +22,7 @@ from app.ui.nc.path_key import KeyRow
 from app.ui.nc.path_view import PathView
 from app.ui.theme import Theme, mixed
 
-_CURVE_PX, _POINT_PX, _CORNER_PX, _TOOTH_PX, _TALLEST_PX = 2.0, 3.2, 3.5, 36.0, 90.0
-_APART_PX = 5.0
-"""Points are shown where they are so far apart, in the mean."""
+_CURVE_PX, _CORNER_PX, _TOOTH_PX, _TALLEST_PX = 2.0, 3.5, 36.0, 90.0
 _FAINT = 0.45
 
 
@@ -107,7 +106,8 @@ class CurvesPath(PathView):
         if self._comb:
             yield lambda painter: self._paint_comb(painter, curves, side)
         yield from seen.curves.portions(self.view, box, PathPaint(theme, PathColour.MOTION, width=_CURVE_PX))
-        yield lambda painter: self._paint_points(painter, curves.points, side, box)
+        if self._points_seen(curves):
+            yield lambda painter: paint_points(painter, curves.points, (side, box, self._on_screen), theme)
         yield lambda painter: self._paint_corners(painter, curves.corners, side, box)
         yield lambda painter: paint_origin(painter, self.view, theme)
         yield self._name_axes
@@ -117,7 +117,11 @@ class CurvesPath(PathView):
         if self._layers is None or self.curves is None:
             return super()._key()
         rows = [KeyRow("Before", _before(theme))] if len(self.curves.changed) else []
-        return rows + super()._key() + ([KeyRow("Curvature", theme.left)] if self._comb else [])
+        points = key_rows(self.curves.points, theme) if self._points_seen(self.curves) else []
+        return rows + super()._key() + points + ([KeyRow("Curvature", theme.left)] if self._comb else [])
+
+    def _points_seen(self, curves: CurvesShown) -> bool:
+        return self._layers is not None and are_apart(curves.points, self._layers.curves.side, self.view.scale)
 
     def _within(self, points: Floats, side: Side, box: Box) -> Floats:
         """Return (k, 2) those of some points that a box shows, on the screen, px."""
@@ -127,16 +131,6 @@ class CurvesPath(PathView):
 
     def _on_screen(self, seen: Floats) -> Floats:
         return np.asarray(seen * (self.view.scale, -self.view.scale) + (self.view.ox, self.view.oy))
-
-    def _paint_points(self, painter: QPainter, points: Floats, side: Side, box: Box) -> None:
-        """Paint the ends of the chords, where they can be told apart."""
-        if len(points) < 2:
-            return
-        step = np.linalg.norm(np.diff(points[:, list(side.value)], axis=0), axis=1)
-        if float(np.median(step)) * self.view.scale < _APART_PX:
-            return
-        painter.setPen(QPen(self._how.theme.muted, _POINT_PX, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
-        painter.drawPoints([QPointF(x, y) for x, y in self._within(points, side, box).tolist()])
 
     def _paint_corners(self, painter: QPainter, corners: Floats, side: Side, box: Box) -> None:
         """Paint a small diamond at each corner that is kept."""

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.fit.deviation import curvature
 from app.progress import Progress
@@ -16,7 +17,7 @@ from app.ui.nc.motion_shapes import Floats, Ints, MotionShapes, Side, shape_moti
 from app.ui.nc.reading import Shown, Source, read_shown
 
 if TYPE_CHECKING:
-    from app.workflow.smooth import Smoothed, SmoothOptions
+    from app.workflow.smooth import Piece, Smoothed, SmoothOptions
 
 _TEETH = 20_000
 """Teeth of the comb of a whole program, about."""
@@ -41,6 +42,22 @@ class Comb:
 
 
 @dataclass(frozen=True, eq=False)
+class Points:
+    """k points that curves stand for.
+
+    Attributes:
+        was: (k, 3) mm. state: (k,) PointState: what each is to the curves.
+        places: (k, 3) mm: where the curves are asked to go by; `was` but for those that are moved.
+        told_apart: whether method D was asked for; else all are effective.
+    """
+
+    was: Floats
+    state: NDArray[np.uint8]
+    places: Floats
+    told_apart: bool
+
+
+@dataclass(frozen=True, eq=False)
 class Layers:
     """What is seen from one side.
 
@@ -60,7 +77,8 @@ class CurvesShown:
     Attributes:
         was: the program that came in. done: what smoothing made of it. now: the new text, read as it will be saved.
         before: shapes of what came in. track: deviation. comb: curvature.
-        piece: (n,) stretch of each motion of the new program, -1 = none. points, corners: (k, 3) of stretches that changed, mm.
+        piece: (n,) stretch of each motion of the new program, -1 = none. corners: (k, 3) of stretches that changed, mm.
+        points: of these stretches.
         layers: of the sides that were asked for.
     """
 
@@ -71,7 +89,7 @@ class CurvesShown:
     track: Track
     comb: Comb
     piece: Ints
-    points: Floats
+    points: Points
     corners: Floats
     layers: dict[Side, Layers]
 
@@ -107,10 +125,9 @@ def smoothed(was: Shown, options: SmoothOptions, side: Side, progress: Progress)
     notes = int(lines[0] - done.after.motions.line[0]) if len(lines) else 0
     changed = [piece for piece in done.pieces if piece.judgement is not None]
     none = np.zeros((0, 3))
-    points = np.concatenate([none, *(piece.points for piece in changed)])
     corners = np.concatenate([none, *(piece.points[piece.corners] for piece in changed)])
     shown = CurvesShown(
-        was, done, now, before, track_of(done), _comb(done), pieces_of_lines(done, lines, notes), points, corners, {}
+        was, done, now, before, track_of(done), _comb(done), pieces_of_lines(done, lines, notes), _points(changed), corners, {}
     )
     shown.layers[side] = layers(shown, side, progress.part(0.9, 1.0))
     return shown
@@ -130,6 +147,19 @@ def layers(shown: CurvesShown, side: Side, progress: Progress) -> Layers:
     curves, stayed = (MotionPicture(shapes, side, np.flatnonzero(rows)) for rows in (new, ~new))
     progress.step(0.7, "Preparing the picture")
     return Layers(curves, stayed, MotionPicture(shown.before, side, old))
+
+
+def _points(changed: list[Piece]) -> Points:
+    """Return the points of stretches that changed."""
+    from app.fit.effective_points import PointState
+
+    classes = [piece.classes for piece in changed]
+    was = np.concatenate([np.zeros((0, 3)), *(piece.points for piece in changed)])
+    every = np.full(len(was), PointState.EFFECTIVE, np.uint8)
+    known = [each for each in classes if each is not None]
+    if len(known) < len(classes) or not known:
+        return Points(was, every, was, False)
+    return Points(was, np.concatenate([each.state for each in known]), np.concatenate([each.places for each in known]), True)
 
 
 def _comb(done: Smoothed) -> Comb:

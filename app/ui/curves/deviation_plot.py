@@ -120,8 +120,7 @@ class DeviationPlot(QWidget):
             axis.setPen(mkPen(theme.hairline))
             axis.setTextPen(mkPen(theme.muted))
             axis.setStyle(tickFont=text_font(11))
-            axis.setLabel(tr(words), color=theme.muted.name())
-            axis.setSIPrefixEnableRanges(())  # mm whatever the height: switched off only, it still scales once more
+            axis.setLabel(tr(words), siPrefixEnableRanges=(), color=theme.muted.name())  # mm whatever the height
         fill = QColor(theme.muted)
         fill.setAlphaF(0.16)
         drawn = plot.plot(track.along, track.off, connect="finite", fillLevel=0.0, brush=fill, pen=mkPen(theme.muted, width=1))

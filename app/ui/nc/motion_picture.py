@@ -21,7 +21,7 @@ from app.ui.canvas.program_picture import CONTOUR_DASHES, CUT_WIDTH, RAPID_DOTS,
 from app.ui.canvas.view import View
 from app.ui.nc.motion_chunks import Chunk, Chunks, chunks_by_style, contour_chunks
 from app.ui.nc.motion_shapes import Floats, Ints, Look, MotionShapes, Side, tools_of
-from app.ui.nc.path_key import KeyRow
+from app.ui.nc.path_key import KeyMark, KeyRow
 from app.ui.theme import Theme
 
 _MANY_RAPIDS = 1_500
@@ -132,7 +132,7 @@ class MotionPicture:
         if how.colour is PathColour.TOOL:
             return [row for at in range(min(len(self.tools), _MOST_TOOLS)) for row in self._tool_rows(at, theme)] + plunge
         rows = [KeyRow(_KIND_NAMES[MotionKind(kind)], motion_colour(MotionKind(kind), theme)) for kind in self._kinds]
-        contour = [KeyRow("Contour", theme.muted, dashed=True)] if Look.CONTOUR in looks else []
+        contour = [KeyRow("Contour", theme.muted, KeyMark.DASHES)] if Look.CONTOUR in looks else []
         return rows + contour + plunge
 
     def _tool_rows(self, at: int, theme: Theme) -> list[KeyRow]:
@@ -142,7 +142,7 @@ class MotionPicture:
         words, colour = _tool_name(tool, note), tool_colour(at, theme)
         contour = (tool, Look.CONTOUR) in self._looks
         rows = [KeyRow(words, colour)] if (tool, Look.CUT) in self._looks or not contour else []
-        return [*rows, KeyRow(f"{words}, contour", colour, dashed=True)] if contour else rows
+        return [*rows, KeyRow(f"{words}, contour", colour, KeyMark.DASHES)] if contour else rows
 
     def box_of(self, motions: Ints | None) -> Box | None:
         """Return x0, y0, x1, y1 of some motions seen from this side, mm."""

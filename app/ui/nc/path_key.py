@@ -17,6 +17,7 @@ from app.ui.theme import Theme, text_font
 
 _ROW_PX, _LINE_PX, _GAP_PX, _PAD_PX, _EDGE_PX = 18.0, 20.0, 8.0, 8.0, 10.0
 _DASHES = (4.0, 3.0)
+_DOT_PX = 6.0
 _MOST_NEAR, _MOST_CURVED = 2_000, 200
 """A corner with more motions than these is taken as covered."""
 
@@ -30,13 +31,22 @@ class Corner(Enum):
     BOTTOM_LEFT = (False, True)
 
 
+class KeyMark(Enum):
+    """What stands before the words."""
+
+    LINE = "line"
+    DASHES = "dashes"
+    DOT = "dot"
+    RING = "ring"
+
+
 @dataclass(frozen=True, slots=True)
 class KeyRow:
     """One line of the key."""
 
     words: str
     colour: QColor
-    dashed: bool = False
+    mark: KeyMark = KeyMark.LINE
 
 
 def key_size(rows: Sequence[KeyRow]) -> QSizeF:
@@ -61,6 +71,24 @@ def beside_key(size: QSizeF, area: QRectF) -> tuple[QRectF, QRectF]:
     return area.adjusted(0.0, 0.0, -size.width() - _EDGE_PX, 0.0), area.adjusted(0.0, size.height() + _EDGE_PX, 0.0, 0.0)
 
 
+def _paint_mark(painter: QPainter, left: QPointF, row: KeyRow) -> None:
+    """Paint what a row's words mean, from its left end on."""
+    middle = left + QPointF(_LINE_PX / 2, 0.0)
+    if row.mark is KeyMark.DOT:
+        painter.setPen(QPen(row.colour, _DOT_PX, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+        painter.drawPoint(middle)
+        return
+    pen = QPen(row.colour, 1.0 if row.mark is KeyMark.RING else 2.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.FlatCap)
+    if row.mark is KeyMark.DASHES:
+        pen.setDashPattern([dash / pen.widthF() for dash in _DASHES])
+    painter.setPen(pen)
+    if row.mark is KeyMark.RING:
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawEllipse(middle, _DOT_PX / 2, _DOT_PX / 2)
+    else:
+        painter.drawLine(left, left + QPointF(_LINE_PX, 0.0))
+
+
 def paint_key(painter: QPainter, place: QRectF, rows: Sequence[KeyRow], theme: Theme) -> None:
     """Paint what lines mean at a place, px."""
     if not rows:
@@ -72,11 +100,7 @@ def paint_key(painter: QPainter, place: QRectF, rows: Sequence[KeyRow], theme: T
     left, top = place.left() + _PAD_PX, place.top() + _PAD_PX / 2
     for at, row in enumerate(rows):
         middle = top + (at + 0.5) * _ROW_PX
-        pen = QPen(row.colour, 2.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.FlatCap)
-        if row.dashed:
-            pen.setDashPattern([dash / pen.widthF() for dash in _DASHES])
-        painter.setPen(pen)
-        painter.drawLine(QPointF(left, middle), QPointF(left + _LINE_PX, middle))
+        _paint_mark(painter, QPointF(left, middle), row)
         painter.setPen(theme.muted)
         words = QRectF(left + _LINE_PX + _GAP_PX, middle - _ROW_PX / 2, place.width(), _ROW_PX)
         painter.drawText(words, Qt.AlignmentFlag.AlignVCenter, row.words)

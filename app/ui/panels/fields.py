@@ -263,6 +263,11 @@ class ChoiceField(QWidget):
             row.addWidget(button)
         row.addStretch(1)
 
+    @property
+    def value(self) -> Hashable:
+        """The one that is underlined; None where none is."""
+        return next((value for value, button in self.buttons.items() if button.isChecked()), None)
+
     def show_value(self, value: Hashable) -> None:
         """Underline the job's value."""
         self.buttons[value].setChecked(True)

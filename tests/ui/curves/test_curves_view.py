@@ -7,11 +7,14 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 
+from app.fit.correction import Select
+from app.fit.effective_points import Ends, PointState
 from app.nc.read.dialect import Dialect
 from app.nc.read.options import ReadOptions
 from app.nc.read.reader import read_program
 from app.ui.nc.motion_shapes import Side
 from app.ui.views import View
+from tests.ui.curves.facets import facets
 from tests.ui.nc.opened import WAIT_MS, open_file
 
 HEAD = "G21 G90 G17 G94\nT1 M6\nS1000 M3\nG0 X20 Y0 Z5\nG1 Z-1 F100\n"
@@ -232,3 +235,88 @@ def test_a_place_that_is_looked_at_stays_when_it_is_smoothed_again(qtbot, smooth
     assert view.path.view == looked_at
     view.path.fit_now()
     assert view.path.view != looked_at
+
+
+@pytest.fixture
+def faceted(qtbot, wiring, tmp_path):
+    """The polyhedron's circle in the Curves view, to be smoothed by effective points within 0.2 mm."""
+    path = tmp_path / "facets.ngc"
+    path.write_text(facets())
+    open_file(qtbot, wiring, path)
+    wiring.showing.show_view(View.CURVES)
+    panel = wiring.window_.curves_panel
+    panel.tolerance.show_value(0.2)
+    click(panel.points.points, True)
+    return wiring
+
+
+def click(choice, value) -> None:
+    QTest.mouseClick(choice.buttons[value], Qt.MouseButton.LeftButton)
+
+
+def test_only_fields_that_matter_are_seen(opened) -> None:
+    form = opened.window_.curves_panel.points
+    late = (form.before, form.after, form.move_to, form.select)
+    assert form.method() is None and not any(field.isVisible() for field in (form.epsilon, form.ends, form.others, *late))
+    click(form.points, True)
+    assert form.epsilon.isVisible() and form.others.isVisible() and not any(field.isVisible() for field in (*late, form.share, form.reach))
+    click(form.ends, Ends.RATIO)
+    assert form.share.isVisible() and not form.reach.isVisible()
+    click(form.others, "corrected")
+    assert all(field.isVisible() for field in late) and not form.near.isVisible() and not form.moved.isVisible()
+    click(form.select, Select.DISTANCE)
+    assert form.moved.isVisible() and not form.near.isVisible()
+    method = form.method()
+    assert method is not None and method.correct is not None and method.choose.ends is Ends.RATIO
+    assert method.correct.select is Select.DISTANCE and method.correct.limit == form.moved.number
+    click(form.points, False)
+    assert not any(field.isVisible() for field in (form.epsilon, form.share, form.moved, *late))
+
+
+@pytest.mark.parametrize(("others", "effective", "corrected"), [("left out", 61 + 2 * 60, 0), ("corrected", 61, 660)])
+def test_points_are_told_apart_and_counted(qtbot, faceted, others, effective, corrected) -> None:
+    view, panel = curves_of(faceted), faceted.window_.curves_panel
+    if others == "left out":
+        click(panel.points.ends, Ends.RATIO)
+    click(panel.points.others, others)
+    press_smooth(qtbot, faceted)
+    points = view.curves.points
+    assert points.told_apart and len(points.was) == 721
+    state = np.bincount(points.state, minlength=3)
+    assert (state[PointState.EFFECTIVE], state[PointState.CORRECTED]) == (effective, corrected) and state.sum() == 721
+    assert panel.figures["Effective"].text() == f"{effective} of 721" and panel.figures["Corrected"].text() == str(corrected)
+    view.path.zoom_by(6.0)
+    words = [row.words for row in view.path._key()]
+    assert ("Left out" in words, "Corrected" in words, "Effective" in words) == (state[PointState.INVALID] > 0, corrected > 0, True)
+    radius = np.hypot(*points.places[points.state != PointState.INVALID][:, :2].T)
+    assert abs(radius - 20).max() <= 0.03
+
+
+def test_corrected_points_are_of_a_third_hue(qtbot, faceted) -> None:
+    view, panel = curves_of(faceted), faceted.window_.curves_panel
+    click(panel.points.others, "corrected")
+    press_smooth(qtbot, faceted)
+    view.path.zoom_by(60.0)
+    view.path.mark(view.deviation.track.farthest())
+    qtbot.wait(400)
+    picture = view.path.grab().toImage()
+    hues = {picture.pixelColor(x, y).name() for x in range(picture.width()) for y in range(picture.height() // 2)}
+    theme = faceted.window_.theme
+    assert theme.left.name() in hues
+
+
+def test_a_method_that_spends_the_tolerance_is_told(qtbot, faceted) -> None:
+    panel = faceted.window_.curves_panel
+    panel.tolerance.show_value(0.005)
+    press_smooth(qtbot, faceted)
+    assert "epsilon" in panel.reason.text()
+
+
+def test_degree_is_a_choice_of_splines(qtbot, opened) -> None:
+    panel = opened.window_.curves_panel
+    assert not panel.degree.isVisible()
+    click(panel.form, "nurbs")
+    click(panel.degree, 5)
+    assert panel.degree.isVisible()
+    press_smooth(qtbot, opened)
+    assert curves_of(opened).curves.done.options.degree == 5
