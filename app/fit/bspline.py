@@ -1,7 +1,7 @@
 """Method E's curve: a least-squares B-spline with as few spans as keep it, proven, in the tube round its points.
 
-Spans in which the proof fails are halved, until it holds everywhere; then spans whose points are nearer than they need be
-are joined again as far as the proof allows. Along the way every point's place on the curve is moved to the nearest one.
+Spans in which the proof fails are halved, until it holds everywhere; then all are made as long as lets each use up the same
+share of the tolerance. Along the way every point's place on the curve is moved to the nearest one.
 """
 
 from __future__ import annotations
@@ -31,9 +31,6 @@ _ROUNDS = 40
 _BETWEEN = np.array([0.25, 0.5, 0.75])
 """Where on a chord the curve is drawn to it, lightly, so that it does not swing out between points."""
 _LIGHT = 0.05
-_IDLE = 0.5
-"""Spans whose curve uses less of the tolerance may be joined."""
-_JOININGS = 8
 _SPREADINGS = 6
 _MENDINGS = 6
 _USE = 0.7
@@ -108,7 +105,7 @@ def fit_spline(points: Floats, tube: Tube, degree: int = 3, progress: Progress =
     state = work.halved()
     if not isinstance(state, _State):
         return state
-    state = work.joined(work.spread(state))
+    state = work.spread(state)
     knots = work.knots(np.rint(state.breaks / work.unit))
     return SplineFit(Nurbs(state.control, np.ones(len(state.control)), knots, degree), state.feet)
 
@@ -239,49 +236,6 @@ class _Work:
                 return None
             breaks = finer
         return None
-
-    def joined(self, state: _State) -> _State:
-        """Return a proven spline with fewer spans."""
-        locked: Floats = np.empty(0)
-        for k in range(_JOININGS):
-            self._progress.step(0.5, f"fitting a curve: {len(state.pieces)} spans")
-            chosen = self._idle(state, locked, k % 2)
-            if not chosen.any():
-                if k % 2:
-                    break
-                continue
-            better, kept = self._without(state, chosen)
-            locked = np.concatenate([locked, kept])
-            state = state if better is None else better
-        return state
-
-    def _without(self, state: _State, chosen: Mask) -> tuple[_State | None, Floats]:
-        """Return a proven spline without chosen breaks, and those that had to stay; None where even these do not help."""
-        breaks, kept = state.breaks, np.zeros(len(chosen), bool)
-        places = state.places
-        for _ in range(4):
-            made = self._solved(breaks[~chosen | kept], places)
-            if not made.bad.any():
-                return made, breaks[kept]
-            places = made.places
-            at = self._samples.own[:-1][made.bad]
-            lost = chosen & ~kept
-            near = np.searchsorted(breaks, places[at])
-            for off in range(-2, 3):
-                kept[np.clip(near + off, 0, len(breaks) - 1)] = True
-            kept &= chosen
-            if not (lost & kept).any():
-                kept |= lost & (np.cumsum(lost) % 2 == 0)
-        return None, breaks[chosen]
-
-    def _idle(self, state: _State, locked: Floats, phase: int) -> Mask:
-        """Return which breaks may go: between spans that are nearer than need be, no two neighbours."""
-        off = self._off(state)
-        free = np.zeros(len(state.breaks), bool)
-        free[1:-1] = (np.maximum(off[:-1], off[1:]) < _IDLE * self._tube.radius) & ~np.isin(state.breaks[1:-1], locked)
-        index = np.arange(len(free))
-        chosen: Mask = free & (index % 2 == phase)
-        return chosen
 
     def _off(self, state: _State) -> Floats:
         """Return how far the curve of each span is found from its chords, mm."""
