@@ -31,12 +31,12 @@ _ROUNDS = 40
 _BETWEEN = np.array([0.25, 0.5, 0.75])
 """Where on a chord the curve is drawn to it, lightly, so that it does not swing out between points."""
 _LIGHT = 0.05
-_SPREADINGS = 6
+_SPREADINGS = 8
 _MENDINGS = 6
 _USE = 0.7
 """How much of the tolerance a span is to use up at first."""
 _LESS = 0.7
-"""By so much less of it when that cannot be proven, or saves nothing."""
+"""By so much less of it when that cannot be proven."""
 _TORN = 8.0
 """By so much more than their distance the places of two samples may be apart, if that is more than the tolerance."""
 _STRETCH = (0.4, 1.3)
@@ -205,16 +205,17 @@ class _Work:
         return np.asarray(np.interp(along, along[~free], places[~free]))
 
     def spread(self, state: _State) -> _State:
-        """Return a proven spline with spans as long as lets their curves be equally far from the points, if it has fewer."""
-        share = _USE
+        """Return a proven spline whose spans are as long as lets their curves be equally far from the points, if it has fewer."""
+        best, share = state, _USE
         for _ in range(_SPREADINGS):
-            self._progress.step(0.4, f"fitting a curve: {len(state.pieces)} spans")
+            self._progress.step(0.4, f"fitting a curve: {len(best.pieces)} spans")
             made = self._halved_from(self._evened(state, share), state.places)
-            if made is None or len(made.pieces) >= len(state.pieces):
+            if made is None:
                 share *= _LESS
-            else:
-                state = made
-        return state
+                continue
+            state = made  # though it has more: from there it often comes to fewer
+            best = made if len(made.pieces) < len(best.pieces) else best
+        return best
 
     def _evened(self, state: _State, share: float) -> Floats:
         """Return breaks so that every span is expected to use up a share of the tolerance (after de Boor's newknot)."""

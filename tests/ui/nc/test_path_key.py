@@ -8,7 +8,7 @@ from app.nc.read.notes_operation import contour_motions
 from app.nc.read.reader import read_program
 from app.ui.nc.motion_picture import MotionPicture, PathColour, PathPaint
 from app.ui.nc.motion_shapes import Side, shape_motions
-from app.ui.nc.path_key import Corner, beside_key, cuts_within, key_place, key_size
+from app.ui.nc.path_key import Corner, KeyMark, beside_key, cuts_within, key_place, key_size
 from app.ui.nc.path_view import PathView
 from app.ui.theme import DARK, LIGHT
 from tests.ui.nc.hand_made import program_of
@@ -78,6 +78,6 @@ def test_a_circle_is_where_its_line_is(box, within):
 @pytest.mark.parametrize("theme", [LIGHT, DARK])
 def test_the_key_tells_contours_by_their_dashes(theme):
     rows = picture_of(TWO).key(PathPaint(theme))
-    assert [(row.words, row.dashed) for row in rows] == [("T1 flat 6 mm", False), ("T1 flat 6 mm, contour", True)]
+    assert [(row.words, row.mark is KeyMark.DASHES) for row in rows] == [("T1 flat 6 mm", False), ("T1 flat 6 mm, contour", True)]
     rows = picture_of(TWO).key(PathPaint(theme, PathColour.MOTION))
-    assert [(row.words, row.dashed) for row in rows] == [("G1 line", False), ("G2 clockwise", False), ("Contour", True)]
+    assert [(row.words, row.mark is KeyMark.DASHES) for row in rows] == [("G1 line", False), ("G2 clockwise", False), ("Contour", True)]
