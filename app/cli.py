@@ -14,7 +14,6 @@ from app.cli_signals import stoppable
 from app.errors import Cancelled, HitofudeError
 
 DONE, WITH_FINDINGS, BAD_INPUT, CANCELLED = 0, 1, 2, 130
-LATER = ("surface",)
 HELP = """\
 Hitofude: from a line drawing to tool paths that can be trusted on a real machine.
 
@@ -24,6 +23,7 @@ Hitofude: from a line drawing to tool paths that can be trusted on a real machin
   hitofude cut PROGRAM.ngc            any NC program cut out of its stock: what is left, gouges, rapids in metal (cut --help)
   hitofude check PROGRAM.ngc          any NC program: what is wrong, how far it reaches, how long it takes (check --help)
   hitofude smooth PROGRAM.ngc -o OUT  any NC program's chords into lines, arcs or splines, proven to a tolerance (smooth --help)
+  hitofude surface SCENE.toml -o OUT  tool paths over compound surfaces, told apart by surface, each move proven (surface --help)
   hitofude stages DRAWING -o DIR      the bitmap way of 1986, step by step, as pictures and codes (stages --help)
   hitofude --version                  this version
   hitofude --help                     this text
@@ -88,10 +88,11 @@ def _command(argv: list[str], stopped: threading.Event) -> int:
         from app.cli_smooth import smooth_command
 
         return smooth_command(rest, stopped)
-    if name in LATER:
-        _say(f"the command '{name}' is not part of this version yet; those that are, hitofude --help tells")
-        return BAD_INPUT
-    _say(f"there is no command '{name}'; use 'make', 'tools', 'cut', 'check', 'smooth', 'stages' or 'open', "
+    if name == "surface":
+        from app.cli_surface import surface_command
+
+        return surface_command(rest, stopped)
+    _say(f"there is no command '{name}'; use 'make', 'tools', 'cut', 'check', 'smooth', 'surface', 'stages' or 'open', "
          "see hitofude --help")
     return BAD_INPUT
 

@@ -100,8 +100,9 @@ def _wishes(arguments: argparse.Namespace) -> Wishes:
     if arguments.tools is not None:
         told.append(_tools(arguments))
     against = (arguments.against.name, read_input(arguments.against)) if arguments.against else None
+    beside = None if against is None else lambda name: read_input(arguments.against.parent / name)
     return _with_stock(Wishes(
-        tuple(told), job, None, against, arguments.depth, arguments.stock_to_leave, tuple(arguments.layer),
+        tuple(told), job, None, against, beside, arguments.depth, arguments.stock_to_leave, tuple(arguments.layer),
         arguments.units, arguments.origin, arguments.join_tolerance, arguments.tolerance,
     ), arguments.stock)  # fmt: skip
 

@@ -165,7 +165,8 @@ def _look_options(group: argparse._ArgumentGroup) -> None:
 
 
 def _part_options(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--against", metavar="PART", type=Path, help="a drawing (.hito .dxf .svg .draw), or a closed solid (.stl)")
+    group.add_argument("--against", metavar="PART", type=Path,
+                       help="a drawing (.hito .dxf .svg .draw), a closed solid (.stl), or a scene of surfaces (.toml)")
     group.add_argument("--depth", metavar="Z", type=number("depth", least=LEAST_LENGTH),
                        help="of a drawing: from the top of the stock down to the floor (default: as the header of make tells)")
     group.add_argument("--stock-to-leave", metavar="MM", type=number("stock to leave", least=0.0), help="metal that stays on purpose")
@@ -204,10 +205,12 @@ def read_arguments(argv: Sequence[str]) -> argparse.Namespace:
 
 def _ensure_part(arguments: argparse.Namespace) -> None:
     """Refuse options of a part that is not there, or that has no use for them."""
-    solid = arguments.against is not None and arguments.against.suffix.lower() == ".stl"
+    what = {".stl": "a solid", ".toml": "surfaces"}.get(arguments.against.suffix.lower(), "") if arguments.against else ""
+    solid = bool(what)
     names = ["depth", "layer", "join_tolerance"] + ([] if solid else ["stock_to_leave", "units", "origin", "tolerance"])
     given = next((name for name in names if getattr(arguments, name) not in (None, [])), None)
     if given is not None and (solid or arguments.against is None):
         option = "--" + given.replace("_", "-")
-        why = f"says nothing of a solid, {arguments.against}" if solid else "is of a part to compare with; name it: --against PART"
+        why = f"says nothing of {what}, {arguments.against}"
+        why = why if solid else "is of a part to compare with; name it: --against PART"
         raise InputError(f"{option} {why}" + ("; take it away" if solid else ""))

@@ -16,7 +16,8 @@ from app.errors import HitofudeError, InputError
 Kind = TypeVar("Kind")
 Range = tuple[float, float]
 
-EXPECTED = {str: "a text", bool: "true or false", int: "a whole number", float: "a number", tuple[str, ...]: "a list of texts"}
+EXPECTED = {str: "a text", bool: "true or false", int: "a whole number", float: "a number", tuple[str, ...]: "a list of texts",
+            tuple[float, ...]: "a list of numbers"}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,8 @@ class _Place:
                     return number
             elif table == here and re.match(rf"\s*[\"']?{re.escape(key)}[\"']?\s*=", line):
                 return number
+        if found == 1 and self.tables:  # a table within a line, or none: where the one that holds it is
+            return _Place(self.file, self.lines, self.tables[:-1])._line(re.sub(r"\[\d+\]$", "", self.tables[-1]))
         return found
 
 
@@ -80,7 +83,8 @@ def read_tables(kind: type[Kind], file: str, data: bytes, ranges: Mapping[str, R
 
     Args:
         kind: a dataclass whose fields are texts, flags, numbers, Enums by their value, tuples of texts or of so many
-            numbers or of any number of such tuples, dataclasses, tuples of any number of them, or one of these or None.
+            numbers, of any number of numbers or of such tuples, dataclasses, tuples of any number of them, one of these or None,
+            or one of several dataclasses, told apart by a key `kind`: their class variable of that name.
         file: the file's name, for errors.
         data: its bytes, UTF-8.
         ranges: least and greatest number by dotted key; a table's name stands for all its numbers; others are free.
@@ -113,6 +117,8 @@ def tables_of(kind: type[Kind], tree: dict[str, Any], source: tuple[str, bytes],
 def _table(kind: Any, data: dict[str, Any], place: _Place, ranges: Mapping[str, Range]) -> Any:
     """Make a dataclass of a table, key by key."""
     hints = typing.get_type_hints(kind)
+    if typing.get_origin(hints.get("kind")) is typing.ClassVar:
+        data = {key: value for key, value in data.items() if key != "kind"}
     for key in data:
         if key not in hints:
             raise place.error(key, f"is not known; expected are {', '.join(hints)}.")
@@ -136,7 +142,7 @@ def _value(kind: Any, value: Any, at: tuple[_Place, str], ranges: Mapping[str, R
     """Return a TOML value as what its field holds."""
     place, key = at
     if isinstance(kind, types.UnionType):
-        return _value(next(part for part in typing.get_args(kind) if part is not types.NoneType), value, at, ranges)
+        return _value(_meant(kind, value, at), value, at, ranges)
     if is_dataclass(kind) and isinstance(value, dict):
         return _table(kind, value, place.inside(key), ranges)
     if isinstance(kind, type) and issubclass(kind, Enum) and value in [choice.value for choice in kind]:
@@ -150,6 +156,26 @@ def _value(kind: Any, value: Any, at: tuple[_Place, str], ranges: Mapping[str, R
     if kind in (str, bool) and isinstance(value, kind):
         return value
     raise place.error(key, f"is {value!r}; expected is {_expected(kind)}.")
+
+
+def _meant(union: types.UnionType, value: Any, at: tuple[_Place, str]) -> Any:
+    """Return which type of a union a value is of: that which is not None, or the dataclass of its kind."""
+    choices = [part for part in typing.get_args(union) if part is not types.NoneType]
+    if len(choices) == 1:
+        return choices[0]
+    if not isinstance(value, dict):
+        raise at[0].error(at[1], f"is {value!r}; expected is {_expected(union)}.")
+    kinds = {part.kind: part for part in choices}
+    place = at[0].inside(at[1])
+    if "kind" not in value:
+        raise place.error("kind", f"is missing; add kind = {_either(kinds)}.")
+    if not isinstance(value["kind"], str) or value["kind"] not in kinds:
+        raise place.error("kind", f"is {value['kind']!r}; expected is {_either(kinds)}.")
+    return kinds[value["kind"]]
+
+
+def _either(words: typing.Iterable[str]) -> str:
+    return " or ".join(f'"{word}"' for word in words)
 
 
 def _repeated(kind: Any) -> Any:
@@ -170,6 +196,8 @@ def _alike(parts: tuple[Any, ...], values: list[Any]) -> bool:
     """Tell whether the values are those of a tuple type: texts, or so many numbers."""
     if parts == (str, ...):
         return all(isinstance(value, str) for value in values)
+    if parts == (float, ...):
+        return all(type(value) in (int, float) for value in values)
     return len(parts) == len(values) and all(type(value) in (int, float) for value in values)
 
 
@@ -187,7 +215,8 @@ def _in_range(value: float, at: tuple[_Place, str], ranges: Mapping[str, Range])
 def _expected(kind: Any) -> str:
     """Return what a key of this type holds, in words."""
     if isinstance(kind, types.UnionType):
-        return _expected(next(part for part in typing.get_args(kind) if part is not types.NoneType))
+        choices = [part for part in typing.get_args(kind) if part is not types.NoneType]
+        return _expected(choices[0]) if len(choices) == 1 else f"a table with kind = {_either(part.kind for part in choices)}"
     if is_dataclass(kind):
         return f"a table with {', '.join(each.name for each in fields(kind))}"
     if isinstance(kind, type) and issubclass(kind, Enum):
@@ -204,6 +233,8 @@ def write_tables(value: Any) -> str:
 
 def _lines(value: Any, table: str) -> list[str]:
     plain, tables = [], []
+    if "kind" not in {each.name for each in fields(value)} and isinstance(getattr(value, "kind", None), str):
+        plain.append(f"kind = {spelled(value.kind)}")
     for each in fields(value):
         item = getattr(value, each.name)
         if is_dataclass(item):

@@ -136,11 +136,12 @@ def test_damaged_stock_files(slot: Path, tmp_path: Path, capsys: pytest.CaptureF
     assert "torn.stl: " in refused(capsys, slot, STOCK, "--tool=1=flat:6", "--against", torn)
 
 
-def test_a_scene_comes_in_a_later_version(slot: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_scene_that_cannot_be_used_is_told(slot: Path, capsys: pytest.CaptureFixture[str]) -> None:
     scene = slot.with_name("scene.toml")
-    scene.write_text("[surface]\n")
-    told = refused(capsys, slot, STOCK, "--tool=1=flat:6", "--against", scene)
-    assert "scene.toml: comparing with surfaces comes in a later version; give the drawing, or the solid as .stl" in told
+    mesh = '[[surface]]\nname = "a"\nshape = { kind = "mesh", file = "gone.stl" }\n'
+    for text, words in (("[surface]\n", "scene.toml:1"), ('name = "a"\n', "no surface is machined"), (mesh, "gone.stl does not exist")):
+        scene.write_text(text)
+        assert words in refused(capsys, slot, STOCK, "--tool=1=flat:6", "--against", scene)
 
 
 def test_old_files_survive_every_failure(slot: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from app.cli import LATER, main
+from app.cli import main
 
 ROOT = Path(__file__).resolve().parents[1]
 FIG2 = ROOT / "resources/samples/fig2.dxf"
@@ -282,10 +282,7 @@ def test_job_file(out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert "bad.toml:2: thick is no key of [stock]" in refused(capsys, FIG2, "-o", out, "--job", bad)
 
 
-def test_later_and_unknown_commands(capsys: pytest.CaptureFixture[str]) -> None:
-    for name in LATER:
-        assert main([name, "x"]) == 2
-        assert f"'{name}' is not part of this version" in capsys.readouterr().err
+def test_unknown_commands(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["mkae"]) == 2
     assert capsys.readouterr().err.count("\n") == 1
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from typing import ClassVar
 
 import pytest
 
@@ -62,3 +63,45 @@ def test_what_is_wrong_is_named_with_file_line_and_key(old: str, new: str, words
 def test_a_range_of_a_table_is_that_of_its_numbers() -> None:
     with pytest.raises(InputError, match=r"inner\.size is 1\.5; expected is a number from 0 to 1"):
         read_tables(Outer, "a.toml", write_tables(FULL).encode(), {"inner": (0, 1)})
+
+
+@dataclass(frozen=True)
+class Disc:
+    kind: ClassVar[str] = "disc"
+    radius: float
+
+
+@dataclass(frozen=True)
+class Ring:
+    kind: ClassVar[str] = "ring"
+    radii: tuple[float, ...]
+    holes: tuple[Disc, ...] = ()
+
+
+@dataclass(frozen=True)
+class Drawer:
+    shape: Disc | Ring
+    spare: Disc | None = None
+
+
+@pytest.mark.parametrize("value", [
+    Drawer(Disc(2.0)), Drawer(Ring((1.0, 2.0)), Disc(3.0)), Drawer(Ring((1.0, 2.0, 3.0), (Disc(0.5), Disc(0.25)))), Drawer(Ring(())),
+])  # fmt: skip
+def test_one_of_several_tables_is_told_by_its_kind(value: Drawer) -> None:
+    text = write_tables(value)
+    assert f'[shape]\nkind = "{value.shape.kind}"\n' in text
+    assert read_tables(Drawer, "a.toml", text.encode(), {}) == value
+
+
+@pytest.mark.parametrize(("text", "words"), [
+    ("[shape]\nradius = 1", r'^a\.toml:1: shape\.kind is missing; add kind = "disc" or "ring"\.$'),
+    ("[shape]\nradius = 1\nkind = 'star'", r"^a\.toml:3: shape\.kind is 'star'; expected is \"disc\" or \"ring\"\.$"),
+    ("[shape]\nkind = ['disc']", r"^a\.toml:2: shape\.kind is \['disc'\]; expected is"),
+    ("shape = 3", r"^a\.toml:1: shape is 3; expected is a table with kind = \"disc\" or \"ring\"\.$"),
+    ("[shape]\nkind = 'ring'\nradii = [1, 'a']", r"^a\.toml:3: shape\.radii is \[1, 'a'\]; expected is a list of numbers\.$"),
+    ("\nshape = { kind = 'disc', size = 1 }", r"^a\.toml:2: shape\.size is not known; expected are kind, radius\.$"),
+    ("\nshape = { kind = 'ring', radii = [], holes = [{ radius = 'a' }] }", r"^a\.toml:2: shape\.holes\[1\]\.radius is 'a'; expected"),
+])  # fmt: skip
+def test_a_table_of_a_wrong_kind_is_told_with_its_line(text: str, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        read_tables(Drawer, "a.toml", text.encode(), {})

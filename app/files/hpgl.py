@@ -9,6 +9,9 @@ import math
 from collections.abc import Iterable, Iterator
 from itertools import chain
 
+import numpy as np
+from numpy.typing import NDArray
+
 from app.edit.transform import Similarity, transformed
 from app.files.plot_page import Ink, Page, Patch, Pen, Words
 from app.fit.arcs import lines_and_arcs
@@ -17,6 +20,10 @@ from app.model.curves import Arc, Circle, Curve, Line, Point
 UNITS_PER_MM = 40
 _TOLERANCE = 0.005
 """How far lines and arcs may leave an ellipse or a spline, mm: a fifth of a plotter unit."""
+_LINE_TYPES = {1: (0.0, 1.0), 2: (0.5, 0.5), 3: (0.7, 0.3), 4: (0.8, 0.1, 0.0, 0.1), 5: (0.7, 0.1, 0.1, 0.1)}
+"""The line types that plotters have: parts of a pattern's length by turns with the pen down and up; 0 is a dot."""
+
+_POINTS_A_LINE = 100
 _END = "\x03"
 _ANCHORS = {0.0: 1, 0.5: 4, 1.0: 7}
 _LETTER = (0.6, 0.7)
@@ -45,6 +52,8 @@ def _page(page: Page) -> Iterator[str]:
 
 
 def _ink(ink: Ink, place: Similarity) -> Iterator[str]:
+    for trace in ink.traces:
+        yield _pen(trace.pen) + _trace(trace.placed(place))
     for stroke in ink.strokes:
         yield _pen(stroke.pen)
         at: str | None = None
@@ -58,8 +67,24 @@ def _ink(ink: Ink, place: Similarity) -> Iterator[str]:
 
 
 def _pen(pen: Pen) -> str:
-    dash = f"LT2,{sum(pen.dash):g},1;" if pen.dash else "LT;"
+    dash = f"LT{_line_type(pen.dash)},{sum(pen.dash):g},1;" if pen.dash else "LT;"
     return f"PU;SP{pen.number};PW{pen.width:g};{dash}"
+
+
+def _line_type(dash: tuple[float, ...]) -> int:
+    """Return the number of the plotter's own line type that comes nearest to lengths of dash and gap."""
+    return min((number for number, parts in _LINE_TYPES.items() if len(parts) == len(dash)),
+               key=lambda number: sum(abs(part - length / sum(dash)) for part, length in zip(_LINE_TYPES[number], dash, strict=True)),
+               default=2)  # fmt: skip
+
+
+def _trace(points: NDArray[np.float64]) -> str:
+    """Return the words for a polyline; what falls on the same plotter unit is one point."""
+    units = np.rint(points * UNITS_PER_MM).astype(np.int64)
+    units = units[np.concatenate([[True], np.any(np.diff(units, axis=0) != 0, axis=1)])]
+    places = [f"{x},{y}" for x, y in units.tolist()]
+    parts = (",".join(places[at : at + _POINTS_A_LINE]) for at in range(1, len(places), _POINTS_A_LINE))
+    return f"PU{places[0]};" + ("\n".join(f"PD{part};" for part in parts) or f"PD{places[0]};")
 
 
 def _simple(curve: Curve) -> Iterator[Line | Arc | Circle]:

@@ -100,14 +100,33 @@ def read_job(name: str, data: bytes) -> JobFile:
     Raises:
         InputError: `name:line: key …`, what is wrong and what is expected.
     """
+    text, tree = job_tree(name, data, "job.toml")
+    return read_job_tables(text, tree)
+
+
+def job_tree(name: str, data: bytes, sample: str) -> tuple[JobText, dict[str, Any]]:
+    """Return the text and the tables of a TOML file; `sample` shows how such a file is written.
+
+    Raises:
+        InputError: it is none.
+    """
     try:
         text = data.decode("utf-8-sig")
         tree = tomllib.loads(text)
     except UnicodeDecodeError as error:
-        raise InputError(f"{name}: byte {error.start} is no UTF-8; save the job file as UTF-8 text") from error
+        raise InputError(f"{name}: byte {error.start} is no UTF-8; save the file as UTF-8 text") from error
     except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InputError(f"{name}:{with_line(str(error), text)}; correct it as resources/samples/job.toml shows") from error
-    return _Reader(JobText(name, tuple(text.splitlines())), tree).job_file()
+        raise InputError(f"{name}:{with_line(str(error), text)}; correct it as resources/samples/{sample} shows") from error
+    return JobText(name, tuple(text.splitlines())), tree
+
+
+def read_job_tables(text: JobText, tree: dict[str, Any]) -> JobFile:
+    """Return the job of a file's tables.
+
+    Raises:
+        InputError: as `read_job`.
+    """
+    return _Reader(text, tree).job_file()
 
 
 def read_kept_job(text: JobText, tree: dict[str, Any]) -> Job:

@@ -37,7 +37,7 @@ def job_lines(job: Job, units: Units | None = None) -> Iterator[str]:
     yield from _table("copies", {"columns": copies.columns, "rows": copies.rows, "dx": copies.dx, "dy": copies.dy})
     yield from _table("keep_out", {"layers": job.keep_out_layers, "height": job.keep_out_height})
     for tool in job.tools:
-        yield from _tool(tool)
+        yield from tool_lines(tool)
     for operation in job.operations:
         yield from _table("operation", dict(_operation(operation)), several=True)
 
@@ -61,7 +61,8 @@ def word_of(words: Mapping[str, Value], meant: Value) -> str:
     return next(word for word, value in words.items() if value is meant)
 
 
-def _tool(tool: Tool) -> Iterator[str]:
+def tool_lines(tool: Tool) -> Iterator[str]:
+    """Yield the lines of a [[tool]]."""
     usual = Tool(tool.number, tool.diameter)
     always = {"number", "diameter", "kind", "name", "flutes", "spindle_speed", "feed_rate", "plunge_rate", *shape_keys(tool.kind)}
     keys: Iterable[str] = (key for key in TOOL_KEYS if key != "feeds" and (key in always or getattr(tool, key) != getattr(usual, key)))

@@ -40,6 +40,22 @@ class Shown:
     notes: bool = True
     black: bool = False
 
+    strip = 0.0
+
+    @property
+    def title(self) -> str:
+        """The part's name."""
+        return self.part.name
+
+    @property
+    def units(self) -> Units:
+        """The part's."""
+        return self.part.units
+
+    def legend(self, box: Box) -> Ink:
+        """Return nothing: layers and tools are told apart by colour alone."""
+        return Ink()
+
     @property
     def _layers(self) -> dict[str, tuple[int, Layer]]:
         return {layer.name: (number, layer) for number, layer in enumerate(self.part.layers, 1) if layer.visible}

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
 
 from app.edit.sample import bounds
 from app.edit.transform import Similarity
 from app.errors import InputError
-from app.files.plot_content import Shown
-from app.files.plot_page import Box, Ink, Page, Paper, Pen, Stroke, Words
+from app.files.plot_page import Box, Ink, Page, Paper, Pen, Stroke, Words, fitted
 from app.model.curves import Line, Point
 from app.model.part import Units
 
@@ -40,6 +42,31 @@ class PlotOptions:
     landscape: bool = True
     scale: float | None = None
     framed: bool = True
+
+
+class Content(Protocol):
+    """What can be plotted."""
+
+    @property
+    def title(self) -> str:
+        """Its name."""
+
+    @property
+    def units(self) -> Units:
+        """That its lengths are told in."""
+
+    @property
+    def strip(self) -> float:
+        """Height of the legend under the drawing, mm on paper; 0: none."""
+
+    def box(self) -> Box | None:
+        """Return x0, y0, x1, y1 round all of it, mm; None when there is nothing."""
+
+    def ink(self, scale: float) -> Ink:
+        """Return the ink, in mm, for paper on which it is `scale` times as large."""
+
+    def legend(self, box: Box) -> Ink:
+        """Return the legend for that place on the paper."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +109,7 @@ def scale_words(scale: float) -> str:
     return f"{scale:.6g} : 1" if scale >= 1 else f"1 : {1 / scale:.6g}"
 
 
-def lay_out(shown: Shown, options: PlotOptions, date: str = "") -> Plot:
+def lay_out(shown: Content, options: PlotOptions, date: str = "") -> Plot:
     """Return the sheets.
 
     Args:
@@ -96,7 +123,9 @@ def lay_out(shown: Shown, options: PlotOptions, date: str = "") -> Plot:
     if box is None:
         raise InputError("Nothing is drawn that could be plotted; layers that are hidden are not plotted.")
     width, height = sorted(options.paper.value, reverse=options.landscape)
-    sheets = _sheets(box, _window(width, height, options.framed), options.scale)
+    whole = _window(width, height, options.framed)
+    window = (whole[0], whole[1] + shown.strip, *whole[2:])
+    sheets = _sheets(box, window, options.scale)
     ink, count = shown.ink(sheets.scale), sheets.columns * sheets.rows
     pages: list[Page] = []
     for row in reversed(range(sheets.rows)):
@@ -104,8 +133,10 @@ def lay_out(shown: Shown, options: PlotOptions, date: str = "") -> Plot:
             place = sheets.place(column, row)
             seen = _seen(ink, place, sheets.window) if count > 1 else ink
             page = Page(width, height, sheets.window, place, seen)
-            title = (shown.part.name, scale_words(sheets.scale), _unit(shown.part.units), date, f"{len(pages) + 1} of {count}")
-            frame = _frame(page, title) if options.framed else Ink()
+            title = (shown.title, scale_words(sheets.scale), _unit(shown.units), date, f"{len(pages) + 1} of {count}")
+            frame = _frame(whole, title) if options.framed else Ink()
+            if shown.strip:
+                frame += _legend(shown, whole)
             pages.append(replace(page, frame=frame + _marks(sheets, column, row)))
     return Plot(tuple(pages), sheets.columns, sheets.scale)
 
@@ -154,7 +185,9 @@ def _seen(ink: Ink, place: Similarity, window: Box) -> Ink:
         near = tuple(curve for curve, b in boxes if b[0] <= x1 and b[2] >= x0 and b[1] <= y1 and b[3] >= y0)
         if near:
             strokes.append(Stroke(stroke.pen, near))
-    return replace(ink, strokes=tuple(strokes))
+    traces = tuple(trace for trace in ink.traces
+                   if np.all(trace.points.min(axis=0) <= (x1, y1)) and np.all(trace.points.max(axis=0) >= (x0, y0)))  # fmt: skip
+    return replace(ink, strokes=tuple(strokes), traces=traces)
 
 
 def _box_lines(box: Box) -> tuple[Line, ...]:
@@ -163,29 +196,25 @@ def _box_lines(box: Box) -> tuple[Line, ...]:
     return tuple(Line(a, b) for a, b in zip(corners, (*corners[1:], corners[0]), strict=True))
 
 
-def _frame(page: Page, title: tuple[str, ...]) -> Ink:
-    """Return the frame and the title strip under the drawing."""
-    x0, y0, x1, _ = page.window
+def _legend(shown: Content, whole: Box) -> Ink:
+    """Return the legend and the line above it."""
+    x0, y0, x1, _ = whole
+    top = y0 + shown.strip
+    return Ink((Stroke(_THIN, (Line((x0, top), (x1, top)),)),)) + shown.legend((x0, y0, x1, top))
+
+
+def _frame(whole: Box, title: tuple[str, ...]) -> Ink:
+    """Return the frame and the title strip under all else."""
+    x0, y0, x1, y1 = whole
     low, width = y0 - STRIP, x1 - x0
-    outer = Stroke(_FRAME, _box_lines((x0, low, x1, page.window[3])))
+    outer = Stroke(_FRAME, _box_lines((x0, low, x1, y1)))
     lefts = [x0 + part * width for part, _ in _CELLS]
     inner = Stroke(_THIN, (Line((x0, y0), (x1, y0)), *(Line((x, low), (x, y0)) for x in lefts[1:])))
     words: list[Words] = []
     for x, right, (_, caption), text in zip(lefts, (*lefts[1:], x1), _CELLS, title, strict=True):
         words.append(Words(caption, (x + 2, y0 - 3.6), _CAPTION_MM))
-        words.append(Words(_short(text, right - x - 4), (x + 2, low + 2.6), _TEXT_MM))
+        words.append(Words(fitted(text, _TEXT_MM, right - x - 4), (x + 2, low + 2.6), _TEXT_MM))
     return Ink((outer, inner), (), tuple(words))
-
-
-def _short(text: str, room: float) -> str:
-    """Return as much of a text as surely fits, taking a letter to be at most as wide as 0.62 of its height, others as high."""
-    used, kept = 0.0, ""
-    for letter in text:
-        used += _TEXT_MM * (0.62 if ord(letter) < 0x1100 else 1.0)
-        if used > room:
-            return f"{kept[:-1]}…"
-        kept += letter
-    return kept
 
 
 def _marks(sheets: _Sheets, column: int, row: int) -> Ink:

@@ -7,6 +7,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from enum import Enum
 
+import numpy as np
+from numpy.typing import NDArray
+
 from app.edit.transform import Similarity
 from app.fit.arcs import lines_and_arcs
 from app.fit.bezier import pieces_of
@@ -54,6 +57,19 @@ class Stroke:
     curves: tuple[Curve, ...]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Trace:
+    """One polyline without a gap, (n, 2) points, n >= 2; the dashes run on along all of it."""
+
+    pen: Pen
+    points: NDArray[np.float64]
+
+    def placed(self, place: Similarity) -> NDArray[np.float64]:
+        """Return its points where a map that does not mirror takes them."""
+        z = (self.points[:, 0] + 1j * self.points[:, 1]) * place.a + place.b
+        return np.stack([z.real, z.imag], axis=1)
+
+
 @dataclass(frozen=True, slots=True)
 class Patch:
     """A filled polygon."""
@@ -82,14 +98,15 @@ class Words:
 
 @dataclass(frozen=True)
 class Ink:
-    """What is on a sheet: lines, filled polygons, text."""
+    """What is on a sheet: lines, filled polygons, text, and under them traces, in the order in which they are drawn."""
 
     strokes: tuple[Stroke, ...] = ()
     patches: tuple[Patch, ...] = ()
     words: tuple[Words, ...] = ()
+    traces: tuple[Trace, ...] = ()
 
     def __add__(self, other: Ink) -> Ink:
-        return Ink(self.strokes + other.strokes, self.patches + other.patches, self.words + other.words)
+        return Ink(self.strokes + other.strokes, self.patches + other.patches, self.words + other.words, self.traces + other.traces)
 
 
 @dataclass(frozen=True)
@@ -109,6 +126,17 @@ class Page:
     place: Similarity
     drawing: Ink
     frame: Ink = field(default_factory=Ink)
+
+
+def fitted(text: str, height: float, room: float) -> str:
+    """Return as much of a text as surely fits, taking a letter to be at most as wide as 0.62 of its height, others as high."""
+    used, kept = 0.0, ""
+    for letter in text:
+        used += height * (0.62 if ord(letter) < 0x1100 else 1.0)
+        if used > room:
+            return f"{kept[:-1]}…"
+        kept += letter
+    return kept
 
 
 def segments(curve: Curve, tolerance: float) -> Iterator[tuple[Point, ...]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import cv2
 import numpy as np
@@ -27,6 +27,7 @@ from app.files.plot import (
     layout,
     legend_rows,
 )  # fmt: skip
+from app.files.plot_flat import dashes
 from app.geometry.primitives import Rows, sample
 
 Pixels = NDArray[np.uint8]
@@ -83,20 +84,9 @@ def _fill(image: Pixels, rings: Sequence[Points], colour: str) -> None:
 
 def _draw(image: Pixels, points: Points, style: Style) -> None:
     """Draw a path in its style."""
-    pieces = [points] if not style.dash else list(_dashes(points, [length * _FINE for length in style.dash]))
+    pieces = [points] if not style.dash else list(dashes(points, [length * _FINE for length in style.dash]))
     width = max(1, round(style.width * _FINE))
     cv2.polylines(image, [_fixed(piece) for piece in pieces if len(piece) > 1], False, _bgr(style.colour), width, cv2.LINE_AA, _SHIFT)
-
-
-def _dashes(points: Points, pattern: Sequence[float]) -> Iterator[Points]:
-    """Yield the drawn parts of a path, dash and gap by turns."""
-    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-    dash, gap = pattern
-    for start in np.arange(0.0, along[-1], dash + gap):
-        stop = min(start + dash, along[-1])
-        inner = points[(along > start) & (along < stop)]
-        ends = np.stack([np.interp([start, stop], along, points[:, axis]) for axis in (0, 1)], axis=1)
-        yield np.concatenate([ends[:1], inner, ends[1:]])
 
 
 def _legend(image: Pixels, picture: Picture) -> None:

@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator
 from xml.sax.saxutils import escape
 
+import numpy as np
+
 from app import tolerances
 from app.edit.transform import Similarity, transformed
 from app.files.plot_page import Ink, Page, Pen, Words, chains, segments
@@ -37,6 +39,11 @@ def page_svg(page: Page, title: str) -> bytes:
 
 
 def _elements(ink: Ink, place: Similarity, height: float) -> Iterator[str]:
+    for trace in ink.traces:
+        points = trace.placed(place)
+        points[:, 1] = height - points[:, 1]
+        rounded = np.round(points, 6).tolist()
+        yield f'<path {_looks(trace.pen)} d="M{"L".join(f"{x:.9g} {y:.9g}" for x, y in rounded)}"/>'
     for stroke in ink.strokes:
         curves = [transformed(curve, place) for curve in stroke.curves]
         data = []

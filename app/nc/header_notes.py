@@ -68,7 +68,7 @@ def _notes(heading: Heading) -> Iterator[str]:
     yield f"stock_mm={plain_numbers(box.x0, box.y0, box.z0, box.x1, box.y1, box.z1)}"
     operations = [operation for operation, _ in operations_of(heading)]
     for tool in dict.fromkeys((*tools_of(heading), *(job.tool(each.cut.tool) for each in operations))):
-        yield f"tool={tool.number},{tool.kind.value},{plain_numbers(tool.diameter, *_shape(tool))}"
+        yield f"tool={tool.number},{tool.kind.value},{plain_numbers(tool.diameter, *shape_numbers(tool))}"
     for number, operation in enumerate(operations, 1):
         yield from _operation(operation, number)
     yield from _on_purpose(heading.program)
@@ -107,7 +107,7 @@ def _on_purpose(program: Program) -> Iterator[str]:
         yield f"dog_bone={plain_numbers(bone.x0, bone.y0, bone.x1, bone.y1, bone.diameter)}"
 
 
-def _shape(tool: Tool) -> tuple[float, ...]:
+def shape_numbers(tool: Tool) -> tuple[float, ...]:
     """Return corner radius and tip diameter, mm, and full tip angle, degrees, of a tool that has one of them."""
     shape = (tool.corner_radius, tool.tip_diameter, math.degrees(tool.tip_angle))
     return shape if any(shape) else ()

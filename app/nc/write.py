@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from app.errors import ParameterError
 from app.model.job import Job
-from app.model.moves import MoveKind, Program
+from app.model.moves import MoveKind, Moves, Program
 from app.model.part import Units
 from app.model.stock_box import stock_box, work_origin
 from app.nc.arcs import ArcRules, written_pieces
@@ -66,6 +67,53 @@ class NcFile:
         return chosen.with_name(f"{chosen.stem}{self.suffix}{chosen.suffix}") if self.suffix else chosen
 
 
+@dataclass(frozen=True)
+class Remarks:
+    """What a program says beside its motions.
+
+    Attributes:
+        head: comments for the operator at its head. notes: for programs that read it, below them.
+        operation: returns what is said where an operation of some index begins.
+        before: comments before a move, by its index.
+    """
+
+    head: tuple[str, ...]
+    notes: tuple[str, ...]
+    operation: Callable[[int], str]
+    before: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
+
+
+def write_moves(moves: Moves, job: Job, post: Post, remarks: Remarks, progress: Progress = NO_PROGRESS) -> tuple[NcFile, ...]:
+    """Return any moves as the files that the control needs, see `write_files`; each has all the remarks of its moves.
+
+    Args:
+        moves: mm from the work origin; each tool begins with a rapid at a height that is clear of everything.
+        job: whose tools, units and name are used.
+
+    Raises:
+        ParameterError: the control cannot promise an exact path, a tool is not in the job, or out units are neither mm nor inch.
+        Cancelled: the job was asked to stop.
+    """
+    _check_words(job, post)
+    files: list[NcFile] = []
+    for _, first, stop, suffix in _by_file(moves, post):
+        sheet = Blocks(post, job.out_units)
+        part = work_moves(moves.part(first, stop), (0.0, 0.0, 0.0), job.out_units, post.digits(job.out_units))
+        said = replace(remarks, before={i - first: words for i, words in remarks.before.items() if first <= i < stop})
+        lines = _Writer(job, post, sheet, part).write(said, progress.part(first / len(moves), stop / len(moves)))
+        nc = NcText("\n".join(sheet.lines) + "\n", np.array(lines, dtype=np.int32), tuple(sheet.home_lines))
+        files.append(NcFile(suffix, nc, first))
+    return tuple(files)
+
+
+def _by_file(moves: Moves, post: Post) -> Iterator[tuple[int, int, int, str]]:
+    """Yield number, first move, end and suffix of each file that the control needs."""
+    tools = moves.tool
+    starts = [0, *(np.flatnonzero(np.diff(tools)) + 1).tolist()] if post.file_per_tool else [0]
+    for number, (first, stop) in enumerate(zip(starts, [*starts[1:], len(tools)], strict=True), start=1):
+        yield number, first, stop, f"_{number}_T{tools[first]}" if len(starts) > 1 else ""
+
+
 def write_files(program: Program, job: Job, post: Post, progress: Progress = NO_PROGRESS) -> tuple[NcFile, ...]:
     """Return the program as the files that the control needs: one, or one a tool where it changes no tools.
 
@@ -75,14 +123,13 @@ def write_files(program: Program, job: Job, post: Post, progress: Progress = NO_
     Args and errors: as `write_program`.
     """
     _check(program, job, post)
-    tools = program.moves.tool
-    starts = [0, *(np.flatnonzero(np.diff(tools)) + 1).tolist()] if post.file_per_tool else [0]
+    count = len(program.moves)
+    spans = list(_by_file(program.moves, post))
     files: list[NcFile] = []
-    for number, (first, stop) in enumerate(zip(starts, [*starts[1:], len(tools)], strict=True), start=1):
-        moves = program.moves.part(first, stop)
-        share = progress.part(first / len(tools), stop / len(tools))
-        nc = _written(replace(program, moves=moves), job, post, (number, len(starts)), share)
-        files.append(NcFile(f"_{number}_T{tools[first]}" if len(starts) > 1 else "", nc, first))
+    for number, first, stop, suffix in spans:
+        share = progress.part(first / count, stop / count)
+        nc = _written(replace(program, moves=program.moves.part(first, stop)), job, post, (number, len(spans)), share)
+        files.append(NcFile(suffix, nc, first))
     return tuple(files)
 
 
@@ -112,11 +159,16 @@ def write_program(program: Program, job: Job, post: Post, progress: Progress = N
 
 def _check(program: Program, job: Job, post: Post) -> None:
     """Refuse what cannot be written."""
+    _check_words(job, post)
+    check_sequence(program.moves, job)
+
+
+def _check_words(job: Job, post: Post) -> None:
+    """Refuse units and paths that the control has no words for."""
     if job.out_units not in (Units.MM, Units.INCH):
         raise ParameterError(f"NC programs are in mm or inch, not in {job.out_units.name.lower()}; choose one of the two.")
     if job.exact_path and not post.blending.exact:
         raise ParameterError(f"{post.title} has no word for an exact path; switch exact path off.")
-    check_sequence(program.moves, job)
 
 
 def _written(program: Program, job: Job, post: Post, file: tuple[int, int], progress: Progress) -> NcText:
@@ -125,7 +177,8 @@ def _written(program: Program, job: Job, post: Post, file: tuple[int, int], prog
     moves = work_moves(program.moves, work_origin(job, box), job.out_units, post.digits(job.out_units))
     sheet = Blocks(post, job.out_units)
     heading = Heading(program, job, post, box, blend_mm(job, post), writing_tolerance(job, post), *file)
-    lines = _Writer(job, post, sheet, moves).write(heading, progress)
+    remarks = Remarks(tuple(heading_lines(heading)), tuple(heading_notes(heading)), lambda i: operation_words(job.operations[i], job))
+    lines = _Writer(job, post, sheet, moves).write(remarks, progress)
     return NcText("\n".join(sheet.lines) + "\n", np.array(lines, dtype=np.int32), tuple(sheet.home_lines))
 
 
@@ -168,13 +221,13 @@ class _Writer:
             post.arcs.smallest_radius_mm / unit, post.arcs.largest_radius_mm / unit, post.arcs.radius_mismatch_mm / unit,
         )  # fmt: skip
 
-    def write(self, heading: Heading, progress: Progress) -> list[int]:
+    def write(self, remarks: Remarks, progress: Progress) -> list[int]:
         """Write everything; return the line of each move."""
         moves, lines = self.moves, []
         self._blocks(self.post.program.top)
-        for comment in heading_lines(heading):
+        for comment in remarks.head:
             self.sheet.comment(comment)
-        for note in heading_notes(heading):
+        for note in remarks.notes:
             self.sheet.note(note)
         self._blocks(self.post.program.start)
         i, told = 0, 0
@@ -186,9 +239,11 @@ class _Writer:
             if new_tool:
                 self._change_tool(i)
             if i == 0 or moves.operation[i] != moves.operation[i - 1]:
-                self.sheet.comment(operation_words(self.job.operations[moves.operation[i]], self.job))
+                self.sheet.comment(remarks.operation(moves.operation[i]))
             if new_tool:
                 self.sheet.rapid_z(moves.end[i][2])
+            for comment in remarks.before.get(i, ()):
+                self.sheet.comment(comment)
             stop = (0 if new_tool else self._hole(i)) or self._move(i)
             lines += [self.sheet.motion_line] * (stop - i)
             i = stop

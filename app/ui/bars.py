@@ -10,7 +10,7 @@ from app.ui.icons import icon
 from app.ui.theme import Theme
 
 TOP_HEIGHT = 46
-_VIEWS = ("view_draw", "view_stages", "view_paths", "view_cut", "view_curves", "view_nc")
+_VIEWS = ("view_draw", "view_stages", "view_paths", "view_cut", "view_curves", "view_surfaces", "view_nc")
 
 
 def _line(width: int, height: int) -> QFrame:

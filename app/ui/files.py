@@ -25,21 +25,23 @@ from app.ui.nc.reading import is_program
 from app.ui.opening import Opened, Opening
 from app.ui.saving import Saving
 from app.ui.showing import Showing
+from app.ui.surfaces.shown_scene import is_scene
 from app.ui.views import View
 from app.workflow.bitmap_options import PICTURES, is_picture
 
 FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
-OPEN_FILTER = ("Drawings, pictures and NC programs "
-               f"({' '.join('*' + suffix for suffix in (*SUFFIXES, '.DXF', *PICTURES, *PROGRAM_SUFFIXES))});;All files (*)")
+OPEN_FILTER = ("Drawings, scenes, pictures and NC programs "
+               f"({' '.join('*' + suffix for suffix in (*SUFFIXES, '.DXF', '.toml', *PICTURES, *PROGRAM_SUFFIXES))});;All files (*)")
 _UNIT_NAMES = {Units.MM: "mm", Units.INCH: "inch"}
 
 
 @dataclass(frozen=True)
 class Openers:
-    """Who opens what is no drawing: an NC program, a picture."""
+    """Who opens what is no drawing: an NC program, a picture, a scene."""
 
     program: Callable[[Path], None]
     picture: Callable[[Path], None]
+    scene: Callable[[Path], None]
 
 
 class Files(QObject):
@@ -50,7 +52,7 @@ class Files(QObject):
         self._window, self._showing, self._log = window, showing, log
         self._document, self._computation = window.document, window.computation
         self._given_up: object = None
-        self._open_program, self._open_picture = open_others.program, open_others.picture
+        self._open_program, self._open_picture, self._open_scene = open_others.program, open_others.picture, open_others.scene
         self.opening = Opening(window.document, window.worker)
         self.saving = Saving(window, showing, log)
         self.exporting = Exporting(window.computation, window.notice, self._choose_nc_file)
@@ -77,9 +79,12 @@ class Files(QObject):
         self._leave_drawing("Open the sample part", self.open_sample)
 
     def open_file(self, path: Path, units: Units | None = None) -> None:
-        """Open a drawing, after asking when changes would be lost; an NC program is shown beside it, and nothing is lost."""
+        """Open a drawing, after asking when changes would be lost; NC programs and scenes are shown beside it, and nothing is lost."""
         if is_program(path):
             self._open_program(path)
+            return
+        if is_scene(path):
+            self._open_scene(path)
             return
         if is_picture(path.name):
             self._leave_drawing(f"Open {path.name}", lambda: self._open_picture(path))

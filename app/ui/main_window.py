@@ -42,7 +42,7 @@ class MainWindow(QMainWindow):
     """Menu, bars, views, panel, log, command line, status.
 
     Signals:
-        dropped(path): a drawing, a picture or an NC program was dropped on the window.
+        dropped(path): a drawing, a scene, a picture or an NC program was dropped on the window.
         closing(): about to close; `may_close` tells whether it may.
         closed(): it closes now; whoever runs jobs of his own ends them.
     """
@@ -130,9 +130,9 @@ class MainWindow(QMainWindow):
         self.actions_[f"theme_{choice.value}"].setChecked(True)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
-        """Welcome one drawing, picture or NC program."""
+        """Welcome one drawing, scene, picture or NC program."""
         urls = event.mimeData().urls()
-        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith((*SUFFIXES, *PICTURES, *PROGRAM_SUFFIXES)):
+        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith((*SUFFIXES, ".toml", *PICTURES, *PROGRAM_SUFFIXES)):
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 (Qt's name)

@@ -39,9 +39,12 @@ NO_PATHS = Missing("There are no tool paths yet.", "Compute  F5", "compute")
 NO_CUT = Missing("There is no cut yet.", "Compute  F5", "compute")
 NO_NC = Missing("There is no NC program yet.", "Compute  F5", "compute")
 NO_PROGRAM = Missing("There is no NC program yet. Draw a part and compute it, or open a program.", "Open an NC program", "nc_open")
+NO_SCENE = Missing("No scene is open. Open a scene file (TOML) with surfaces, tools and passes.", "Open a scene")
+SCENE_COMPUTING = Missing("The scene is being computed.", "Cancel  Shift+F5", "cancel")
 NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
 CUT_PROMPT = "Drag turns the cut, the middle button shifts it, Ctrl+drag measures a profile; click the metal to go to its line"
 CURVES_PROMPT = "Say how near curves must keep to the moves, then Smooth; click the deviation to see the place"
+SURFACES_PROMPT = "Drag turns the scene, the middle button shifts it; F5 reads its file again, Ctrl+E writes NC, plot or table"
 STAGES_PROMPT = "Space plays, Left and Right step; click a traced line to see its chain code"
 PICTURE_PROMPT = "Say what is ink and how large a pixel is; what lies green is machined"
 COMPUTING = Missing("The paths are being computed.", "Cancel  Shift+F5", "cancel")
@@ -113,7 +116,8 @@ class Showing(QObject):
 
     def show_prompt(self) -> None:
         """Say what the command line takes: on the canvas what the tool in hand wants, beside a program what it is for."""
-        prompts = {View.STAGES: STAGES_PROMPT, View.CUT: CUT_PROMPT, View.CURVES: CURVES_PROMPT, View.NC: NC_PROMPT}
+        prompts = {View.STAGES: STAGES_PROMPT, View.CUT: CUT_PROMPT, View.CURVES: CURVES_PROMPT,
+                   View.SURFACES: SURFACES_PROMPT, View.NC: NC_PROMPT}  # fmt: skip
         picture = self.view is View.STAGES and self._window.import_panel.reading is not None
         self._window.command_line.set_prompt(PICTURE_PROMPT if picture else prompts.get(self.view, self._window.canvas.prompt))
 
@@ -138,15 +142,17 @@ class Showing(QObject):
             actions[action].setEnabled(what is not None)
         actions["delete"].setEnabled(bool(document.selection))
         drawn = bool(document.part.entities)
-        for action in ("export", "select_all"):
-            actions[action].setEnabled(drawn)
-        actions["compute"].setEnabled(drawn)
+        actions["select_all"].setEnabled(drawn)
+        ready = self._window.views.surfaces.shown is not None if self.view is View.SURFACES else drawn
+        for action in ("export", "compute"):
+            actions[action].setEnabled(ready)
 
     def show_missing(self) -> None:
         """Say what the view lacks, if it lacks anything."""
         made = self._computation.made
         missing = self._missing()
         self._empty_action = missing.action
+        self._show_titles()
         self._window.views.show_missing(missing.sentence, missing.button, made is not None)
         self._show_side()
 
@@ -165,11 +171,13 @@ class Showing(QObject):
         window.stages_panel.setVisible(stages)
         curves = self.view is View.CURVES and not plotting
         window.curves_panel.setVisible(curves)
-        window.side.setVisible(not (asks or tells or stages or picture or curves or plotting))
+        window.side.setVisible(not (asks or tells or stages or picture or curves or plotting or self.view is View.SURFACES))
 
     def _missing(self) -> Missing:
         if self._has_something():
             return NOTHING
+        if self.view is View.SURFACES:
+            return SCENE_COMPUTING if self._window.views.surfaces.computing else NO_SCENE
         if self.view is View.STAGES and self._document.part.entities:
             return self.stages_missing
         if self._computation.state is State.RUNNING:
@@ -185,6 +193,8 @@ class Showing(QObject):
         views = self._window.views
         if self.view is View.STAGES:
             return views.stages.film is not None or self._window.import_panel.reading is not None
+        if self.view is View.SURFACES:
+            return views.surfaces.shown is not None
         if self.view is View.CUT:
             return views.cut.picture is not None or bool(views.cut.sentence.text())
         return self._computation.made is not None or (self.view in (View.CURVES, View.NC) and len(views.nc.pane.text.text) > 0)
@@ -199,7 +209,8 @@ class Showing(QObject):
     def _show_standing(self) -> None:
         """Show what the status bar says when nothing else is to be said: of a run that failed, why it did."""
         views, computation = self._window.views, self._computation
-        words = {View.CURVES: views.curves.summary, View.NC: views.nc.summary, View.STAGES: views.stages.summary}.get(self.view, "")
+        words = {View.CURVES: views.curves.summary, View.SURFACES: views.surfaces.summary, View.NC: views.nc.summary,
+                 View.STAGES: views.stages.summary}.get(self.view, "")  # fmt: skip
         self._window.status.show_message(words or computation.error or computation.state.value, error=bool(computation.error and not words))
 
     def _on_computation(self) -> None:

@@ -1,4 +1,4 @@
-"""The middle of the window: the canvas, Stages as pixels, Cut in space, Curves over moves, NC as text; or what is missing."""
+"""The middle of the window: the canvas, Stages as pixels, Cut in space, Curves, Surfaces, NC as text; or what is missing."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ from app.ui.nc.nc_view import NcView
 from app.ui.nc.path_view import PathView
 from app.ui.plot.preview import PlotPreview
 from app.ui.stages.stages_view import StagesView
+from app.ui.surfaces.scene_canvas import SceneCanvas
+from app.ui.surfaces.surfaces_view import SurfacesView
 from app.ui.theme import LIGHT, Theme
 
 _RULER_PX, _MARGIN_PX = 24, 16
@@ -32,6 +34,7 @@ class View(Enum):
     PATHS = "view_paths"
     CUT = "view_cut"
     CURVES = "view_curves"
+    SURFACES = "view_surfaces"
     NC = "view_nc"
 
 
@@ -74,17 +77,20 @@ class EmptyState(QWidget):
 
 
 class Views(QStackedWidget):
-    """Canvas, stages, cut, curves and NC text, with legend and empty state laid over them."""
+    """Canvas, stages, cut, curves, surfaces and NC text, with legend and empty state laid over them."""
 
     def __init__(self, canvas: Canvas) -> None:
         super().__init__()
         self.canvas, self.stages, self.cut, self.curves, self.nc = canvas, StagesView(), CutView(), CurvesView(), NcView()
-        self._own: dict[View, QWidget] = {View.STAGES: self.stages, View.CUT: self.cut, View.CURVES: self.curves, View.NC: self.nc}
+        self.surfaces = SurfacesView()
+        self._own: dict[View, QWidget] = {View.STAGES: self.stages, View.CUT: self.cut, View.CURVES: self.curves,
+                                          View.SURFACES: self.surfaces, View.NC: self.nc}  # fmt: skip
         self.view, self.plot = View.DRAW, PlotPreview()
         self.addWidget(canvas)
         self.addWidget(self.stages)
         self.addWidget(self.cut)
         self.addWidget(self.curves)
+        self.addWidget(self.surfaces)
         self.addWidget(self.nc)
         self.addWidget(self.plot)
         self.legend, self.empty, self.fade = Legend(self), EmptyState(self), Fade(self)
@@ -121,7 +127,7 @@ class Views(QStackedWidget):
         (self.plot if self.plotting else self._own.get(self.view, self.canvas)).setFocus()
 
     @property
-    def viewport(self) -> Canvas | StagesView | CutView | PathView | PlotPreview:
+    def viewport(self) -> Canvas | StagesView | CutView | SceneCanvas | PathView | PlotPreview:
         """What zooms and fits at the front."""
         if self.plotting:
             return self.plot
@@ -131,6 +137,8 @@ class Views(QStackedWidget):
             return self.stages
         if self.view is View.CURVES:
             return self.curves.path
+        if self.view is View.SURFACES:
+            return self.surfaces.canvas
         return self.nc.path if self.view is View.NC else self.canvas
 
     def show_missing(self, sentence: str, button: str, shows_paths: bool) -> None:

@@ -24,6 +24,7 @@ from app.ui.panels.side_panel import SidePanel
 from app.ui.panels.side_tabs import SideTabs
 from app.ui.stages.stages_view import StagesView
 from app.ui.status_bar import StatusBar
+from app.ui.surfaces.surfaces_view import SurfacesView
 from app.ui.tool_strip import ToolStrip
 from app.ui.tour import Callout
 from app.ui.words import tr
@@ -54,6 +55,8 @@ PLACES: dict[type[QWidget], tuple[str, str]] = {
     CurvesView: (
         "The program's moves, and the proven curves in their stead. Below: how far they are apart; click there to see the place.", ""),
     CurvesPanel: ("How near curves must keep to the moves, and the certificate of what was written.", ""),
+    SurfacesView: (
+        "A scene's surfaces and the paths over them, each surface in its own colour; Section shows one cutting plane.", "scene"),
     NcView: ("The NC program as text and as path. A click on either shows the place in the other.", "posts"),
     QMenuBar: ("Everything that the program can do, with its keys. Ctrl+Shift+Space finds all of it by name.", ""),
     Callout: ("A tour of the window in six steps.", ""),

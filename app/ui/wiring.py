@@ -44,6 +44,8 @@ from app.ui.showing import Showing
 from app.ui.snapping import Snapping
 from app.ui.stages.picturing import Picturing
 from app.ui.stages.staging import Staging
+from app.ui.surfaces.scene_export import SceneExport
+from app.ui.surfaces.scene_opening import SceneOpening
 from app.ui.tabbing import Tabbing
 from app.ui.tour import Tour
 from app.ui.translation import Translating
@@ -77,7 +79,8 @@ class Wiring(QObject):
         window.views.cut.cell_picked.connect(lambda x, y, z, motion: self._go_to_motion(motion))
         window.cut_panel.line_wanted.connect(self._go_to_motion)
         self.picturing = Picturing(window, self.log)
-        self.files = Files(window, self.showing, self.log, Openers(self.nc.open, self.picturing.open))
+        self.scenes, self.scene_export = SceneOpening(window, self.showing, self.log), SceneExport(window, self.log)
+        self.files = Files(window, self.showing, self.log, Openers(self.nc.open, self.picturing.open, self.scenes.open))
         self.drawing_export = DrawingExport(window, self.log)
         self.drawing_export.failed.connect(self._say_error)
         self.recovering = Recovering(window, self.showing, self.files, self.log)
@@ -124,10 +127,11 @@ class Wiring(QObject):
         self._on("save_as", files.saving.save_as)
         self._on("save_copy", files.saving.save_copy)
         files.saving.failed.connect(self._say_error)
-        self._on("export", files.exporting.start)
+        self._on("export", self.export)
         self._on("frame", files.exporting.start_frame)
         self._on("quit", self.window_.close)
-        files.opening.failed.connect(self._say_error)
+        for part in (files.opening, self.scenes, self.scene_export):
+            part.failed.connect(self._say_error)
         files.exporting.failed.connect(self._say_error)
         files.exporting.show_findings.connect(self._show_worst)
 
@@ -251,11 +255,18 @@ class Wiring(QObject):
         self.language.lines.run(line)
 
     def compute(self) -> None:
-        """Compute the paths and show them."""
+        """Compute the paths and show them; in the Surfaces view the scene's, from its file as it is now."""
         self.window_.notice.dismiss()
+        if self.showing.view is View.SURFACES:
+            self.scenes.again()
+            return
         self.computation.start()
         if self.showing.view is View.DRAW:
             self.showing.show_view(View.PATHS)
+
+    def export(self) -> None:
+        """Export what the view at the front has made: the job's program, or of a scene a program, plot or table."""
+        (self.scene_export if self.showing.view is View.SURFACES else self.files.exporting).start()
 
     def _show_worst(self) -> None:
         """Show the worst place of the job's cut where it is; what has none there is listed."""

@@ -199,7 +199,9 @@ class _Run:
             exact = exact_of(part, [known.course for known in self.courses], self.box(), progress.part(0.3, 0.7))
         certificate = certify(self.workpiece, wanted, self.cutters, self.trimmed, progress.part(0.7, 1.0)) if self.options.judge else None
         lines = self.setup.lines()
-        probe = WallProbe(part, self._lowest, self.workpiece, lines) if isinstance(part, SolidPart) and self.options.judge else None
+        probe = None
+        if isinstance(part, SolidPart) and part.block is None and self.options.judge:  # of surfaces the cells tell enough
+            probe = WallProbe(part, self._lowest, self.workpiece, lines)
         return judge(Judging(part, cut, wanted, exact, lines, probe), certificate)
 
     def _lowest(self, points: Floats) -> tuple[Floats, NDArray[np.int64]]:

@@ -56,11 +56,13 @@ class SolidPart:
         solid: closed.
         leave: stock to be left on all of its surface, mm, >= 0.
         tolerance: within which its surface counts as met, mm.
+        block: what it is cut from, program coordinates, where it is surfaces seen from above: these may go on beyond it.
     """
 
     solid: SolidStock
     leave: float = 0.0
     tolerance: float = TOLERANCE
+    block: StockBox | None = None
 
 
 Part = FlatPart | SolidPart
@@ -85,7 +87,7 @@ def beyond(part: Part, stock: StockBox) -> Iterator[Finding]:
         stock: the box round all of it, program coordinates.
     """
     box = part_box(part)
-    if box is None:
+    if box is None or (isinstance(part, SolidPart) and part.block is not None):
         return
     sides = {"-X": stock.x0 - box.x0, "+X": box.x1 - stock.x1, "-Y": stock.y0 - box.y0, "+Y": box.y1 - stock.y1}
     if isinstance(part, SolidPart):

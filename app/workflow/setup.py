@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import PurePath
 
@@ -21,6 +22,7 @@ from app.model.moves import DogBone, Tab
 from app.model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, RestOperation
 from app.model.part import Contour, Region, Units
 from app.model.part import Part as DrawnPart
+from app.model.scene import Scene
 from app.model.stock_box import stock_box, work_origin
 from app.nc.read.program import HeaderNote, OperationNote
 from app.progress import NO_PROGRESS, Progress
@@ -40,7 +42,8 @@ class Wishes:
         tools: who tells of tools, best first.
         job: tools, operations, stock, origin.
         stock: the metal, program coordinates.
-        against: name and bytes of the part: a drawing, or a solid as .stl.
+        against: name and bytes of the part: a drawing, a solid as .stl, or a scene of surfaces as .toml.
+        beside: reads the files that a scene names.
         depth, leave: of all operations, mm: from the stock's top to the floor, > 0, and what is left on walls.
         layers: of the drawing; empty = as told, or all visible ones.
         units: of a drawing, or solid, that names none.
@@ -53,6 +56,7 @@ class Wishes:
     job: JobFile | None = None
     stock: Stock | None = None
     against: tuple[str, bytes] | None = None
+    beside: Callable[[str], bytes] | None = None
     depth: float | None = None
     leave: float | None = None
     layers: tuple[str, ...] = ()
@@ -95,8 +99,15 @@ def setup_of(programs: tuple[Examined, ...], wishes: Wishes = Wishes(), progress
     for examined in programs:
         _ensure_readable(examined)
     progress.step(0.0, "Looking for tools and stock")
-    programs, tools, assumed = with_tools(programs, wishes.tools)
-    part, said = _part(programs, tools, wishes) if wishes.against is not None else (None, ())
+    scene = _scene(wishes)
+    told = () if scene is None else (ToolsTold("the scene", {tool.number: tool for tool in scene.tools}),)
+    programs, tools, assumed = with_tools(programs, (*wishes.tools, *told))
+    part: Part | None = None
+    said: tuple[Finding, ...] = ()
+    if scene is not None:
+        part = _surfaces(scene, _header(programs), wishes)
+    elif wishes.against is not None:
+        part, said = _part(programs, tools, wishes)
     progress.step(0.8)
     stock = _stock(programs, tools, part, wishes)
     setup = CutSetup(tuple(each.program for each in programs), {number: each.tool for number, each in tools.items()}, stock.stock, part,
@@ -123,6 +134,9 @@ def _stock(programs: tuple[Examined, ...], tools: dict[int, KnownTool], part: Pa
     """Return the metal: what was asked for, the job's, or what the programs tell."""
     if wishes.stock is not None:
         return KnownStock(wishes.stock, "as given")
+    noted = any(each.program.stock is not None for each in programs)
+    if isinstance(part, SolidPart) and part.block is not None and not noted:
+        return KnownStock(BoxStock(part.block), "the scene")
     if wishes.job is not None and "stock" in wishes.job.tables and isinstance(part, FlatPart):
         box, (x, y, z) = stock_box(part.job, part.regions, part.lines), part.origin
         moved = replace(box, x0=box.x0 - x, y0=box.y0 - y, z0=box.z0 - z, x1=box.x1 - x, y1=box.y1 - y, z1=box.z1 - z)
@@ -144,11 +158,33 @@ def _part(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
     assert wishes.against is not None
     name, data = wishes.against
     suffix = PurePath(name).suffix.lower()
-    if suffix == ".toml":
-        raise InputError(f"{name}: comparing with surfaces comes in a later version; give the drawing, or the solid as .stl.")
     if suffix == ".stl":
         return _solid(name, data, wishes), ()
     return _flat(programs, tools, wishes)
+
+
+def _scene(wishes: Wishes) -> Scene | None:
+    """Return the scene to compare with, if it is one."""
+    if wishes.against is None or PurePath(wishes.against[0]).suffix.lower() != ".toml":
+        return None
+    from app.files.scene_toml import read_scene
+
+    return read_scene(*wishes.against)
+
+
+def _surfaces(scene: Scene, header: HeaderNote, wishes: Wishes) -> SolidPart:
+    """Return the surfaces of a scene in program coordinates."""
+    from app.files.scene_toml import sources_of
+    from app.workflow.scene_part import scene_part
+
+    xy, z = wishes.origin or (None, None)
+    scene = replace(scene, origin_xy=xy or scene.origin_xy, origin_z=z or scene.origin_z)
+    zero = header.origin if wishes.origin is None else None
+    return scene_part(scene, sources_of(wishes.beside or _nothing_beside), zero, wishes.leave, wishes.tolerance)
+
+
+def _nothing_beside(name: str) -> bytes:
+    raise InputError(f"{name}: the scene names this file, and it is not known where it lies; put its points into the scene.")
 
 
 def _solid(name: str, data: bytes, wishes: Wishes) -> SolidPart:

@@ -17,6 +17,7 @@ class Stroke:
     dashed: float
     points: list[Point]
     arcs: list[tuple[Point, float]] = field(default_factory=list)
+    line: int = 0
 
     @property
     def length(self) -> float:
@@ -38,6 +39,7 @@ class Plotter:
     def __init__(self, data: bytes) -> None:
         self.sheets = [Sheet()]
         self.at, self.down, self.pen, self.width, self.dashed, self.angle = (0.0, 0.0), False, 0, 0.35, 0.0, 0.0
+        self.line = 0
         self.stroke: Stroke | None = None
         text = data.decode("ascii")
         at = 0
@@ -73,7 +75,7 @@ class Plotter:
 
     def _lt(self, numbers: list[float]) -> None:
         assert not numbers or numbers[2] == 1
-        self.dashed = numbers[1] if numbers else 0.0
+        self.line, self.dashed = (int(numbers[0]), numbers[1]) if numbers else (0, 0.0)
 
     def _pa(self, numbers: list[float]) -> None:
         assert not numbers
@@ -119,7 +121,7 @@ class Plotter:
     def _to(self, point: Point) -> None:
         if self.down:
             if self.stroke is None:
-                self.stroke = Stroke(self.pen, self.width, self.dashed, [self.at])
+                self.stroke = Stroke(self.pen, self.width, self.dashed, [self.at], line=self.line)
                 self.sheets[-1].strokes.append(self.stroke)
             self.stroke.points.append(point)
         self.at = point

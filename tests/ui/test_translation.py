@@ -143,7 +143,7 @@ def test_the_codes_of_the_choices() -> None:
 
 LATIN = re.compile(r"[A-Za-z]{3,}")
 JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
-NOT_TRANSLATED = {"English", "NC (Ctrl+6)", "Fanuc", "Haas", "LinuxCNC", "Mach3", "grbl", "mm/min", "rpm", "dpi", "Esc"}
+NOT_TRANSLATED = {"English", "NC (Ctrl+7)", "Fanuc", "Haas", "LinuxCNC", "Mach3", "grbl", "mm/min", "rpm", "dpi", "Esc"}
 """Names of controls, units and keys."""
 
 

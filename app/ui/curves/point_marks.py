@@ -6,6 +6,7 @@ from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
@@ -22,6 +23,8 @@ _DOT_PX = 5.0
 """Of points that are told apart."""
 _APART_PX = 5.0
 """Points are shown where they are so far apart, in the mean."""
+_PER_PX = 4.0
+"""Marks that lie within one part of so many of a px are one."""
 
 
 @lru_cache(maxsize=3)
@@ -44,25 +47,35 @@ def paint_points(painter: QPainter, points: Points, view: tuple[Side, Box, Calla
     """
     side, box, on_screen = view
     was, places = points.was[:, list(side.value)], points.places[:, list(side.value)]
-    near = np.all((was >= box[:2]) & (was <= box[2:]), axis=1)
+    near = _within(was, box) | _within(places, box)
 
     def dots(state: PointState, places: Floats, size: float) -> None:
         painter.setPen(QPen(_colour(state, points, theme), size, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
-        painter.drawPoints([QPointF(x, y) for x, y in on_screen(places[near & (points.state == state)]).tolist()])
+        painter.drawPoints([QPointF(x, y) for x, y in _once(on_screen(places[near & (points.state == state)]))])
 
     if not points.told_apart:
         dots(PointState.EFFECTIVE, was, _POINT_PX)
         return
     moved = near & np.any(was != places, axis=1)
     painter.setPen(screen_pen(painter, theme.muted, FINE))
-    ways = zip(on_screen(was[moved]).tolist(), on_screen(places[moved]).tolist(), strict=True)
-    painter.drawLines([QLineF(*a, *b) for a, b in ways])
+    painter.drawLines([QLineF(*way) for way in _once(np.hstack([on_screen(was[moved]), on_screen(places[moved])]))])
     painter.setPen(QPen(theme.muted, 1.0))
     painter.setBrush(theme.canvas)
-    for x, y in on_screen(was[near & (points.state == PointState.INVALID)]).tolist():
+    for x, y in _once(on_screen(was[near & (points.state == PointState.INVALID)])):
         painter.drawEllipse(QPointF(x, y), _RING_PX, _RING_PX)
     dots(PointState.CORRECTED, places, _DOT_PX)
     dots(PointState.EFFECTIVE, places, _DOT_PX)
+
+
+def _within(places: Floats, box: Box) -> NDArray[np.bool_]:
+    return np.asarray(np.all((places >= box[:2]) & (places <= box[2:]), axis=1))
+
+
+def _once(marks: Floats) -> list[list[float]]:
+    """Return marks (k, c) px but for those that lie on another: passes below one another would all be painted."""
+    _, first = np.unique(np.round(marks * _PER_PX), axis=0, return_index=True)
+    kept: list[list[float]] = marks[first].tolist()
+    return kept
 
 
 def key_rows(points: Points, theme: Theme) -> list[KeyRow]:

@@ -12,7 +12,7 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPainterPath, 
 from app import tolerances
 from app.edit.transform import Similarity
 from app.files.plot_layout import Plot
-from app.files.plot_page import Ink, Page, Patch, Pen, Stroke, Words, chains, segments
+from app.files.plot_page import Ink, Page, Patch, Pen, Stroke, Trace, Words, chains, segments
 from app.model.curves import Curve
 
 _FONT_PX = 100
@@ -47,8 +47,9 @@ def sheets(plot: Plot) -> tuple[Sheet, ...]:
 
 
 def _painted(ink: Ink, scale: float) -> Painted:
+    traces = [(trace.pen, path) for trace in ink.traces for path in _along(trace)]
     strokes = ((stroke.pen, path) for stroke in ink.strokes for path in _paths(stroke, tolerances.CURVE / scale))
-    return Painted(tuple(strokes), ink.patches, ink.words)
+    return Painted((*traces, *strokes), ink.patches, ink.words)
 
 
 def _paths(stroke: Stroke, tolerance: float) -> Iterator[QPainterPath]:
@@ -66,6 +67,15 @@ def _paths(stroke: Stroke, tolerance: float) -> Iterator[QPainterPath]:
                 path.moveTo(*curve.start)
             _add(path, curve, tolerance)
     yield path
+
+
+def _along(trace: Trace) -> Iterator[QPainterPath]:
+    """Yield a trace in pieces, or whole where it is dashed."""
+    step = len(trace.points) if trace.pen.dash else _LONG
+    for at in range(0, len(trace.points) - 1, step):
+        path = QPainterPath()
+        path.addPolygon(QPolygonF([QPointF(x, y) for x, y in trace.points[at : at + step + 1].tolist()]))
+        yield path
 
 
 def _add(path: QPainterPath, curve: Curve, tolerance: float) -> None:
@@ -110,7 +120,8 @@ def _paint(painter: QPainter, painted: Painted, place: Similarity) -> None:
 def _pen(pen: Pen, scale: float) -> QPen:
     made = QPen(QColor(pen.colour), pen.width / scale, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.RoundJoin)
     if pen.dash:
-        made.setCapStyle(Qt.PenCapStyle.FlatCap)
+        if min(pen.dash) > pen.width:
+            made.setCapStyle(Qt.PenCapStyle.FlatCap)
         made.setDashPattern([length / pen.width for length in pen.dash])
     return made
 

@@ -232,6 +232,6 @@ def test_the_view_stays_when_the_same_stock_is_cut_anew(view, picture):
     assert not view.legend.isVisible()
 
 
-def test_cut_and_curves_stand_between_paths_and_nc():
+def test_cut_curves_and_surfaces_stand_between_paths_and_nc():
     names = [view.name for view in View]
-    assert names[names.index("PATHS") + 1:] == ["CUT", "CURVES", "NC"]
+    assert names[names.index("PATHS") + 1:] == ["CUT", "CURVES", "SURFACES", "NC"]

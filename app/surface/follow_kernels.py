@@ -1,0 +1,261 @@
+"""Compiled: a cutter along one line over surfaces: points so near that every chord is proven, and where surfaces change."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from app.jit import kernel
+from app.surface.chord_kernels import CLEAR, clear
+from app.surface.desk_kernels import ANY, CONTROL, DESK, NONE, OWNER, PATCH, TREE, new_desk
+from app.surface.drop_kernels import drop_one
+from app.surface.quick_kernels import quick_one
+from app.surface.touch_kernels import tip_over
+
+_R, _MANY = "float64[::1]", "float64[:, ::1]"
+S, X, Y, Z, FACET, U, V, LEFT, LEFT_U, LEFT_V, NEW, TRUE_Z = range(12)
+"""Columns of points: place along the line, x, y, tip, what is touched there and where; what is touched on the side that the line
+comes from, which differs at boundary points; what it is (see BEGINS); the tip before it was rounded."""
+COLUMNS = 12
+BEGINS, CORNER, BOUNDARY = 1.0, 2.0, 3.0
+"""NEW of a point where a run begins, of a jump's corner, of a boundary point; 0 of others."""
+DS, TOLERANCE, ALLOWED, LEAST, GRID, SLACK, FINE = range(7)
+_STACK = 256
+_TIE, _MET, _EQUAL, _FINEST = 1e-9, 1e-7, 1e-11, 1e-10
+_ROOTS = 80
+_CLOSE = 0.02
+"""mm; a chord as short as this that is not proven suggests that something was missed at its ends."""
+_TAKEN, _JUMPS, _SPLIT, _AGAIN = 0, 1, 2, 3
+"""What becomes of a chord: it is taken, by way of a corner, or it is split, or looked at again."""
+_FOUND, _CHORD, _PAIR, _OTHER = 0, 1, 2, 4
+"""Rows to work on."""
+NO_PROOF, NO_ROOM = -2, -1
+
+
+@kernel(f"float64(float64, {_R})", counts=False)
+def _written(z, rules):  # type: ignore[no-untyped-def]
+    """Return a height as it will be written: rounded up."""
+    return math.ceil(z / rules[GRID] - 1e-6) * rules[GRID] if rules[GRID] > 0.0 and z > -math.inf else z
+
+
+@kernel(f"void({TREE}, {_R}, {_R}, {_R}, float64, int64, {_R}, {_R}, {DESK})", counts=False)
+def _at(tree, shape, line, rules, s, whose, found, row, desk):  # type: ignore[no-untyped-def]
+    """Set a row to what is touched at a place along the line, near what was `found` last; whose: as in `quick_one`."""
+    x, y = line[0] + s * line[2], line[1] + s * line[3]
+    if rules[GRID] > 0.0:
+        x, y = round(x / rules[GRID]) * rules[GRID], round(y / rules[GRID]) * rules[GRID]
+    found[0], found[1] = x, y
+    quick_one(tree, shape, whose, rules[SLACK], rules[FINE], found, desk)
+    row[S], row[X], row[Y], row[Z], row[NEW], row[TRUE_Z] = s, x, y, _written(found[2], rules), 0.0, found[2]
+    row[FACET], row[U], row[V] = found[3], found[4], found[5]
+    row[LEFT], row[LEFT_U], row[LEFT_V] = found[3], found[4], found[5]
+
+
+@kernel(f"void({_R}, {_R})", counts=False)
+def _copy(row, target):  # type: ignore[no-untyped-def]
+    for c in range(COLUMNS):
+        target[c] = row[c]
+
+
+@kernel(f"int64({TREE}, {_R}, int64)", counts=False)
+def _owner(tree, row, column):  # type: ignore[no-untyped-def]
+    return tree[OWNER][int(row[column])] if row[column] >= 0.0 else NONE
+
+
+@kernel(f"float64({TREE}, {_R}, {_R}, float64, float64)", counts=False)
+def _low(tree, row, shape, x, y):  # type: ignore[no-untyped-def]
+    """Return how low the tip comes at (x, y) over the place that a row touches; -inf where that place is not known."""
+    if row[FACET] < 0.0 or row[U] != row[U]:
+        return -math.inf
+    return tip_over(tree[CONTROL], tree[PATCH][int(row[FACET])], row[U], row[V], x, y, shape)
+
+
+@kernel(f"float64({TREE}, {_R}, {_R}, {_R}, float64, int64, {_R}, {DESK})", counts=False)
+def _tip(tree, shape, line, rules, s, whose, found, desk):  # type: ignore[no-untyped-def]
+    """Return the tip's height over one surface, at a place that is not rounded."""
+    found[0], found[1] = line[0] + s * line[2], line[1] + s * line[3]
+    quick_one(tree, shape, whose, rules[SLACK], _FINEST, found, desk)
+    return found[2]
+
+
+@kernel(f"UniTuple(float64, 3)({TREE}, {_R}, {_R}, {_R}, {_R}, {_R}, {_MANY}, {DESK})", counts=False)
+def _balance(tree, shape, line, rules, left, right, pair, desk):  # type: ignore[no-untyped-def]
+    """Return where the tip is as high over the surface on the left as over that on the right, and both heights; NaN if nowhere.
+
+    Args:
+        pair: (2, 6) to work in; out: what is touched on both.
+    """
+    mine, its = _owner(tree, left, FACET), _owner(tree, right, LEFT)
+    pair[0, 3], pair[0, 4], pair[0, 5] = left[FACET], left[U], left[V]
+    pair[1, 3], pair[1, 4], pair[1, 5] = right[LEFT], right[LEFT_U], right[LEFT_V]
+    low, high, at_low, at_high, s, over = left[S], right[S], math.inf, -math.inf, 0.5 * (left[S] + right[S]), math.inf
+    a, b = 0.0, 0.0
+    for n in range(_ROOTS):
+        if n < 2:
+            s = low if n == 0 else high
+        elif at_low < math.inf and at_high > -math.inf and n % 3 > 0:
+            s = low + (high - low) * at_low / (at_low - at_high)
+        else:
+            s = 0.5 * (low + high)
+        a = _tip(tree, shape, line, rules, s, mine, pair[0], desk)
+        b = _tip(tree, shape, line, rules, s, its, pair[1], desk)
+        if a == -math.inf and b == -math.inf:
+            return math.nan, a, b
+        over = math.inf if b == -math.inf else (-math.inf if a == -math.inf else a - b)
+        if n == 0:
+            at_low = over
+        elif n == 1:
+            at_high = over
+            if not at_low >= 0.0 >= at_high:
+                return math.nan, a, b
+        elif over >= 0.0:
+            low, at_low = s, over
+        else:
+            high, at_high = s, over
+        if n > 1 and (abs(over) <= _EQUAL or high - low <= 1e-13 * (1.0 + abs(high))):
+            break
+    return (s if abs(over) <= _MET and left[S] < s < right[S] else math.nan), a, b
+
+
+@kernel(f"boolean({TREE}, {_R}, {_R}, {_R}, {_R}, {_R}, {_R}, {_MANY}, {DESK})", counts=False)
+def _meet(tree, shape, line, rules, left, right, middle, rows, desk):  # type: ignore[no-untyped-def]
+    """Set `middle` to the boundary point between two places; False if there is none."""
+    pair = rows[_PAIR : _PAIR + 2, :6]
+    s, a, b = _balance(tree, shape, line, rules, left, right, rows[_PAIR : _PAIR + 2], desk)
+    rows[_OTHER, 3] = NONE
+    if s != s or _tip(tree, shape, line, rules, s, ANY, rows[_OTHER], desk) > max(a, b) + _MET:
+        return False  # or a third one is above both
+    x, y, z = line[0] + s * line[2], line[1] + s * line[3], max(a, b)
+    middle[S], middle[X], middle[Y], middle[Z], middle[NEW], middle[TRUE_Z] = s, x, y, z, BOUNDARY, z
+    middle[LEFT], middle[LEFT_U], middle[LEFT_V] = pair[0, 3], pair[0, 4], pair[0, 5]
+    middle[FACET], middle[U], middle[V] = pair[1, 3], pair[1, 4], pair[1, 5]
+    if rules[GRID] > 0.0:  # the path goes where it can be written
+        _at(tree, shape, line, rules, s, ANY, rows[_FOUND], rows[_OTHER], desk)
+        middle[X], middle[Y], middle[Z] = rows[_OTHER, X], rows[_OTHER, Y], rows[_OTHER, Z]
+    return True
+
+
+@kernel(f"void({TREE}, {_R}, {_R}, {_R}, {_R}, {_R}, {_MANY}, {DESK})", counts=False)
+def _stay(tree, shape, line, rules, left, right, rows, desk):  # type: ignore[no-untyped-def]
+    """Where surfaces coincide, stay on the one that the path came on."""
+    if left[FACET] < 0.0 or right[FACET] < 0.0 or right[NEW] != 0.0:
+        return
+    mine = _owner(tree, left, FACET)
+    if mine != _owner(tree, right, LEFT):
+        _at(tree, shape, line, rules, right[S], mine, rows[_FOUND], rows[_OTHER], desk)
+        if rows[_OTHER, Z] >= right[Z] - _TIE:
+            _copy(rows[_OTHER], right)
+
+
+@kernel(f"boolean({TREE}, {_R}, {_R}, {_R}, {DESK})", counts=False)
+def _missed(tree, shape, rules, row, desk):  # type: ignore[no-untyped-def]
+    """Set a row to what is touched higher there, if something was missed."""
+    tip, touched = drop_one(tree, shape, row[X], row[Y], ANY, rules[FINE], desk)
+    if not tip > row[Z] + rules[FINE]:
+        return False
+    row[Z], row[TRUE_Z], row[FACET], row[LEFT] = _written(tip, rules), tip, touched, touched
+    row[U] = row[V] = row[LEFT_U] = row[LEFT_V] = math.nan
+    return True
+
+
+@kernel(f"int64({TREE}, {_R}, {_R}, {_R}, {_R}, {_R}, {_R}, {_MANY}, {DESK})", counts=False)
+def _judge(tree, shape, line, rules, left, right, middle, rows, desk):  # type: ignore[no-untyped-def]
+    """Return what becomes of the chord between two places; `middle` is the place at which it is split."""
+    span, least = right[S] - left[S], rules[LEAST]
+    here, there = left[Z] > -math.inf, right[Z] > -math.inf
+    if not here and not there:
+        return _TAKEN
+    half = 0.5 * (left[S] + right[S])
+    if here != there:
+        if span <= least:
+            return _TAKEN
+        _at(tree, shape, line, rules, half, ANY, rows[_FOUND], middle, desk)
+        return _SPLIT
+    if span <= least:
+        return _JUMPS if abs(right[Z] - left[Z]) > 2.0 * span else _TAKEN
+    length = math.sqrt(span * span + (right[Z] - left[Z]) ** 2)
+    x, y, z = 0.5 * (left[X] + right[X]), 0.5 * (left[Y] + right[Y]), 0.5 * (left[Z] + right[Z])
+    most = rules[TOLERANCE] * length / span
+    lowest = max(_low(tree, left, shape, x, y), _low(tree, right, shape, x, y))
+    asked = lowest < z - most
+    if asked:
+        _at(tree, shape, line, rules, half, ANY, rows[_FOUND], middle, desk)
+        lowest = middle[Z]
+    if z - most <= lowest <= z + 2.0 * rules[ALLOWED] * length / span:
+        if _owner(tree, left, FACET) != _owner(tree, right, LEFT):
+            if _meet(tree, shape, line, rules, left, right, middle, rows, desk):
+                return _SPLIT
+            asked = False
+        else:
+            chord = rows[_CHORD]
+            for c in range(3):
+                chord[c], chord[3 + c] = left[X + c], right[X + c]
+            if clear(tree, shape, chord, rules[ALLOWED], desk) == CLEAR:
+                return _TAKEN
+            if span <= _CLOSE and (_missed(tree, shape, rules, left, desk) or _missed(tree, shape, rules, right, desk)):
+                return _AGAIN
+    if not asked:
+        _at(tree, shape, line, rules, half, ANY, rows[_FOUND], middle, desk)
+    return _SPLIT
+
+
+@kernel(f"int64({_R}, {_R}, boolean, {_MANY}, int64)", counts=False)
+def _emit(left, right, corner, out, count):  # type: ignore[no-untyped-def]
+    """Write a chord's end, and the corner of a jump before it; return how many points there are then."""
+    if corner:  # up before it goes on, or on before it goes down
+        _copy(left if right[Z] > left[Z] else right, out[count])
+        out[count, Z], out[count, NEW] = max(left[Z], right[Z]), CORNER
+        count += 1
+    if right[Z] > -math.inf:
+        if left[Z] == -math.inf:
+            right[NEW] = BEGINS
+        _copy(right, out[count])
+        count += 1
+    return count
+
+
+@kernel(f"int64({TREE}, {_R}, {_R}, {_R}, {_MANY})")
+def follow(tree, shape, line, rules, out):  # type: ignore[no-untyped-def]
+    """Follow surfaces along a line; return how many points there are, NO_ROOM in `out` for them, or NO_PROOF of a chord.
+
+    Args:
+        line: x, y, direction x, y, first and last place along it.
+        rules: (7,) longest chord; how far the tip may be above where it could be, in the middle of chords; how deep it may go into
+            surfaces; shortest chord; grid that places are rounded to, or 0; SLACK and FINE of `quick_one`; all mm.
+        out: (k, COLUMNS).
+    """
+    desk, waiting, rows = new_desk(), np.empty((_STACK, COLUMNS)), np.full((5, COLUMNS), -1.0)
+    left, middle = np.empty(COLUMNS), np.empty(COLUMNS)
+    least, ds, last = rules[LEAST], rules[DS], line[5]
+    _at(tree, shape, line, rules, line[4], ANY, rows[_FOUND], left, desk)
+    left[NEW] = BEGINS
+    count, depth = 0, 0
+    if left[Z] > -math.inf:
+        _copy(left, out[0])
+        count = 1
+    while depth > 0 or left[S] < last:
+        if depth == 0:
+            s = min(left[S] + ds, last)
+            _at(tree, shape, line, rules, last if last - s < least else s, ANY, rows[_FOUND], waiting[0], desk)
+            depth = 1
+        right = waiting[depth - 1]
+        _stay(tree, shape, line, rules, left, right, rows, desk)
+        fate = _judge(tree, shape, line, rules, left, right, middle, rows, desk)
+        if fate == _AGAIN and count > 0 and left[Z] > -math.inf:
+            _copy(left, out[count - 1])
+        elif fate == _SPLIT:
+            if depth == _STACK:
+                return NO_PROOF
+            _copy(middle, waiting[depth])
+            depth += 1
+        elif fate != _AGAIN:
+            if count + 3 > len(out):
+                return NO_ROOM
+            count = _emit(left, right, fate == _JUMPS, out, count)
+            span = right[S] - left[S]
+            _copy(right, left)
+            depth -= 1
+            if depth == 0:
+                ds = min(1.5 * max(span, least), rules[DS])
+    return count

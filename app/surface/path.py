@@ -1,0 +1,183 @@
+"""The path of a cutter over a compound surface: along every plane as low as it comes, each chord proven, told apart by surface."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from app.errors import GeometryError
+from app.model.tool import Tool
+from app.pool import pool
+from app.progress import NO_PROGRESS, Progress
+from app.surface.boundary_kinds import kinds_of
+from app.surface.compound import Boundaries, BoundaryKind, Compound, Planes, Run
+from app.surface.drop_cutter import shape_of
+from app.surface.facets import Facets, surface_parameters
+from app.surface.planes import Stretch, extent_on, stretches
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+ALLOWED = 9e-5
+"""mm; no chord goes deeper into a surface, measured square to the cutter: that is proven for each."""
+_FINE = 1e-7
+_ROOM = 4096
+_CHORDS = 2_000
+
+
+@dataclass(frozen=True, slots=True)
+class FollowOptions:
+    """How a cutter follows surfaces.
+
+    Attributes:
+        leave: metal left on them on purpose, mm, >= 0.
+        tolerance: so far above where it could be the tip may go between two points, mm, > 0.
+        grid: places are rounded to it, tips up to it, mm, as they will be written; 0: not at all.
+    """
+
+    leave: float = 0.0
+    tolerance: float = 0.01
+    grid: float = 0.0
+
+
+class Follower:
+    """One tool over surfaces, along any line."""
+
+    def __init__(self, facets: Facets, tool: Tool, options: FollowOptions = FollowOptions()) -> None:
+        from app.surface import contact_kernels, follow_kernels
+
+        self.facets = facets
+        self._kernels = follow_kernels
+        tree = facets.tree
+        self._held = tree.held
+        self._order, self._leave = tree.order, options.leave
+        self._shape = shape_of(tool)
+        if options.leave:
+            contact_kernels.thicken(shape_of(tool), options.leave, self._shape)
+        least = max(1e-6, 2 * options.grid)
+        self._rules = np.array([max(tool.radius / 2, 4 * least), options.tolerance, ALLOWED, least, options.grid,
+                                float(facets.error.max()), _FINE])  # fmt: skip
+
+    def along(self, planes: Planes, plane: int, part: Stretch) -> Floats:
+        """Return the rows (n, COLUMNS) of points on a plane, facets by their numbers."""
+        return self._rows(np.array([*planes.place(plane, 0.0), *planes.along, *part]))
+
+    def between(self, start: tuple[float, float], end: tuple[float, float]) -> Floats | None:
+        """Return points (n, 3) of the way straight from one place to another, as low as the surfaces let the tip; None: it has a gap."""
+        far = math.dist(start, end)
+        rows = self._rows(np.array([*start, (end[0] - start[0]) / far, (end[1] - start[1]) / far, 0.0, far]))
+        k = self._kernels
+        whole = len(rows) > 1 and rows[0, k.S] == 0.0 and rows[-1, k.S] == far and not (rows[1:, k.NEW] == k.BEGINS).any()
+        return rows[:, k.X : k.Z + 1] if whole else None
+
+    def proven(self, chords: Floats, progress: Progress = NO_PROGRESS) -> NDArray[np.bool_]:
+        """Return which ways (m, 6) of the tip, from a place to a place, go nowhere deeper than ALLOWED into what is to be left."""
+        from app.surface import chord_kernels
+
+        lowered = np.ascontiguousarray(chords - np.array([0, 0, self._leave, 0, 0, self._leave]))
+        found = np.zeros(len(chords), np.bool_)
+        spans = [(first, min(first + _CHORDS, len(chords))) for first in range(0, len(chords), _CHORDS)]
+        waiting = [pool().submit(chord_kernels.clear_all, self._held, self._shape, lowered, *span, ALLOWED, found) for span in spans]
+        for n, each in enumerate(waiting):
+            each.result()
+            progress.step((n + 1) / len(waiting), "Proving")
+        return found
+
+    def _rows(self, line: Floats) -> Floats:
+        k = self._kernels
+        room = _ROOM
+        while True:
+            out = np.empty((room, k.COLUMNS))
+            count = k.follow(self._held, self._shape, line, self._rules, out)
+            if count >= 0:
+                break
+            if count == k.NO_PROOF or room > 1 << 24:
+                x, y = line[:2] + line[4] * line[2:4]
+                raise GeometryError(f"the pass from ({x:.3f}, {y:.3f}) could not be proven; make its tolerance larger.")
+            room *= 4
+        rows: Floats = out[:count].copy()
+        for column in (k.FACET, k.LEFT):
+            facet = rows[:, column].astype(np.int64)
+            rows[:, column] = np.where(facet >= 0, self._order[np.maximum(facet, 0)], -1)
+        rows[:, [k.Z, k.TRUE_Z]] += self._leave
+        return rows
+
+
+def cutter_path(follower: Follower, planes: Planes, area: shapely.Geometry | None = None,
+                progress: Progress = NO_PROGRESS) -> Compound:  # fmt: skip
+    """Return the path of a cutter's tip over surfaces: one run or more on each plane, rising along it.
+
+    Its centre stays within the box round the surfaces, seen along the planes. Where it passes from one surface to another, a
+    boundary point is solved for: there it touches both.
+
+    Args:
+        area: where the cutter's centre may be, XY; None: everywhere.
+
+    Raises:
+        GeometryError: a chord could not be proven.
+        Cancelled: the job was asked to stop.
+    """
+    facets = follower.facets
+    whole, _ = extent_on(planes, facets.triangles[:, :, :2].reshape(-1, 2))
+    jobs = [(plane, part) for plane in range(len(planes.offsets)) for part in stretches(planes, plane, whole, area)]
+    waiting = [pool().submit(follower.along, planes, plane, part) for plane, part in jobs]
+    rows: list[Floats] = []
+    try:
+        for n, each in enumerate(waiting):
+            rows.append(each.result())
+            progress.step((n + 1) / len(waiting), "Following the surfaces")
+    except BaseException:
+        for each in waiting:
+            each.cancel()
+        raise
+    return _compound(facets, planes, [plane for plane, _ in jobs], rows)
+
+
+def _compound(facets: Facets, planes: Planes, numbers: Sequence[int], parts: Sequence[Floats]) -> Compound:
+    """Return rows of points as runs and boundary points."""
+    from app.surface import follow_kernels as k
+
+    runs: list[Run] = []
+    for plane, rows in zip(numbers, parts, strict=True):
+        starts = np.flatnonzero(rows[:, k.NEW] == k.BEGINS)
+        for first, stop in zip(starts.tolist(), [*starts[1:].tolist(), len(rows)], strict=True):
+            if stop - first > 1:
+                owner = facets.owner[rows[first : stop - 1, k.FACET].astype(np.int64)]
+                runs.append(Run(plane, rows[first:stop, k.X : k.Z + 1].copy(), owner))
+    return Compound(planes, tuple(runs), _boundaries(facets, planes, numbers, parts))
+
+
+def _boundaries(facets: Facets, planes: Planes, numbers: Sequence[int], parts: Sequence[Floats]) -> Boundaries:
+    """Return where the path passes from surface to surface: where it touches both, and where it jumps from one to the other."""
+    from app.surface import follow_kernels as k
+
+    found: list[tuple[int, Floats, Floats, bool]] = []
+    for plane, rows in zip(numbers, parts, strict=True):
+        met = rows[:, k.NEW] == k.BOUNDARY
+        left, right = rows[:, k.LEFT].astype(np.int64), rows[:, k.FACET].astype(np.int64)
+        for n in np.flatnonzero(met).tolist():
+            found.append((plane, rows[n], rows[n], False))
+        corners = np.flatnonzero(rows[:, k.NEW] == k.CORNER)
+        for n in corners[(corners > 0) & (corners < len(rows) - 1)].tolist():
+            if facets.owner[right[n - 1]] != facets.owner[left[n + 1]]:
+                found.append((plane, rows[n - 1], rows[n + 1], True))
+    found.sort(key=lambda each: (each[0], each[1][k.S]))
+    if not found:
+        return Boundaries.none()
+    where = np.array([each[0] for each in found])
+    here, there = np.array([each[1] for each in found]), np.array([each[2] for each in found])
+    jump = np.array([each[3] for each in found])
+    one = np.where(jump, here[:, k.FACET], here[:, k.LEFT]).astype(np.int64)
+    other = np.where(jump, there[:, k.LEFT], there[:, k.FACET]).astype(np.int64)
+    at_one = np.where(jump[:, None], here[:, [k.U, k.V]], here[:, [k.LEFT_U, k.LEFT_V]])
+    at_other = np.where(jump[:, None], there[:, [k.LEFT_U, k.LEFT_V]], there[:, [k.U, k.V]])
+    place = np.array([(*planes.place(p, s), z) for p, s, z in zip(where.tolist(), here[:, k.S], here[:, k.TRUE_Z], strict=True)])
+    end = np.array([(*planes.place(p, s), z) for p, s, z in zip(where.tolist(), there[:, k.S], there[:, k.TRUE_Z], strict=True)])
+    sides = (surface_parameters(facets, one, at_one), surface_parameters(facets, other, at_other))
+    kind = np.where(jump, BoundaryKind.JUMP, kinds_of(facets, (one, other), sides))
+    return Boundaries(where, facets.owner[one], facets.owner[other], place, end, *sides, kind.astype(np.uint8))

@@ -1,0 +1,146 @@
+"""Patches into facets that are proven to be as near to them as asked, fine where they curve and coarse where they are flat.
+
+A surface whose second derivatives are no longer than M_uu, M_uv and M_vv is nowhere farther from a triangle with its corners
+on it, a by b in parameters, than (a² M_uu + 2 a b M_uv + b² M_vv) / 8 (Filip, Magedson, Markot 1986). The derivatives are
+bounded by the differences of control points, whose hull holds them; of rational patches by the quotient rule on such bounds.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.errors import GeometryError
+from app.progress import NO_PROGRESS, Progress
+from app.surface.facets import Facets
+from app.surface.patch import Patches, bernstein
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+_GRID = 8
+"""Most facets along a side of a sub-patch; one that wants more is halved, and bounded anew, more closely."""
+MOST_FACETS = 8_000_000
+
+
+def tessellate(patches: Patches, tolerance: float, progress: Progress = NO_PROGRESS) -> Facets:
+    """Return facets no farther from their patches than a tolerance, mm, > 0.
+
+    Raises:
+        GeometryError: there would be more than MOST_FACETS of them.
+        Cancelled: the job was asked to stop.
+    """
+    control, number, box, counts = _divided(patches, tolerance, progress)
+    made: list[tuple[Floats, Ints, Floats, Floats]] = []
+    bounds = _second_derivatives(control)
+    for nu, nv in np.unique(counts, axis=0).tolist():
+        rows = np.flatnonzero((counts == (nu, nv)).all(axis=1))
+        progress.step(0.5, "Making facets")
+        triangles, corners = _grid(control[rows], box[rows], (nu, nv))
+        uu, uv, vv = bounds[rows].T
+        error = (uu / nu**2 + 2 * uv / (nu * nv) + vv / nv**2) / 8
+        each = 2 * nu * nv
+        made.append((triangles, np.repeat(number[rows], each), corners, np.repeat(error, each)))
+    triangles, patch, corners, error = (np.concatenate(column) for column in zip(*made, strict=True))
+    kept = _wide(triangles)
+    found = Facets(triangles, patches.owner[patch], patch, corners, error, patches)
+    return found if kept.all() else found.only(kept)
+
+
+def _divided(patches: Patches, tolerance: float, progress: Progress) -> tuple[Floats, Ints, Floats, Ints]:
+    """Return sub-patches (control points, patch, u0 v0 u1 v1) and how many facets each wants along u and v."""
+    control, number = patches.control, np.arange(len(patches))
+    box = np.tile([0.0, 0.0, 1.0, 1.0], (len(patches), 1))
+    done: list[tuple[Floats, Ints, Floats, Ints]] = []
+    total = 0
+    while len(control):
+        progress.step(0.0, "Making facets")
+        counts = _counts(_second_derivatives(control), tolerance)
+        fine = (counts <= _GRID).all(axis=1)
+        done.append((control[fine], number[fine], box[fine], counts[fine]))
+        total += 2 * int(np.minimum(counts, _GRID).prod(axis=1).sum())
+        if total > MOST_FACETS:
+            raise GeometryError(f"facets {tolerance:g} mm near the surfaces would be more than {MOST_FACETS:,}; allow a larger tolerance.")
+        control, number, box, counts = control[~fine], number[~fine], box[~fine], counts[~fine]
+        for axis in (0, 1):
+            wanting = counts[:, axis] > _GRID
+            first, second = _halves(control[wanting], axis)
+            below, above = box[wanting].copy(), box[wanting].copy()
+            below[:, 2 + axis] = above[:, axis] = (box[wanting, axis] + box[wanting, 2 + axis]) / 2
+            control = np.concatenate([control[~wanting], first, second])
+            number = np.concatenate([number[~wanting], number[wanting], number[wanting]])
+            box = np.concatenate([box[~wanting], below, above])
+            counts = np.concatenate([counts[~wanting], counts[wanting], counts[wanting]])
+    columns = list(zip(*done, strict=True))
+    return tuple(np.concatenate(column) for column in columns)  # type: ignore[return-value]
+
+
+def _counts(bounds: Floats, tolerance: float) -> Ints:
+    """Return how many facets along u and v (n, 2) keep within a tolerance, as few as may be."""
+    uu, uv, vv = np.maximum(bounds, 1e-30).T
+    uu, vv = uu + 0.1 * uv, vv + 0.1 * uv
+    each = 8 * tolerance / (2 + 2 * uv / np.sqrt(uu * vv))
+    wanted = np.maximum(np.sqrt(np.column_stack([uu / each, vv / each])), 1.0)
+    return np.asarray(np.ceil(np.minimum(wanted, 1e6) * (1 - 1e-9)), np.int64)
+
+
+def _second_derivatives(control: Floats) -> Floats:
+    """Return bounds (n, 3) of the lengths of S_uu, S_uv and S_vv over whole patches, mm."""
+    p, q = control.shape[1] - 1, control.shape[2] - 1
+    weight = control[..., 3]
+    least = weight.min(axis=(1, 2))
+    corners = control[:, [0, 0, -1, -1], [0, -1, 0, -1]]
+    centre = (corners[..., :3] / corners[..., 3:]).mean(axis=1)
+    about = control[..., :3] - weight[..., None] * centre[:, None, None]
+
+    def most(array: Floats, u: int, v: int) -> Floats:
+        """Return the largest difference of control points, so many times along u and v, as a derivative."""
+        for axis, degree, times in ((1, p, u), (2, q, v)):
+            if times > degree:
+                return np.zeros(len(array))
+            for k in range(times):
+                array = np.diff(array, axis=axis) * (degree - k)
+        lengths = np.linalg.norm(array, axis=-1) if array.ndim == 4 else np.abs(array)
+        return np.asarray(lengths.max(axis=(1, 2)))
+
+    far = most(about / weight[..., None], 0, 0)
+    w_u, w_v = most(weight, 1, 0), most(weight, 0, 1)
+    s_u, s_v = (most(about, 1, 0) + w_u * far) / least, (most(about, 0, 1) + w_v * far) / least
+    uu = most(about, 2, 0) + most(weight, 2, 0) * far + 2 * w_u * s_u
+    uv = most(about, 1, 1) + most(weight, 1, 1) * far + w_u * s_v + w_v * s_u
+    vv = most(about, 0, 2) + most(weight, 0, 2) * far + 2 * w_v * s_v
+    return np.asarray(np.column_stack([uu, uv, vv]) / least[:, None])
+
+
+def _halves(control: Floats, axis: int) -> tuple[Floats, Floats]:
+    """Return the halves of patches along u or v (de Casteljau)."""
+    points = np.moveaxis(control, axis + 1, 0)
+    first, second = [points[0]], [points[-1]]
+    while len(points) > 1:
+        points = (points[:-1] + points[1:]) / 2
+        first.append(points[0])
+        second.append(points[-1])
+    return np.moveaxis(np.array(first), 0, axis + 1), np.moveaxis(np.array(second[::-1]), 0, axis + 1)
+
+
+def _grid(control: Floats, box: Floats, counts: tuple[int, int]) -> tuple[Floats, Floats]:
+    """Return the triangles (k, 3, 3) of sub-patches, so many along u and v, and the parameters (k, 3, 2) of their corners."""
+    nu, nv = counts
+    u, v = np.arange(nu + 1) / nu, np.arange(nv + 1) / nv
+    made = np.einsum("ai,bj,nijc->nabc", bernstein(u, control.shape[1] - 1), bernstein(v, control.shape[2] - 1), control)
+    places = made[..., :3] / made[..., 3:]
+    across = box[:, None, 0] + (box[:, 2] - box[:, 0])[:, None] * u
+    along = box[:, None, 1] + (box[:, 3] - box[:, 1])[:, None] * v
+    shape = (len(control), nu + 1, nv + 1)
+    whole = np.concatenate([places, np.stack([np.broadcast_to(across[:, :, None], shape), np.broadcast_to(along[:, None], shape)], axis=3)],
+                           axis=3)  # fmt: skip
+    a, b, c, d = whole[:, :-1, :-1], whole[:, 1:, :-1], whole[:, 1:, 1:], whole[:, :-1, 1:]
+    both = np.stack([np.stack([a, b, c], axis=3), np.stack([a, c, d], axis=3)], axis=3).reshape(-1, 3, 5)
+    return np.ascontiguousarray(both[..., :3]), np.ascontiguousarray(both[..., 3:])
+
+
+def _wide(triangles: Floats) -> NDArray[np.bool_]:
+    """Return which triangles are not points or lines; those at a surface's poles are left out."""
+    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
+    same = (a == b).all(axis=1) | (b == c).all(axis=1) | (c == a).all(axis=1)
+    return np.asarray(~same)

@@ -1,0 +1,174 @@
+"""Paths of cutters over surfaces against closed forms: never too deep anywhere along a chord, never needlessly high."""
+
+import io
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+import trimesh
+
+from app.model.scene_shapes import TorusShape
+from app.model.tool import Tool, ToolKind
+from app.surface.compound import BoundaryKind, Compound
+from app.surface.drop_cutter import drop
+from app.surface.facets import Facets
+from app.surface.path import ALLOWED, Follower, FollowOptions, cutter_path
+from tests.surface.scenes import along_x, ball, facets_of, plane
+
+TORUS = Path(__file__).parents[1] / "data" / "meshes" / "torus.stl"
+BALL = Tool(1, 4.0, ToolKind.BALL)
+GOUGE = 1e-4
+
+
+def chords(compound: Compound) -> np.ndarray:
+    return np.concatenate([np.concatenate([run.points[:-1], run.points[1:]], axis=1) for run in compound.runs])
+
+
+def nearest(ways: np.ndarray, centre: tuple[float, float, float]) -> np.ndarray:
+    """Return how near segments (m, 6) come to a place."""
+    start, way = ways[:, :3] - centre, ways[:, 3:] - ways[:, :3]
+    share = np.clip(-np.sum(start * way, axis=1) / np.sum(way * way, axis=1), 0, 1)
+    return np.linalg.norm(start + share[:, None] * way, axis=1)
+
+
+def centres(ways: np.ndarray, radius: float) -> np.ndarray:
+    """Return the ways of a ball's centre."""
+    return ways + np.array([0, 0, radius, 0, 0, radius])
+
+
+SPHERES = ((15.0, 0.0, 1.0, 6.0), (24.0, 2.0, -3.0, 9.0))
+
+
+def spheres() -> Facets:
+    return facets_of(plane(0, -10, 60, 10), *(ball(*each) for each in SPHERES))
+
+
+def ball_height(x: np.ndarray, y: float, radius: float, leave: float = 0.0) -> np.ndarray:
+    """Return the tip's height over the spheres and the plane."""
+    heights = [np.full_like(x, leave)]
+    for cx, cy, cz, r in SPHERES:
+        square = (r + radius + leave) ** 2 - (x - cx) ** 2 - (y - cy) ** 2
+        heights.append(np.where(square > 0, cz - radius + np.sqrt(np.maximum(square, 0)), -np.inf))
+    return np.maximum.reduce(heights)
+
+
+@pytest.mark.parametrize(("leave", "tolerance", "grid"), [(0.0, 0.01, 0.0), (0.3, 0.002, 0.0), (0.0, 0.05, 1e-3)])
+def test_a_ball_over_spheres_goes_in_nowhere_and_is_not_needlessly_high(leave: float, tolerance: float, grid: float) -> None:
+    follower = Follower(spheres(), BALL, FollowOptions(leave, tolerance, grid))
+    path = cutter_path(follower, along_x(-4.0, 0.0, 1.7, 7.0))
+    ways = chords(path)
+    for *centre, radius in SPHERES:
+        off = nearest(centres(ways, BALL.radius), (centre[0], centre[1], centre[2])) - radius - BALL.radius - leave
+        assert off.min() >= -GOUGE
+    assert ways[:, [2, 5]].min() >= leave - GOUGE
+    for y in path.planes.offsets:
+        mine = ways[np.abs(ways[:, 1] - y) < 1e-3]
+        for share in (0.0, 0.3, 0.5):
+            at = mine[:, :3] + share * (mine[:, 3:] - mine[:, :3])
+            high = at[:, 2] - ball_height(at[:, 0], y, BALL.radius, leave)
+            slope = np.abs(mine[:, 5] - mine[:, 2]) / np.maximum(np.abs(mine[:, 3] - mine[:, 0]), 1e-12)
+            assert (high - (1 + slope) * grid)[slope < 20].max() <= 1.5 * tolerance * np.sqrt(1 + slope.max() ** 2) + 1e-6
+            assert (high - (1 + slope) * grid)[slope < 1].max() <= 1.5 * tolerance + 1e-6
+    if grid:
+        assert np.abs(ways / grid - np.round(ways / grid)).max() < 1e-6
+
+
+def test_boundary_points_touch_both() -> None:
+    path = cutter_path(Follower(spheres(), BALL), along_x(-4.0, 0.0, 1.7))
+    marks = path.boundaries
+    assert set(marks.kind.tolist()) == {int(BoundaryKind.CROSSING)}
+    bodies = dict(enumerate(SPHERES, 1))
+    for n in range(len(marks)):
+        x, y, z = marks.place[n].tolist()
+        for number in (int(marks.before[n]), int(marks.after[n])):
+            cx, cy, cz, r = bodies.get(number, (x, y, -1e9, 0.0))
+            gap = z if number == 0 else math.dist((x, y, z + BALL.radius), (cx, cy, cz)) - r - BALL.radius
+            assert abs(gap) <= 1e-8
+    assert len(marks) == 9  # plane, first, second, plane on each: at each of three planes
+
+
+@pytest.mark.parametrize("tool", [Tool(1, 4.0), Tool(1, 4.0, ToolKind.BULL, corner_radius=0.5), BALL], ids=["flat", "bull", "ball"])
+def test_points_over_a_sphere_in_closed_form(tool: Tool) -> None:
+    corner = {ToolKind.FLAT: 0.0, ToolKind.BULL: 0.5, ToolKind.BALL: 2.0}[tool.kind]
+    path = cutter_path(Follower(facets_of(ball(0, 0, 0, 10)), tool, FollowOptions(0.0, 0.02)), along_x(3.0))
+    points = np.concatenate([run.points for run in path.runs])
+    from_axis = np.hypot(points[:, 0], points[:, 1])
+    out = np.maximum(from_axis - (tool.radius - corner), 0.0)
+    true = np.sqrt(np.maximum((10 + corner) ** 2 - out**2, 0)) - corner
+    inside = from_axis < 9.5
+    assert points[inside, 2] == pytest.approx(true[inside], abs=1e-6)
+    middle = (points[1:] + points[:-1]) / 2
+    out = np.maximum(np.hypot(middle[:, 0], middle[:, 1]) - (tool.radius - corner), 0.0)
+    along = np.sqrt(np.maximum((10 + corner) ** 2 - out**2, 0)) - corner
+    near = np.hypot(middle[:, 0], middle[:, 1]) < 8
+    assert (middle[:, 2] - along)[near].min() >= -2e-4
+
+
+def torus_height(x: np.ndarray, y: np.ndarray, radius: float) -> np.ndarray:
+    square = (0.5 + radius) ** 2 - (np.hypot(x, y) - 1.0) ** 2
+    return np.where(square > 0, np.sqrt(np.maximum(square, 0)) - radius, -np.inf)
+
+
+def test_a_ball_over_a_torus_goes_along_the_offset_torus() -> None:
+    tool = Tool(1, 0.5, ToolKind.BALL)
+    facets = facets_of(TorusShape((0.0, 0.0, 0.0), 1.0, 0.5))
+    path = cutter_path(Follower(facets, tool, FollowOptions(0.0, 0.005)), along_x(*np.linspace(-1.6, 1.6, 17).tolist()))
+    points = np.concatenate([run.points for run in path.runs])
+    true = torus_height(points[:, 0], points[:, 1], 0.25)
+    well = np.abs(np.hypot(points[:, 0], points[:, 1]) - 1.0) < 0.74
+    assert np.abs(points[well, 2] - true[well]).max() <= 1e-6
+
+
+def test_a_ball_over_the_triangles_of_a_torus_is_as_near_as_they_are() -> None:
+    mesh = trimesh.load_mesh(io.BytesIO(TORUS.read_bytes()), file_type="stl")
+    facets, tool = Facets.of_mesh(np.array(mesh.triangles)), Tool(1, 0.5, ToolKind.BALL)
+    x, y = (grid.ravel() for grid in np.meshgrid(np.linspace(-1.4, 1.4, 60), np.linspace(-1.4, 1.4, 60)))
+    true, well = torus_height(x, y, 0.25), np.abs(np.hypot(x, y) - 1.0) < 0.6
+    found = drop(facets, tool, np.column_stack([x, y])).height
+    assert np.abs(found - true)[well].max() <= 3e-3  # its corners lie on the torus, its faces do not
+
+
+def test_a_way_that_was_lowered_is_not_proven() -> None:
+    follower = Follower(spheres(), BALL, FollowOptions(0.0, 0.01))
+    ways = chords(cutter_path(follower, along_x(0.0)))
+    assert follower.proven(ways).all()
+    deep = 0.001
+    down = ways - np.array([0, 0, deep, 0, 0, deep])
+    assert not follower.proven(down)[ways[:, [2, 5]].max(axis=1) < 5].any()
+    assert follower.proven(ways + np.array([0, 0, deep, 0, 0, deep])).all()
+    across = np.array([[5.0, 0.0, 0.0, 40.0, 0.0, 0.0]])
+    assert not follower.proven(across).any() and follower.proven(across + np.array([0, 0, 9, 0, 0, 9])).all()
+
+
+def test_paths_stay_where_they_may_be_and_say_where_there_is_nothing() -> None:
+    area = shapely.union(shapely.box(2, -20, 10, 20), shapely.box(30, -20, 41.5, 20))
+    path = cutter_path(Follower(spheres(), BALL), along_x(0.0, 4.0), area)
+    ends = sorted((run.plane, run.points[0, 0], run.points[-1, 0]) for run in path.runs)
+    assert [number for number, *_ in ends] == [0, 0, 1, 1]
+    assert np.array(ends)[:, 1:] == pytest.approx(np.array([[2, 10], [30, 41.5]] * 2), abs=1e-9)
+
+
+def test_where_surfaces_end_the_cutter_rolls_over_the_edge_and_jumps_down() -> None:
+    facets = facets_of(plane(0, -5, 10, 5, z=6), plane(0, -5, 30, 5))
+    path = cutter_path(Follower(facets, BALL), along_x(0.0))
+    points = np.concatenate([run.points for run in path.runs])
+    rolling = points[(points[:, 0] > 10) & (points[:, 0] < 11.9)]
+    assert rolling[:, 2] == pytest.approx(4 + np.sqrt(4 - (rolling[:, 0] - 10) ** 2), abs=1e-6)
+    assert path.boundaries.kind.tolist() == [BoundaryKind.JUMP]
+    assert path.boundaries.place[0, 0] == pytest.approx(12.0, abs=1e-3)
+    ways = chords(path)
+    low = np.minimum(ways[:, 2], ways[:, 5])
+    assert (low[np.minimum(ways[:, 0], ways[:, 3]) < 11.9] > 3.9).all()
+
+
+def test_where_surfaces_coincide_the_path_stays_on_the_one_it_came_on() -> None:
+    path = cutter_path(Follower(facets_of(plane(0, 0, 10, 10), plane(5, 0, 15, 10)), BALL), along_x(5.0))
+    (run,) = path.runs
+    changes = np.flatnonzero(np.diff(run.owner))
+    assert len(changes) == 1 and run.points[changes[0] + 1, 0] == pytest.approx(10.0, abs=0.01)
+
+
+def test_what_is_allowed_is_less_than_what_is_promised() -> None:
+    assert ALLOWED < GOUGE
