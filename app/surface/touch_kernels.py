@@ -1,6 +1,6 @@
-"""Compiled: where exactly a ball touches a patch, by Newton's method from a facet near it.
+"""Compiled: where exactly a cutter touches a patch, by Newton's method from a place near it.
 
-Where a ball touches a smooth surface that rises by the tangent of some angle, it does so at a distance from its axis that its shape
+Where a ball, or another cutter without a cone, touches a smooth surface that rises by the tangent of some angle, it does so at a distance from its axis that its shape
 gives, uphill. So the place of the patch is known by its slope: two equations for two parameters. Along a patch's side the one
 parameter is that at which the tip is highest. What comes out is the tip over a true place of the surface: never too high.
 """
@@ -19,6 +19,8 @@ _SLOPE_STEP, _TURN_STEP = 1e-6, 1e-4
 _TIMES, _SIDE_TIMES = 8, 24
 _SAME = 1e-11
 _OUTSIDE = 1e-9
+_INSIDE = 1.0 - 1e-9
+"""Touched so much nearer to the axis than it would be: rounding puts no place of a cutter's rim out of its reach."""
 
 
 @kernel(f"float64({_NETS}, int64, float64, float64, float64, float64, {_R})", counts=False)
@@ -41,7 +43,7 @@ def _off(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
         return math.nan, math.nan
     east, north = -nx / nz, -ny / nz
     steep = length(east, north)
-    far = contact(steep, shape) / steep if steep > 0.0 else 0.0
+    far = _INSIDE * contact(steep, shape) / steep if steep > 0.0 else 0.0
     return ax - x - far * east, ay - y - far * north
 
 
