@@ -26,7 +26,7 @@ JOB_TABLES = ("tool", "heights", "origin", "output")
 _UNITS = {"mm": 1.0, "in": 25.4}
 _NO_LENGTHS = frozenset({
     "number", "flutes", "spindle_speed", "tip_angle", "feeds", "angle_deg", "rotate_deg", "turn_deg", "scale",
-    "degree", "degree_u", "degree_v", "knots_u", "knots_v", "weights", "x_axis", "y_axis", "axis",
+    "degree", "degree_u", "degree_v", "knots", "knots_u", "knots_v", "weights", "x_axis", "y_axis", "axis",
 })  # fmt: skip
 """Keys whose numbers are the same in inches."""
 
@@ -91,6 +91,13 @@ def _scene(text: JobText, tables: _Tables, job: Job, origin_z: OriginZ | None) -
         except HitofudeError as error:
             raise InputError(f"{text.name}:{text.line('passes', index, 'tool')}: {error}") from error
     return scene
+
+
+def in_own_units(tables: dict[str, Any], units: str, back: bool) -> dict[str, Any]:
+    """Return tables of a text whose lengths are in `units` in mm, or, `back`, those in mm in its units; others as they are."""
+    size = _UNITS.get(units, 1.0)
+    scaled: dict[str, Any] = tables if size == 1.0 else _scaled(tables, 1.0 / size if back else size)
+    return scaled
 
 
 def _scaled(value: Any, factor: float) -> Any:

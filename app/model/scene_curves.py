@@ -53,6 +53,7 @@ class SectionCurve:
         closed: back to the first point, which is not repeated; smooth there, but a polyline.
         spacing: of the parameters of points that it goes through.
         weights: one > 0 for each control point, or none: all alike.
+        knots: of an open curve's control points, as many as they and degree + 1 more, or none: even ones.
         drawing: name of a file; its lines, arcs and circles are taken exactly.
         layer: the contour is on this layer, or "": on any.
         number: of the contour, from 1 on, in the order of the drawing.
@@ -65,6 +66,7 @@ class SectionCurve:
     closed: bool = False
     spacing: Spacing = Spacing.CENTRIPETAL
     weights: tuple[float, ...] = ()
+    knots: tuple[float, ...] = ()
     drawing: str = ""
     layer: str = ""
     number: int = 1
@@ -83,7 +85,19 @@ class SectionCurve:
             raise ParameterError(f"The degree of a section curve is {self.degree}; use 1 to {MOST_DEGREE}.")
         if self.weights and (self.form is CurveForm.THROUGH or len(self.weights) != len(self.points) or min(self.weights) <= 0):
             raise ParameterError('Weights belong to control points, one greater than 0 each; set form = "control", or take them out.')
+        if self.knots:
+            self._check_knots()
         check_axes(self.x_axis, self.y_axis)
+
+    def _check_knots(self) -> None:
+        knots, degree, count = self.knots, self.degree, len(self.points)
+        if self.form is CurveForm.THROUGH or self.closed or count <= degree:
+            raise ParameterError('Knots belong to more control points than the degree, of an open curve; set form = "control", '
+                                 "or take them out.")
+        if len(knots) != count + degree + 1 or list(knots) != sorted(knots) or not all(abs(knot) < 1e9 for knot in knots):
+            raise ParameterError(f"Knots of a section curve are {len(knots)}; give {count + degree + 1} that do not fall, or none.")
+        if not knots[0] == knots[degree] < knots[count] == knots[-1]:
+            raise ParameterError(f"Knots of a section curve are not clamped; repeat the first and the last one {degree + 1} times.")
 
     def _check_points(self) -> None:
         sizes = {len(point) for point in self.points}

@@ -83,6 +83,8 @@ def _controlled(section: SectionCurve) -> Nurbs:
     places = _places(section)
     weights = np.array(section.weights or [1.0] * len(section.points))
     degree = min(section.degree, len(section.points) - 1)
+    if section.knots:
+        return Nurbs(places, weights, np.array(section.knots), degree)
     if not section.closed:
         return Nurbs(places, weights, even_knots(len(places), degree), degree)
     count = len(section.points)
@@ -114,13 +116,14 @@ def _drawn(section: SectionCurve, sources: Sources) -> Resolved:
     if section.number > len(contours):
         raise GeometryError(f"{section.drawing} has {len(contours)} contours there, so none with number {section.number}; "
                             f"use 1 to {len(contours)}.")
-    contour = contours[section.number - 1]
+    flat = flat_curve(contours[section.number - 1], part)
+    return Resolved(Nurbs(placed(flat.curve.points, section), flat.curve.weights, flat.curve.knots, flat.curve.degree), flat.deviation)
+
+
+def flat_curve(contour: Contour, part: Part) -> Resolved:
+    """Return a contour of a drawing as a curve in the plane z = 0: splines as they are, lines, arcs and circles exactly."""
     curve = part.curve(contour.entity_ids[0]) if len(contour.entity_ids) == 1 else None
-    if isinstance(curve, Spline):
-        flat, deviation = _spline(curve), 0.0
-    else:
-        flat, deviation = of_primitives(contour.primitives), contour.deviation
-    return Resolved(Nurbs(placed(flat.points, section), flat.weights, flat.knots, flat.degree), deviation)
+    return Resolved(_spline(curve)) if isinstance(curve, Spline) else Resolved(of_primitives(contour.primitives), contour.deviation)
 
 
 def _spline(spline: Spline) -> Nurbs:

@@ -29,6 +29,8 @@ from app.ui.plot.panel import PlotPanel
 from app.ui.stages.import_panel import ImportPanel
 from app.ui.stages.stages_panel import StagesPanel
 from app.ui.status_bar import StatusBar
+from app.ui.surfaces.scene_document import SceneDocument
+from app.ui.surfaces.scene_side import SceneSide
 from app.ui.theme import DARK, LIGHT, Theme
 from app.ui.tool_strip import ToolStrip
 from app.ui.views import Views
@@ -67,6 +69,8 @@ class MainWindow(QMainWindow):
         self.side.add_page("Drawing", self.drawing_page, "properties, layers and history of what is drawn")
         self.cut_form, self.curves_panel = SetupForm(), CurvesPanel()
         self.stages_panel, self.import_panel, self.plot_panel = StagesPanel(), ImportPanel(), PlotPanel()
+        self.scene = SceneDocument(self)
+        self.scene_side = SceneSide(self.scene)
         self.notice, self.command_line, self.status = Notice(), CommandLine(), StatusBar()
         self.top_bar, self.tool_strip = TopBar(self.actions_), ToolStrip(self.actions_)
         self.findings_list = FindingsList(self)
@@ -89,7 +93,8 @@ class MainWindow(QMainWindow):
         middle.addWidget(self.tool_strip)
         middle.addLayout(centre, 1)
         middle.addWidget(self.side)
-        for widget in (self.import_panel, self.stages_panel, self.cut_panel, self.cut_form, self.curves_panel, self.plot_panel):
+        for widget in (self.import_panel, self.stages_panel, self.cut_panel, self.cut_form, self.curves_panel, self.scene_side,
+                       self.plot_panel):
             middle.addWidget(widget)
             widget.hide()
         root = QWidget()

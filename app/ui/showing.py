@@ -39,12 +39,14 @@ NO_PATHS = Missing("There are no tool paths yet.", "Compute  F5", "compute")
 NO_CUT = Missing("There is no cut yet.", "Compute  F5", "compute")
 NO_NC = Missing("There is no NC program yet.", "Compute  F5", "compute")
 NO_PROGRAM = Missing("There is no NC program yet. Draw a part and compute it, or open a program.", "Open an NC program", "nc_open")
-NO_SCENE = Missing("No scene is open. Open a scene file (TOML) with surfaces, tools and passes.", "Open a scene")
+NO_SCENE = Missing("No scene is open. Open one, begin one (File, New scene), or look at figure 1 of the 1986 patent.",
+                   "Open figure 1", "scene_compound")
+WRONG_SCENE = Missing("The scene's text is wrong; the line is marked at the right.", "Open another scene")
 SCENE_COMPUTING = Missing("The scene is being computed.", "Cancel  Shift+F5", "cancel")
 NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
 CUT_PROMPT = "Drag turns the cut, the middle button shifts it, Ctrl+drag measures a profile; click the metal to go to its line"
 CURVES_PROMPT = "Say how near curves must keep to the moves, then Smooth; click the deviation to see the place"
-SURFACES_PROMPT = "Drag turns the scene, the middle button shifts it; F5 reads its file again, Ctrl+E writes NC, plot or table"
+SURFACES_PROMPT = "Drag turns the scene, the middle button shifts it; what is set at the right is computed at once; Ctrl+E writes it"
 STAGES_PROMPT = "Space plays, Left and Right step; click a traced line to see its chain code"
 PICTURE_PROMPT = "Say what is ink and how large a pixel is; what lies green is machined"
 COMPUTING = Missing("The paths are being computed.", "Cancel  Shift+F5", "cancel")
@@ -111,6 +113,7 @@ class Showing(QObject):
         self._window.views.show_view(view)
         self.show_prompt()
         self._show_standing()
+        self._show_badge()
         self.view_changed.emit(view)
         self.show_missing()
 
@@ -127,15 +130,20 @@ class Showing(QObject):
             self._window.panel.show_size(self.part_size(), self._document.job)
             self._window.views.legend.show_job(self._document.job)
             self.show_missing()
-        self._show_titles()
+        self.show_titles()
 
-    def _show_titles(self) -> None:
-        document, actions = self._document, self._window.actions_
-        name = document.path.name if document.path else document.part.name
-        self._window.file_label.setText(f"{name}{' *' if document.modified else ''}")
+    def show_titles(self) -> None:
+        """Name the file that is worked on, and what can be undone in it: the drawing, or the scene in its view."""
+        document, scene, actions = self._document, self._window.scene, self._window.actions_
+        on_scene = self.view is View.SURFACES and scene.open
+        name = scene.name if on_scene else document.path.name if document.path else document.part.name
+        modified = scene.modified if on_scene else document.modified
+        self._window.file_label.setText(f"{name}{' *' if modified else ''}")
         self._window.menuBar().setCornerWidget(self._window.file_label)
-        self._window.setWindowTitle(f"{name}{' *' if document.modified else ''} - Hitofude")
-        for action, what, verb in (("undo", document.undo_name, "&Undo"), ("redo", document.redo_name, "&Redo")):
+        self._window.setWindowTitle(f"{name}{' *' if modified else ''} - Hitofude")
+        undo = ("" if scene.document.isUndoAvailable() else None) if on_scene else document.undo_name
+        redo = ("" if scene.document.isRedoAvailable() else None) if on_scene else document.redo_name
+        for action, what, verb in (("undo", undo, "&Undo"), ("redo", redo, "&Redo")):
             text = f"{verb} {what[0].lower()}{what[1:]}" if what else verb
             actions[action].setText(text)
             actions[action].setToolTip(f"{text.replace('&', '')} ({actions[action].shortcut().toString()})")
@@ -143,16 +151,22 @@ class Showing(QObject):
         actions["delete"].setEnabled(bool(document.selection))
         drawn = bool(document.part.entities)
         actions["select_all"].setEnabled(drawn)
-        ready = self._window.views.surfaces.shown is not None if self.view is View.SURFACES else drawn
-        for action in ("export", "compute"):
-            actions[action].setEnabled(ready)
+        in_surfaces, surfaces = self.view is View.SURFACES, self._window.views.surfaces
+        actions["export"].setEnabled(surfaces.shown is not None if in_surfaces else drawn)
+        actions["compute"].setEnabled(scene.open if in_surfaces else drawn)
+
+    def show_scene(self) -> None:
+        """Show where the scene stands."""
+        self._show_badge()
+        self._show_standing()
+        self.show_missing()
 
     def show_missing(self) -> None:
         """Say what the view lacks, if it lacks anything."""
         made = self._computation.made
         missing = self._missing()
         self._empty_action = missing.action
-        self._show_titles()
+        self.show_titles()
         self._window.views.show_missing(missing.sentence, missing.button, made is not None)
         self._show_side()
 
@@ -171,13 +185,15 @@ class Showing(QObject):
         window.stages_panel.setVisible(stages)
         curves = self.view is View.CURVES and not plotting
         window.curves_panel.setVisible(curves)
-        window.side.setVisible(not (asks or tells or stages or picture or curves or plotting or self.view is View.SURFACES))
+        surfaces = self.view is View.SURFACES and not plotting
+        window.scene_side.setVisible(surfaces and window.scene.open)
+        window.side.setVisible(not (asks or tells or stages or picture or curves or plotting or surfaces))
 
     def _missing(self) -> Missing:
         if self._has_something():
             return NOTHING
         if self.view is View.SURFACES:
-            return SCENE_COMPUTING if self._window.views.surfaces.computing else NO_SCENE
+            return SCENE_COMPUTING if self._window.views.surfaces.computing else WRONG_SCENE if self._window.scene.open else NO_SCENE
         if self.view is View.STAGES and self._document.part.entities:
             return self.stages_missing
         if self._computation.state is State.RUNNING:
@@ -232,7 +248,13 @@ class Showing(QObject):
 
     def _show_badge(self) -> None:
         badge, state, made = self._window.status.badge, self._computation.state, self._computation.made
-        if state is State.RUNNING:
+        surfaces = self._window.views.surfaces
+        if self.view is View.SURFACES:
+            if surfaces.computing:
+                badge.show_running()
+            else:
+                badge.show_verdict(surfaces.verdict)
+        elif state is State.RUNNING:
             badge.show_running()
         elif state is State.CURRENT and made is not None:
             badge.show_verdict(verdict(made.findings, made.report.data))
@@ -257,6 +279,10 @@ class Showing(QObject):
             State.FAILED: self._computation.error, State.RUNNING: "The paths are being computed.",
         }
         empty = sentences.get(self._computation.state, "No gouge, nothing left that a tool could reach, no rapid in material.")
+        if self.view is View.SURFACES:
+            said = self._window.views.surfaces.verdict
+            self._window.findings_list.show_findings(self._window.views.surfaces.findings, self._window.status.badge, said.tip or said.text)
+            return
         self._window.findings_list.show_findings(self.findings, self._window.status.badge, empty)
 
     def go_to(self, finding: Finding) -> None:

@@ -44,8 +44,8 @@ from app.ui.showing import Showing
 from app.ui.snapping import Snapping
 from app.ui.stages.picturing import Picturing
 from app.ui.stages.staging import Staging
+from app.ui.surfaces.scene_control import SAMPLES, SceneControl
 from app.ui.surfaces.scene_export import SceneExport
-from app.ui.surfaces.scene_opening import SceneOpening
 from app.ui.tabbing import Tabbing
 from app.ui.tour import Tour
 from app.ui.translation import Translating
@@ -79,7 +79,7 @@ class Wiring(QObject):
         window.views.cut.cell_picked.connect(lambda x, y, z, motion: self._go_to_motion(motion))
         window.cut_panel.line_wanted.connect(self._go_to_motion)
         self.picturing = Picturing(window, self.log)
-        self.scenes, self.scene_export = SceneOpening(window, self.showing, self.log), SceneExport(window, self.log)
+        self.scenes, self.scene_export = SceneControl(window, self.showing, self.log), SceneExport(window, self.log)
         self.files = Files(window, self.showing, self.log, Openers(self.nc.open, self.picturing.open, self.scenes.open))
         self.drawing_export = DrawingExport(window, self.log)
         self.drawing_export.failed.connect(self._say_error)
@@ -101,6 +101,7 @@ class Wiring(QObject):
         self.session_1986 = SessionOpening(window, self.showing, self.log)
         self._connect_stages()
         self._connect_files()
+        self._connect_scenes()
         self._connect_edit()
         self._connect_view()
         self._connect_job()
@@ -123,8 +124,8 @@ class Wiring(QObject):
         self._on("new", files.ask_new)
         self._on("open", files.choose_file)
         self._on("sample", files.ask_sample)
-        self._on("save", files.saving.save)
-        self._on("save_as", files.saving.save_as)
+        self._on("save", lambda: self.scenes.save() if self._on_scene else files.saving.save())
+        self._on("save_as", lambda: self.scenes.save_as() if self._on_scene else files.saving.save_as())
         self._on("save_copy", files.saving.save_copy)
         files.saving.failed.connect(self._say_error)
         self._on("export", self.export)
@@ -134,6 +135,21 @@ class Wiring(QObject):
             part.failed.connect(self._say_error)
         files.exporting.failed.connect(self._say_error)
         files.exporting.show_findings.connect(self._show_worst)
+
+    @property
+    def _on_scene(self) -> bool:
+        """Whether the scene is worked on rather than the drawing."""
+        return self.showing.view is View.SURFACES and self.window_.scene.open
+
+    def _connect_scenes(self) -> None:
+        scenes = self.scenes
+        self._on("scene_new", scenes.new)
+        for name in SAMPLES:
+            self._on(f"scene_{name}", partial(scenes.open_sample, name))
+        self._on("scene_nc", scenes.show_nc)
+        self._on("scene_cut", scenes.show_cut)
+        scenes.nc_wanted.connect(self.nc.show_text)
+        self.window_.closing.connect(scenes.may_close)
 
     def _connect_stages(self) -> None:
         view = self.window_.views.stages
@@ -165,8 +181,9 @@ class Wiring(QObject):
         self.window_.canvas.fit()
 
     def _connect_edit(self) -> None:
-        self._on("undo", self.document.undo)
-        self._on("redo", self.document.redo)
+        scene = self.window_.scene.document
+        self._on("undo", lambda: scene.undo() if self._on_scene else self.document.undo())
+        self._on("redo", lambda: scene.redo() if self._on_scene else self.document.redo())
         self._on("delete", lambda: self.run("delete") if self.document.selection else self._say("Nothing is selected; click a line first."))
         self._on("select_all", lambda: self.run("select all"))
         line = self.window_.command_line
@@ -258,7 +275,7 @@ class Wiring(QObject):
         """Compute the paths and show them; in the Surfaces view the scene's, from its file as it is now."""
         self.window_.notice.dismiss()
         if self.showing.view is View.SURFACES:
-            self.scenes.again()
+            self.scenes.compute()
             return
         self.computation.start()
         if self.showing.view is View.DRAW:

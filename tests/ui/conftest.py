@@ -19,6 +19,7 @@ def wiring(qtbot):
     window.worker.finish(20.0)
     made.document.load(made.document.job)
     made.language.control.text = ""
+    window.scene.document.setModified(False)
     window.close()
     window.deleteLater()
 

@@ -110,8 +110,11 @@ def is_scene(path: Path) -> bool:
         return False
 
 
-def read_shown_scene(path: Path, progress: Progress = NO_PROGRESS) -> ShownScene:
-    """Read a scene, compute it and prepare what is shown of it.
+def shown_scene(path: Path, data: bytes, progress: Progress = NO_PROGRESS) -> ShownScene:
+    """Compute a scene's text and prepare what is shown of it.
+
+    Args:
+        path: of its file; files that it names are beside it. data: the text, UTF-8.
 
     Raises:
         HitofudeError: it cannot be read or computed. Cancelled: the job was asked to stop.
@@ -121,18 +124,24 @@ def read_shown_scene(path: Path, progress: Progress = NO_PROGRESS) -> ShownScene
     from app.workflow.surface import read_and_compute
     from app.workflow.surface_plot import Drawn, PlotScene, by_surface
 
-    def read(place: Path) -> bytes:
-        try:
-            return read_whole(place)
-        except OSError as error:
-            raise InputError(f"Cannot read {place}: {error.strerror}. Choose another file.") from error
-
     progress.step(0.0, f"Computing {path.name}")
-    computed = read_and_compute(path.name, read(path), sources_of(lambda name: read(path.parent / name)), progress.part(0.0, 0.95))
+    computed = read_and_compute(path.name, data, sources_of(lambda name: read_file(path.parent / name)), progress.part(0.0, 0.95))
     drawn = by_surface(computed, PlotScene(drawn=Drawn.BOTH))
     lines = [Line(Role.SURFACE if piece.fine else Role.PATH, piece.points, piece.surface) for piece in drawn.pieces]
     colours = tuple(kind.colour or colour_of(number) for number, kind in enumerate(drawn.surfaces))
     return ShownScene(path, computed, Picture((*lines, *_rapids(computed)), np.asarray(drawn.marks), tuple(drawn.labels)), colours)
+
+
+def read_file(path: Path) -> bytes:
+    """Return the bytes of a file.
+
+    Raises:
+        InputError: it cannot be read.
+    """
+    try:
+        return read_whole(path)
+    except OSError as error:
+        raise InputError(f"Cannot read {path}: {error.strerror}. Choose another file.") from error
 
 
 def _rapids(computed: Computed) -> Iterator[Line]:

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from enum import Enum
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QSlider, QVBoxLayout, QWidget
 
+from app.model.finding import Finding
 from app.ui.cut.camera import StandardView
 from app.ui.figures import counted
 from app.ui.icons import IconButton
 from app.ui.labels import Elided, muted
 from app.ui.nc.heads import bar
 from app.ui.panels.fields import ChoiceField
+from app.ui.surfaces.points_page import Row
 from app.ui.surfaces.scene_canvas import SceneCanvas
 from app.ui.surfaces.shown_scene import ShownScene
+from app.ui.verdict import Level, Verdict
 
 
 class Look(Enum):
@@ -31,15 +34,22 @@ _NAMES = ((Look.SPACE, "3D"), (Look.PLAN, "Plan"), (Look.SECTION, "Section"))
 class SurfacesView(QWidget):
     """Shows a computed scene.
 
+    Signals:
+        point_picked(number): the mouse chose a boundary point.
+
     Attributes:
-        shown: the scene, or None. look: how it is looked at. plane: slider over the cutting planes of all passes.
-        computing: a scene is on its way.
+        shown: the scene, or None. points: its boundary points. look: how it is looked at. plane: slider over all passes' planes.
+        computing: a scene is on its way. verdict, findings: on its program.
     """
+
+    point_picked = Signal(int)
 
     def __init__(self) -> None:
         super().__init__()
         self.shown: ShownScene | None = None
+        self.points: tuple[Row, ...] = ()
         self.look, self.computing = Look.SPACE, False
+        self.verdict, self.findings = Verdict(Level.NONE, "Not computed"), tuple[Finding, ...]()
         self.canvas, self.looks = SceneCanvas(), ChoiceField("", _NAMES)
         self.looks.show_value(self.look)
         self.name, self.plane, self.at = Elided(role="muted"), QSlider(Qt.Orientation.Horizontal), muted()
@@ -70,15 +80,30 @@ class SurfacesView(QWidget):
         planes = counted(len(self.shown.planes), "plane")
         return f"{counted(len(computed.scene.surfaces), 'surface')} · {planes} · {counted(len(computed.moves.moves), 'move')}"
 
-    def show_scene(self, shown: ShownScene) -> None:
-        """Show a scene, all of it."""
-        self.shown = shown
+    def show_scene(self, shown: ShownScene, points: tuple[Row, ...] = (), again: bool = False) -> None:
+        """Show a scene: all of it, or, when it is the one that was shown in another state, from where it is looked at."""
+        self.shown, self.points = shown, points
         self.name.setText(shown.computed.scene.name)
+        last = max(len(shown.planes) - 1, 0)
+        at = min(self.plane.value(), last) if again else len(shown.planes) // 2
         self.plane.blockSignals(True)
-        self.plane.setRange(0, max(len(shown.planes) - 1, 0))
-        self.plane.setValue(len(shown.planes) // 2)
+        self.plane.setRange(0, last)
+        self.plane.setValue(at)
         self.plane.blockSignals(False)
-        self.set_look(self.look)
+        if again:
+            self._show()
+        else:
+            self.set_look(self.look)
+
+    def show_standing(self, verdict: Verdict, findings: tuple[Finding, ...], computing: bool) -> None:
+        """Know what is to be said of the scene's program, and whether it is on its way."""
+        self.verdict, self.findings, self.computing = verdict, findings, computing
+
+    def show_point(self, number: int) -> None:
+        """Show a boundary point: on its plane, or where it is in space."""
+        point = self.points[number]
+        if self.look is Look.SECTION:
+            self.plane.setValue(point.plane)
 
     def set_look(self, look: Look) -> None:
         """Look in another way."""
