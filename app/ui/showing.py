@@ -14,6 +14,7 @@ from app.ui.computation import State
 from app.ui.main_window import MainWindow
 from app.ui.opening import size_of
 from app.ui.samples import Sample
+from app.ui.surfaces.scene_work import SceneState
 from app.ui.verdict import Level, Verdict, verdict
 from app.ui.views import View
 
@@ -42,11 +43,15 @@ NO_PROGRAM = Missing("There is no NC program yet. Draw a part and compute it, or
 NO_SCENE = Missing("No scene is open. Open one, begin one (File, New scene), or look at figure 1 of the 1986 patent.",
                    "Open figure 1", "scene_compound")
 WRONG_SCENE = Missing("The scene's text is wrong; the line is marked at the right.", "Open another scene")
+SCENE_FAILED = Missing("The scene could not be computed; the badge below tells why.", "Compute  F5", "compute")
+SCENE_WAITS = Missing("The scene is not computed yet.", "Compute  F5", "compute")
 SCENE_COMPUTING = Missing("The scene is being computed.", "Cancel  Shift+F5", "cancel")
 NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
 CUT_PROMPT = "Drag turns the cut, the middle button shifts it, Ctrl+drag measures a profile; click the metal to go to its line"
 CURVES_PROMPT = "Say how near curves must keep to the moves, then Smooth; click the deviation to see the place"
 SURFACES_PROMPT = "Drag turns the scene, the middle button shifts it; what is set at the right is computed at once; Ctrl+E writes it"
+_NO_SCENE = {SceneState.NONE: NO_SCENE, SceneState.WRONG: WRONG_SCENE, SceneState.FAILED: SCENE_FAILED, SceneState.CHANGED: SCENE_WAITS,
+             SceneState.COMPUTING: SCENE_COMPUTING, SceneState.PROVING: SCENE_COMPUTING, SceneState.PROVEN: SCENE_COMPUTING}  # fmt: skip
 STAGES_PROMPT = "Space plays, Left and Right step; click a traced line to see its chain code"
 PICTURE_PROMPT = "Say what is ink and how large a pixel is; what lies green is machined"
 COMPUTING = Missing("The paths are being computed.", "Cancel  Shift+F5", "cancel")
@@ -193,7 +198,7 @@ class Showing(QObject):
         if self._has_something():
             return NOTHING
         if self.view is View.SURFACES:
-            return SCENE_COMPUTING if self._window.views.surfaces.computing else WRONG_SCENE if self._window.scene.open else NO_SCENE
+            return _NO_SCENE[self._window.views.surfaces.state]
         if self.view is View.STAGES and self._document.part.entities:
             return self.stages_missing
         if self._computation.state is State.RUNNING:

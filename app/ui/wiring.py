@@ -44,7 +44,7 @@ from app.ui.showing import Showing
 from app.ui.snapping import Snapping
 from app.ui.stages.picturing import Picturing
 from app.ui.stages.staging import Staging
-from app.ui.surfaces.scene_control import SAMPLES, SceneControl
+from app.ui.surfaces.scene_control import SAMPLES, SceneControl, SceneProgram
 from app.ui.surfaces.scene_export import SceneExport
 from app.ui.tabbing import Tabbing
 from app.ui.tour import Tour
@@ -79,7 +79,8 @@ class Wiring(QObject):
         window.views.cut.cell_picked.connect(lambda x, y, z, motion: self._go_to_motion(motion))
         window.cut_panel.line_wanted.connect(self._go_to_motion)
         self.picturing = Picturing(window, self.log)
-        self.scenes, self.scene_export = SceneControl(window, self.showing, self.log), SceneExport(window, self.log)
+        self.scenes = SceneControl(window, self.showing, self.log)
+        self.scene_export = SceneExport(window, self.log, lambda: self.scenes.work.proven)
         self.files = Files(window, self.showing, self.log, Openers(self.nc.open, self.picturing.open, self.scenes.open))
         self.drawing_export = DrawingExport(window, self.log)
         self.drawing_export.failed.connect(self._say_error)
@@ -149,6 +150,7 @@ class Wiring(QObject):
         self._on("scene_nc", scenes.show_nc)
         self._on("scene_cut", scenes.show_cut)
         scenes.nc_wanted.connect(self.nc.show_text)
+        scenes.cut_wanted.connect(self._cut_scene)
         self.window_.closing.connect(scenes.may_close)
 
     def _connect_stages(self) -> None:
@@ -301,7 +303,12 @@ class Wiring(QObject):
         if shown is None:
             self.cutting.back()
         else:
-            self.cutting.show_program(shown)
+            self.cutting.show_program(shown.source, shown.dialect)
+
+    def _cut_scene(self, program: SceneProgram) -> None:
+        """Show what a scene's program leaves of its stock, beside the scene's surfaces."""
+        self.showing.show_view(View.CUT)
+        self.cutting.show_program(program.source, program.dialect, program.part)
 
     def _go_to_motion(self, motion: int) -> None:
         """Show the line of a motion of the cut program, if that is the one which the NC view shows, or can."""

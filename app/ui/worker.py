@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Qt, Signal, Slot
+from shiboken6 import isValid
 
 from app.errors import Cancelled, HitofudeError
 from app.progress import Progress
@@ -100,7 +101,7 @@ class _Runner(threading.Thread):
         except Exception as fault:
             traceback.print_exc()
             error = f"The program made a mistake here ({type(fault).__name__}: {fault}). Your drawing is safe; please report this."
-        if not work.cancelled.is_set():
+        if not work.cancelled.is_set() and isValid(self._worker):  # the window may have gone meanwhile
             self._worker.answered.emit(Answer(work.job_id, work.revision, value, error))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -19,12 +20,14 @@ from app.ui.cut.overlay import Pin
 from app.ui.cut.shown_cut import ProgramFile, ShownCut, shown_cut
 from app.ui.cut.zooming import Zooming
 from app.ui.main_window import MainWindow
-from app.ui.nc.reading import Shown
+from app.ui.nc.reading import Source
 from app.ui.verdict import Level, Verdict, verdict
 from app.ui.worker import Answer, Worker
 
 if TYPE_CHECKING:
+    from app.nc.read.dialect import Dialect
     from app.workflow.make import Made
+    from app.workflow.parts import Part
 
 
 def job_shown(made: Made, name: str, colour: CutColour, progress: Progress) -> ShownCut | None:
@@ -87,13 +90,17 @@ class Cutting(QObject):
         self._form.accepted.connect(self._cut_as)
         self._form.left.connect(self._leave_form)
 
-    def show_program(self, program: Shown) -> None:
-        """Cut a program that is none of the job's; what was there stays until it is cut."""
+    def show_program(self, source: Source, dialect: Dialect, scene: Callable[[], Part] | None = None) -> None:
+        """Cut a program that is none of the job's; what was there stays until it is cut.
+
+        Args:
+            source, dialect: what it is and how it is read. scene: makes what a scene's program is to come to; None: it is no scene's.
+        """
         before = self._foreign
-        given = before.given if before is not None and before.source.bytes() == program.source.bytes() else Given()
+        given = before.given if before is not None and before.source.bytes() == source.bytes() else Given()
         made, job = self._computation.made, self._window.document.job
         part = made.cut.setup.part if made is not None and made.cut is not None else None
-        self._foreign = Foreign(program.source, program.dialect, given, {tool.number: tool for tool in job.tools}, part)
+        self._foreign = Foreign(source, dialect, given, {tool.number: tool for tool in job.tools}, part, scene)
         self._cut_foreign()
 
     def back(self) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -41,6 +41,7 @@ class Foreign:
         source, dialect: what it is and how it is read. given: what was said of it.
         likely: tools of the open job, by T number: the first guess where nobody tells.
         part: of the open job, with which the program may be compared; None = there is none.
+        scene: makes what a scene's program is to come to, with which it is compared; None = it is no scene's.
     """
 
     source: Source
@@ -48,6 +49,7 @@ class Foreign:
     given: Given = field(default_factory=Given)
     likely: Mapping[int, Tool] = field(default_factory=dict)
     part: Part | None = None
+    scene: Callable[[], Part] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +87,7 @@ def foreign_shown(foreign: Foreign, colour: CutColour, progress: Progress) -> Sh
         raise InputError(_without_options(str(error))) from error
     if reason:
         return Asked(reason, foreign, given_of(ready, foreign.given.compare))
-    setup = replace(ready.setup, part=foreign.part if foreign.given.compare else None)
+    setup = replace(ready.setup, part=foreign.scene() if foreign.scene is not None else foreign.part if foreign.given.compare else None)
     result = cut(setup, progress=progress.part(0.3, 0.9))
     shown = shown_cut(result, (ProgramFile(foreign.source.name, data),), colour, progress.part(0.9, 1.0))
     return replace(shown, given=given_of(ready, foreign.given.compare), assumed=tuple(_plain(each) for each in ready.findings))

@@ -82,6 +82,9 @@ class PointsModel(QAbstractTableModel):
         """Name of a column."""
         if orientation is Qt.Orientation.Horizontal and role == Qt.ItemDataRole.DisplayRole:
             return _HEADS[section]
+        if orientation is Qt.Orientation.Horizontal and role == Qt.ItemDataRole.TextAlignmentRole:
+            side = Qt.AlignmentFlag.AlignRight if 1 <= section <= 4 else Qt.AlignmentFlag.AlignLeft
+            return int(side | Qt.AlignmentFlag.AlignVCenter)
         if orientation is Qt.Orientation.Horizontal and role == Qt.ItemDataRole.ToolTipRole:
             return _TIPS[section]
         return None
@@ -109,11 +112,12 @@ class PointsPage(QWidget):
         self.table.verticalHeader().setDefaultSectionSize(24)
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.table.setStyleSheet("QTableView::item { padding-left: 12px; padding-right: 4px; }")
         self.table.setAccessibleName("Boundary points")
         header = self.table.horizontalHeader()
         header.setHighlightSections(False)
         header.setMinimumSectionSize(40)
-        for column, wide in enumerate((64, 48, 76, 76, 76)):
+        for column, wide in enumerate((72, 52, 76, 76, 76)):
             header.resizeSection(column, wide)
         header.setSectionResizeMode(5, QHeaderView.ResizeMode.Stretch)
         whole = QVBoxLayout(self)

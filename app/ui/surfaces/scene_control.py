@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog
@@ -28,16 +30,30 @@ from app.ui.surfaces.scene_work import SceneState, SceneWork
 from app.ui.surfaces.shown_scene import ShownScene, read_file
 from app.ui.views import View
 
+if TYPE_CHECKING:
+    from app.nc.read.dialect import Dialect
+    from app.workflow.parts import Part
+
 SAMPLES = ("compound", "spheres", "torus", "die")
 FILTER = "Scenes (*.toml)"
 _MESHES = "Meshes (*.stl *.obj *.ply)"
+
+
+@dataclass(frozen=True, eq=False)
+class SceneProgram:
+    """A scene's program: its text and how it is read, what it is to come to, and how many there are of it; the first is told of."""
+
+    source: Source
+    dialect: Dialect
+    part: Callable[[], Part]
+    files: int
 
 
 class SceneControl(QObject):
     """Everything between a scene, its view and its files.
 
     Signals:
-        failed(sentence). nc_wanted(source): to be shown in the NC view. cut_wanted(source): in the Cut view, beside the surfaces.
+        failed(sentence). nc_wanted(Source): to be shown in the NC view. cut_wanted(SceneProgram): in the Cut view.
 
     Attributes:
         work: reads and computes. choose_file: asks for a path to save to, given a first choice; choose_mesh: for one to read.
@@ -83,6 +99,9 @@ class SceneControl(QObject):
         side.text.left.connect(self._view.setFocus)
         side.points.chosen.connect(self._view.show_point)
         self._view.point_picked.connect(self._on_point_picked)
+        self._view.surface_picked.connect(lambda number: panel.choose(("surface", number)))
+        self._view.hovered.connect(self._showing.show_hovered)
+        self._view.cursor_moved.connect(self._window.status.show_place)
 
     def open(self, path: Path) -> None:
         """Open a scene file, after asking when changes to another one would be lost."""
@@ -145,15 +164,18 @@ class SceneControl(QObject):
 
     def show_nc(self) -> None:
         """Show the scene's program in the NC view."""
-        source = self._program()
-        if source is not None:
-            self.nc_wanted.emit(source)
+        program = self._program()
+        if program is not None:
+            self.nc_wanted.emit(program.source)
 
     def show_cut(self) -> None:
         """Show what the scene's program leaves of its stock, beside the surfaces."""
-        source = self._program()
-        if source is not None:
-            self.cut_wanted.emit(source)
+        program = self._program()
+        if program is not None and program.files > 1:
+            self.failed.emit(f"This control takes {program.files} programs, one a tool, and the Cut view cuts one; "
+                             "choose a control that changes tools to see the whole cut.")
+        elif program is not None:
+            self.cut_wanted.emit(program)
 
     def add_from_curves(self, kind: str) -> None:
         """Add a surface made of the curves that are selected in the drawing, in the order in which they were drawn."""
@@ -245,8 +267,8 @@ class SceneControl(QObject):
         self._side.text.editor.go_to(1 if name == "scene" else line_of(self.document.text, name, number))
 
     def _on_point_picked(self, number: int) -> None:
-        if self._side.page == POINTS:
-            self._side.points.choose(number)
+        self._side.show_page(POINTS)
+        self._side.points.choose(number)
 
     def _on_read(self, scene: Scene) -> None:
         from app.nc.posts import post_titles
@@ -273,19 +295,28 @@ class SceneControl(QObject):
 
     def _on_stands(self) -> None:
         work, window = self.work, self._window
-        self._view.show_standing(work.verdict, work.findings, work.busy)
+        self._view.show_standing(work.state, work.verdict, work.findings)
         window.actions_["cancel"].setEnabled(work.busy or window.worker.busy)
         if work.busy or not window.worker.busy:
             window.status.show_progress(0.0 if work.busy else None)
         self._showing.show_scene()
 
-    def _program(self) -> Source | None:
+    def _program(self) -> SceneProgram | None:
         proven, shown = self.work.proven, self.work.shown
         if proven is None or shown is None:
             self.failed.emit("The scene's program is not proven yet; wait until it is, or compute it with F5.")
             return None
-        file = proven.written.files[0]
-        return Source(file.named(shown.path.with_suffix(".ngc")).name, data=file.nc.text.encode())
+        written, computed = proven.written, shown.computed
+        file = written.files[0]
+        source = Source(file.named(shown.path.with_suffix(".ngc")).name, data=file.nc.text.encode())
+
+        def part() -> Part:
+            from app.files.scene_toml import sources_of
+            from app.workflow.scene_part import scene_part
+
+            return scene_part(computed.scene, sources_of(lambda name: read_file(shown.path.parent / name)), None, None, None)
+
+        return SceneProgram(source, written.post.dialect, part, len(written.files))
 
     def _choose_file(self, first: Path) -> Path | None:
         name, _ = QFileDialog.getSaveFileName(self._window, "Save scene", str(first), FILTER)

@@ -15,6 +15,7 @@ from app.progress import Progress
 from app.ui.figures import counted, grouped
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
+from app.ui.surfaces.scene_work import Proven
 from app.ui.surfaces.shown_scene import ShownScene
 from app.ui.surfaces.surfaces_view import Look
 from app.ui.worker import Answer, Worker
@@ -26,6 +27,15 @@ FORMATS: Mapping[str, str] = {
 """What the file dialog offers, by suffix."""
 _PLOTS = (".svg", ".pdf", ".png", ".hpgl", ".plt")
 _VIEWS = {Look.SPACE: "isometric", Look.PLAN: "plan", Look.SECTION: "front"}
+
+
+@dataclass(frozen=True)
+class _Wish:
+    """What to write of: a scene, its program if it is proven, and from where it is looked at."""
+
+    shown: ShownScene
+    proven: Proven | None
+    view: str
 
 
 @dataclass(frozen=True)
@@ -48,9 +58,10 @@ class SceneExport(QObject):
     written = Signal(Path)
     failed = Signal(str)
 
-    def __init__(self, window: MainWindow, log: Log) -> None:
+    def __init__(self, window: MainWindow, log: Log, proven: Callable[[], Proven | None]) -> None:
+        """Make one; `proven` tells what the scene that is shown came to as NC, None while nobody knows."""
         super().__init__(window)
-        self._window, self._log = window, log
+        self._window, self._log, self._proven = window, log, proven
         self._worker = Worker(window)
         self.choose_file: Callable[[Path], Path | None] = self._choose
         self._worker.done.connect(self._on_done)
@@ -65,7 +76,7 @@ class SceneExport(QObject):
             return
         chosen = self.choose_file(view.shown.path.with_suffix(".ngc"))
         if chosen is not None:
-            self._worker.start(partial(_export, view.shown, chosen, _VIEWS[view.look]), 0)
+            self._worker.start(partial(_export, _Wish(view.shown, self._proven(), _VIEWS[view.look]), chosen), 0)
 
     def _choose(self, first: Path) -> Path | None:
         dialog = QFileDialog(self._window, "Export scene", str(first), ";;".join(FORMATS))
@@ -85,15 +96,15 @@ class SceneExport(QObject):
         self.written.emit(first)
 
 
-def _export(shown: ShownScene, path: Path, view: str, progress: Progress) -> _Exported:
+def _export(wish: _Wish, path: Path, progress: Progress) -> _Exported:
     """Write one file, or one a tool or sheet."""
     remarks: list[str] = []
-    texts = dict(_texts(shown, path, view, (progress, remarks)))
+    texts = dict(_texts(wish, path, (progress, remarks)))
     write_together(texts)
     return _Exported(tuple(texts), sum(len(data) for data in texts.values()), tuple(remarks))
 
 
-def _texts(shown: ShownScene, path: Path, view: str, told: tuple[Progress, list[str]]) -> Iterator[tuple[Path, bytes]]:
+def _texts(wish: _Wish, path: Path, told: tuple[Progress, list[str]]) -> Iterator[tuple[Path, bytes]]:
     """Yield what to write, by file; `told` is how far it is, and what the user has to know."""
     from app.files.surface_plot import VIEWS
     from app.workflow.surface_nc import write_scene_nc
@@ -101,16 +112,16 @@ def _texts(shown: ShownScene, path: Path, view: str, told: tuple[Progress, list[
     from app.workflow.surface_points import scene_points_csv
     from app.workflow.surface_report import surface_report
 
-    (progress, remarks), computed, suffix = told, shown.computed, path.suffix.lower()
+    (progress, remarks), computed, suffix = told, wish.shown.computed, path.suffix.lower()
     if suffix in _PLOTS:
-        sheets = plot_surface(computed, suffix, PlotScene(VIEWS[view], drawn=Drawn.PATHS))
+        sheets = plot_surface(computed, suffix, PlotScene(VIEWS[wish.view], drawn=Drawn.PATHS))
         for number, data in enumerate(sheets, 1):
             yield path if len(sheets) == 1 else path.with_name(f"{path.stem}_{number}{path.suffix}"), data
         return
     if suffix == ".csv":
         yield path, scene_points_csv(computed)
         return
-    written = write_scene_nc(computed, progress)
+    written = wish.proven.written if wish.proven is not None else write_scene_nc(computed, progress)
     findings = written.findings()
     if findings:
         remarks.append(f"{counted(len(findings), 'move')} could not be proven. {findings[0].text}")

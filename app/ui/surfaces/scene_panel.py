@@ -97,6 +97,9 @@ class PropertiesForm(Section):
         self._asks: tuple[Ask, ...] = ()
         self._theme = LIGHT
         self._body = QWidget()
+        self._column = QVBoxLayout(self._body)
+        self._column.setContentsMargins(0, 0, 0, 0)
+        self._column.setSpacing(0)
         self.add_indented(self._body)
 
     def set_theme(self, theme: Theme) -> None:
@@ -116,28 +119,22 @@ class PropertiesForm(Section):
                 field.show_value(ask.value)
 
     def _build(self, asks: tuple[Ask, ...]) -> None:
-        for line in range(self.rows.count()):
-            item = self.rows.itemAt(line)
-            layout = item.layout() if item is not None else None
-            if layout is not None and layout.indexOf(self._body) >= 0:
-                layout.removeWidget(self._body)
-                self._body.hide()
-                self._body.deleteLater()
-                self._body = QWidget()
-                layout.addWidget(self._body)
-        column = QVBoxLayout(self._body)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        for field in self.fields.values():
+            self._column.removeWidget(field)
+            field.hide()
+            field.deleteLater()
         self.fields = {}
         for at, ask in enumerate(asks):
             field = field_of(ask)
             self.fields[ask.name] = field
-            column.addWidget(field)
+            self._column.addWidget(field)
+            field.show()
             if isinstance(field, NumberField):
                 field.committed.connect(partial(self._tell, at))
             elif not isinstance(field, QLabel):
                 field.chosen.connect(partial(self._tell, at))
         theme_children(self._body, self._theme)
+        self._body.updateGeometry()
 
     def _tell(self, at: int, value: object) -> None:
         if value != self._asks[at].value:
@@ -251,7 +248,7 @@ class ScenePanel(QScrollArea):
     def choose(self, subject: Subject) -> None:
         """Show the properties of a subject."""
         scene, (name, number) = self._shown, subject
-        if scene is None:
+        if scene is None or subject not in self._rows:
             return
         self.subject = subject
         for key, row in self._rows.items():

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 REST_MS = 250
 """So long nothing changes before a text is read and computed."""
-_AT_ONCE_S = 4.0
+_AT_ONCE_S = 10.0
 """Scenes that took longer are computed when they are asked for, not at every change."""
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QSlider, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QMenu, QSlider, QVBoxLayout, QWidget
 
 from app.model.finding import Finding
 from app.ui.cut.camera import StandardView
@@ -15,7 +15,9 @@ from app.ui.labels import Elided, muted
 from app.ui.nc.heads import bar
 from app.ui.panels.fields import ChoiceField
 from app.ui.surfaces.points_page import Row
-from app.ui.surfaces.scene_canvas import SceneCanvas
+from app.ui.surfaces.scene_canvas import Pointed, SceneCanvas
+from app.ui.surfaces.scene_raster import ColourBy, Layer
+from app.ui.surfaces.scene_work import SceneState
 from app.ui.surfaces.shown_scene import ShownScene
 from app.ui.verdict import Level, Verdict
 
@@ -28,6 +30,9 @@ class Look(Enum):
     SECTION = StandardView.FRONT
 
 
+_LAYERS = ((Layer.SURFACES, "Surfaces"), (Layer.PATHS, "Paths"), (Layer.LINKS, "Links"), (Layer.RAPIDS, "Rapids and plunges"),
+           (Layer.POINTS, "Boundary points"), (Layer.NAMES, "Names of boundary points"))  # fmt: skip
+_COLOURS = ((ColourBy.SURFACE, "By surface"), (ColourBy.TOOL, "By tool"), (ColourBy.LINE, "By line type"))
 _NAMES = ((Look.SPACE, "3D"), (Look.PLAN, "Plan"), (Look.SECTION, "Section"))
 
 
@@ -35,30 +40,45 @@ class SurfacesView(QWidget):
     """Shows a computed scene.
 
     Signals:
-        point_picked(number): the mouse chose a boundary point.
+        point_picked(number), surface_picked(number): the mouse chose a boundary point, or a surface.
+        hovered(sentence): what the mouse is over, "" = nothing. cursor_moved(x, y, axes): where that is, mm.
 
     Attributes:
         shown: the scene, or None. points: its boundary points. look: how it is looked at. plane: slider over all passes' planes.
-        computing: a scene is on its way. verdict, findings: on its program.
+        state: where the scene stands. verdict, findings: on its program.
     """
 
     point_picked = Signal(int)
+    surface_picked = Signal(int)
+    hovered = Signal(str)
+    cursor_moved = Signal(float, float, str)
 
     def __init__(self) -> None:
         super().__init__()
         self.shown: ShownScene | None = None
         self.points: tuple[Row, ...] = ()
-        self.look, self.computing = Look.SPACE, False
+        self.look, self.state = Look.SPACE, SceneState.NONE
         self.verdict, self.findings = Verdict(Level.NONE, "Not computed"), tuple[Finding, ...]()
         self.canvas, self.looks = SceneCanvas(), ChoiceField("", _NAMES)
         self.looks.show_value(self.look)
         self.name, self.plane, self.at = Elided(role="muted"), QSlider(Qt.Orientation.Horizontal), muted()
         self.plane.setToolTip("Cutting plane whose section is shown")
         self.plane.setAccessibleName("Cutting plane")
-        self.fit = IconButton("fit", "Fit (F)")
+        self.fit, self.eye = IconButton("fit", "Fit (F)"), IconButton("eye", "What is shown")
+        self.colours, self.menu = QComboBox(), QMenu(self)
+        self.colours.setAccessibleName("Colours of paths")
+        self.colours.setToolTip("What tells paths apart")
+        for by, name in _COLOURS:
+            self.colours.addItem(name, by)
+        self.switches = {layer: self.menu.addAction(name) for layer, name in _LAYERS}
+        for switch in self.switches.values():
+            switch.setCheckable(True)
+            switch.setChecked(True)
+            switch.toggled.connect(lambda _: self.canvas.set_layers(self._layers))
         head = QWidget()
         row = bar(head)
-        for widget, stretch in ((self.looks, 0), (self.name, 1), (self.plane, 1), (self.at, 0), (self.fit, 0)):
+        for widget, stretch in ((self.looks, 0), (self.name, 1), (self.plane, 1), (self.at, 0), (self.colours, 0), (self.eye, 0),
+                                (self.fit, 0)):
             row.addWidget(widget, stretch)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -69,6 +89,10 @@ class SurfacesView(QWidget):
         self.looks.chosen.connect(self.set_look)
         self.plane.valueChanged.connect(lambda _: self._show())
         self.fit.clicked.connect(self.canvas.fit)
+        self.eye.clicked.connect(lambda: self.menu.popup(self.eye.mapToGlobal(self.eye.rect().bottomLeft())))
+        self.colours.activated.connect(lambda _: self.canvas.set_colour_by(self.colours.currentData()))
+        self.canvas.pointed.connect(self._on_pointed)
+        self.canvas.picked.connect(self._on_picked)
         self.set_look(self.look)
 
     @property
@@ -95,15 +119,21 @@ class SurfacesView(QWidget):
         else:
             self.set_look(self.look)
 
-    def show_standing(self, verdict: Verdict, findings: tuple[Finding, ...], computing: bool) -> None:
-        """Know what is to be said of the scene's program, and whether it is on its way."""
-        self.verdict, self.findings, self.computing = verdict, findings, computing
+    @property
+    def computing(self) -> bool:
+        """Whether a scene, or its program, is on its way."""
+        return self.state in (SceneState.COMPUTING, SceneState.PROVING)
+
+    def show_standing(self, state: SceneState, verdict: Verdict, findings: tuple[Finding, ...]) -> None:
+        """Know where the scene stands, and what is to be said of its program."""
+        self.state, self.verdict, self.findings = state, verdict, findings
 
     def show_point(self, number: int) -> None:
-        """Show a boundary point: on its plane, or where it is in space."""
+        """Have a boundary point stand out: on its plane, or where it is in space."""
         point = self.points[number]
         if self.look is Look.SECTION:
             self.plane.setValue(point.plane)
+        self.canvas.mark_point(self._marks.index(number) if number in self._marks else -1)
 
     def set_look(self, look: Look) -> None:
         """Look in another way."""
@@ -113,6 +143,44 @@ class SurfacesView(QWidget):
         self.at.setVisible(look is Look.SECTION)
         self._show()
         self.canvas.look(look.value)
+
+    @property
+    def _layers(self) -> Layer:
+        on = Layer(0)
+        for layer, switch in self.switches.items():
+            on |= layer if switch.isChecked() else Layer(0)
+        return on
+
+    @property
+    def _marks(self) -> list[int]:
+        """The number of the boundary point that each mark of the canvas is of; the other height of a jump is that of its point."""
+        if self.look is Look.SECTION:
+            return [number for number, point in enumerate(self.points) if point.plane == self.plane.value()]
+        return [number for number, point in enumerate(self.points) for _ in range(1 + (point.kind == "jump"))]
+
+    def _on_pointed(self, over: Pointed | None) -> None:
+        if over is None or self.shown is None:
+            self.hovered.emit("")
+            return
+        x, y, z = over.place
+        section = self.look is Look.SECTION
+        self.cursor_moved.emit(x, z if section else y, "XZ" if section else "XY")
+        place = f"{x:.3f}, {z:.3f}" if section else f"{x:.3f}, {y:.3f}, {z:.3f}"
+        if over.mark >= 0:
+            point = self.points[self._marks[over.mark]]
+            x, y, z = point.place.tolist()
+            self.hovered.emit(f"{point.name}, {point.kind}, at {x:.3f}, {y:.3f}, {z:.3f}")
+        elif over.surface >= 0:
+            self.hovered.emit(f"{self.shown.computed.names[over.surface]} at {place}")
+        else:
+            self.hovered.emit("")
+
+    def _on_picked(self, over: Pointed) -> None:
+        if over.mark >= 0:
+            self.canvas.mark_point(over.mark)
+            self.point_picked.emit(self._marks[over.mark])
+        elif over.surface >= 0:
+            self.surface_picked.emit(over.surface)
 
     def _show(self) -> None:
         shown = self.shown
@@ -124,5 +192,7 @@ class SurfacesView(QWidget):
             at = self.plane.value()
             picture = shown.section(*shown.planes[at])
             self.at.setText(f"{at + 1} / {len(shown.planes)}")
-        floor = any(line.surface == len(shown.computed.scene.surfaces) for line in shown.space.lines)
-        self.canvas.show_picture(picture, shown.colours, shown.computed.names if floor else shown.computed.names[:-1])
+        names = shown.computed.names
+        floor = any(each.surface == len(names) - 1 for each in shown.space.strands)
+        tools = {family.tool.number: f"T{family.tool.number} {family.tool.label}" for family in shown.computed.families}
+        self.canvas.show_picture(picture, shown.colours, names if floor else names[:-1], shown.lines, tools)

@@ -1,0 +1,250 @@
+"""A scene is changed in the panel and in its text, computed at once, undone, saved, and not lost."""
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QTextCursor
+from PySide6.QtTest import QTest
+
+from app.files.scene_toml import read_scene
+from app.resources import resource
+from app.ui.surfaces.ask_fields import VectorField
+from app.ui.surfaces.scene_document import SceneDocument
+from app.ui.surfaces.scene_work import SceneState
+from app.ui.verdict import Level
+from app.ui.views import View
+
+WAIT_MS = 60_000
+SPHERES = resource("samples", "spheres.toml")
+SMALL = SPHERES.read_bytes().replace(b"pitch = 0.5", b"pitch = 3.0")
+
+
+@pytest.fixture
+def opened(qtbot, wiring, tmp_path):
+    """A scene in a file of its own, in the Surfaces view."""
+    path = tmp_path / "mine.toml"
+    path.write_bytes(SMALL)
+    wiring.files.open_file(path)
+    proven(qtbot, wiring)
+    return wiring
+
+
+def proven(qtbot, wiring) -> None:
+    work = wiring.scenes.work
+    qtbot.waitUntil(lambda: work.state in (SceneState.PROVEN, SceneState.FAILED), timeout=WAIT_MS)
+    assert work.state is SceneState.PROVEN, work.problem
+
+
+def again(qtbot, wiring) -> None:
+    """Wait until a change has been taken up and computed."""
+    qtbot.waitUntil(lambda: wiring.scenes.work.state is not SceneState.PROVEN, timeout=WAIT_MS)
+    proven(qtbot, wiring)
+
+
+def type_into(field, text: str) -> None:
+    field.edit.setFocus()
+    field.edit.selectAll()
+    QTest.keyClicks(field.edit, text)
+    QTest.keyClick(field.edit, Qt.Key.Key_Return)
+
+
+def said(wiring):
+    return read_scene("mine.toml", wiring.window_.scene.text.encode())
+
+
+def test_a_number_in_the_panel_changes_the_text_the_picture_and_the_verdict(qtbot, opened):
+    window, panel = opened.window_, opened.window_.scene_side.panel
+    assert window.status.badge.property("verdict") == Level.OK.value
+    planes, verdict = len(window.views.surfaces.shown.planes), window.status.badge.text()
+    panel.choose(("passes", 0))
+    type_into(panel.form.fields["Pitch"], "8")
+    assert said(opened).passes[0].pitch == 8.0
+    assert window.scene.modified
+    assert window.file_label.text() == "mine.toml *"
+    again(qtbot, opened)
+    assert len(window.views.surfaces.shown.planes) < planes
+    assert window.status.badge.text() != verdict
+
+
+def test_what_is_looked_at_stays_while_the_scene_changes(qtbot, opened):
+    canvas, panel = opened.window_.views.surfaces.canvas, opened.window_.scene_side.panel
+    canvas.zoom_by(2.5)
+    camera = canvas.camera
+    panel.choose(("passes", 0))
+    type_into(panel.form.fields["Pitch"], "8")
+    again(qtbot, opened)
+    assert canvas.camera == camera
+
+
+def test_undo_and_redo_go_through_panel_and_text(qtbot, opened):
+    window, panel = opened.window_, opened.window_.scene_side.panel
+    before = window.scene.text
+    panel.choose(("surface", 1))
+    type_into(panel.form.fields["Name"], "left ball")
+    window.scene_side.text.editor.moveCursor(QTextCursor.MoveOperation.End)
+    window.scene_side.text.editor.insertPlainText("# at the end\n")
+    assert said(opened).surfaces[1].name == "left ball"
+    window.actions_["undo"].trigger()
+    assert "# at the end" not in window.scene.text
+    window.actions_["undo"].trigger()
+    assert window.scene.text == before
+    assert not window.scene.modified
+    assert not window.actions_["undo"].isEnabled()
+    window.actions_["redo"].trigger()
+    assert said(opened).surfaces[1].name == "left ball"
+    opened.showing.show_view(View.DRAW)
+    assert not window.actions_["undo"].isEnabled()  # nothing was drawn
+
+
+def test_a_wrong_line_is_marked_and_what_was_right_stays(qtbot, opened):
+    window, text = opened.window_, opened.window_.scene_side.text
+    shown = window.views.surfaces.shown
+    window.scene_side.show_page("Text")
+    line = next(n for n, each in enumerate(window.scene.text.splitlines(), 1) if each.startswith("pitch"))
+    text.editor.go_to(line)
+    text.editor.moveCursor(QTextCursor.MoveOperation.EndOfLine)
+    text.editor.insertPlainText("x")
+    qtbot.waitUntil(lambda: opened.scenes.work.state is SceneState.WRONG, timeout=WAIT_MS)
+    assert text.editor.wrong == line
+    assert text.verdict.text().startswith(f"Line {line}: ")
+    assert window.status.badge.text() == "The text is wrong"
+    assert window.views.surfaces.shown is shown
+    text.editor.textCursor().deletePreviousChar()
+    proven(qtbot, opened)
+    assert text.editor.wrong == 0
+    assert "surfaces" in text.verdict.text()
+
+
+def test_a_file_that_is_wrong_is_opened_all_the_same_so_that_it_can_be_mended(qtbot, wiring, tmp_path):
+    path = tmp_path / "wrong.toml"
+    path.write_text('name = "wrong"\n[[surface]]\nname = "a"\n')
+    with qtbot.waitSignal(wiring.scenes.failed, timeout=WAIT_MS) as told:
+        wiring.files.open_file(path)
+    assert "wrong.toml:2" in told.args[0]
+    assert wiring.window_.scene_side.page == "Text"
+    assert wiring.window_.scene_side.text.editor.wrong == 2
+    assert "text is wrong" in wiring.window_.views.empty.sentence.text()
+    wiring.window_.scene.replace(SMALL.decode())
+    proven(qtbot, wiring)
+    assert not wiring.window_.views.empty.isVisible()
+
+
+def test_surfaces_are_added_moved_switched_and_removed(qtbot, opened):
+    panel = opened.window_.scene_side.panel
+    count = len(said(opened).surfaces)
+    panel.surface_wanted.emit("torus")
+    again(qtbot, opened)
+    assert said(opened).surfaces[-1].shape.kind == "torus"
+    assert panel.subject == ("surface", count)
+    rows = panel.surfaces.shown
+    QTest.keyClick(rows[-1], Qt.Key.Key_Up, Qt.KeyboardModifier.AltModifier)
+    assert said(opened).surfaces[-2].shape.kind == "torus"
+    again(qtbot, opened)
+    assert panel.subject == ("surface", count - 1)
+    QTest.keyClick(panel.surfaces.shown[count - 1], Qt.Key.Key_Delete)
+    assert [each.shape.kind for each in said(opened).surfaces].count("torus") == 0
+    panel._set(("surface", 0), {("enabled",): False})  # what the row's switch does
+    assert not said(opened).surfaces[0].enabled
+
+
+def test_places_take_three_numbers(qtbot, opened):
+    panel = opened.window_.scene_side.panel
+    panel.choose(("surface", 1))
+    field = panel.form.fields["Moved by"]
+    assert isinstance(field, VectorField)
+    type_into(field.fields[2], "1.5")
+    assert said(opened).surfaces[1].move == (0.0, 0.0, 1.5)
+    type_into(field.fields[0], "abc")
+    assert said(opened).surfaces[1].move == (0.0, 0.0, 1.5)
+    assert field.fields[0].edit.property("wrong") == "true"
+
+
+def test_curves_of_the_drawing_become_a_surface(qtbot, opened):
+    window = opened.window_
+    with qtbot.waitSignal(opened.scenes.failed) as told:
+        window.scene_side.panel.curves_wanted.emit("loft")
+    assert "select them in the Draw view" in told.args[0]
+    opened.run("line 0,0 30,5")
+    opened.run("spline 0,0 10,8 20,2 30,6")
+    opened.run("select all")
+    window.scene_side.panel.curves_wanted.emit("ruled")
+    again(qtbot, opened)
+    assert said(opened).surfaces[-1].shape.kind == "ruled"
+
+
+def test_save_writes_the_text_and_samples_are_not_written_over(qtbot, opened, tmp_path):
+    window, panel = opened.window_, opened.window_.scene_side.panel
+    panel.choose(("passes", 0))
+    type_into(panel.form.fields["Pitch"], "8")
+    window.actions_["save"].trigger()
+    assert read_scene("mine.toml", (tmp_path / "mine.toml").read_bytes()).passes[0].pitch == 8.0
+    assert not window.scene.modified
+    asked = []
+    opened.scenes.choose_file = lambda first: asked.append(first) or tmp_path / "own.toml"
+    opened.scenes.open_sample("spheres")
+    again(qtbot, opened)
+    window.actions_["save"].trigger()
+    assert asked[0].name == "spheres.toml"
+    assert (tmp_path / "own.toml").read_text() == SPHERES.read_text()
+    assert window.scene.path == tmp_path / "own.toml"
+
+
+def test_changes_are_not_lost_unasked(qtbot, opened):
+    window = opened.window_
+    window.scene.replace(window.scene.text.replace("pitch", "pitch "))
+    assert window.scene.modified
+    opened.scenes.open_sample("torus")
+    assert "not saved" in window.notice.text.text()
+    assert window.scene.name == "mine.toml"
+    window.close()
+    assert window.isVisible()
+    assert "Close?" in window.notice.text.text()
+
+
+def test_f5_takes_the_file_as_it_is_now_unless_it_was_changed_here(qtbot, opened, tmp_path):
+    path, window = tmp_path / "mine.toml", opened.window_
+    path.write_text(path.read_text().replace("pitch = ", "pitch = 1"))
+    QTest.keyClick(window, Qt.Key.Key_F5)
+    assert "pitch = 1" in window.scene.text
+    assert not window.scene.modified
+    again(qtbot, opened) if opened.scenes.work.state is SceneState.PROVEN else proven(qtbot, opened)
+    window.scene.replace(window.scene.text + "# mine\n")
+    path.write_text("")
+    QTest.keyClick(window, Qt.Key.Key_F5)
+    assert window.scene.text.endswith("# mine\n")
+
+
+def test_the_program_is_shown_in_the_nc_view(qtbot, opened):
+    window = opened.window_
+    window.actions_["scene_nc"].trigger()
+    qtbot.waitUntil(lambda: opened.showing.view is View.NC and window.views.nc.shown is not None, timeout=WAIT_MS)
+    assert window.views.nc.shown.source.name == "mine.ngc"
+    assert "Scene" in window.views.nc.pane.text.text.line(0)
+
+
+def test_the_cut_is_shown_beside_the_surfaces(qtbot, opened):
+    window = opened.window_
+    window.actions_["scene_cut"].trigger()
+    qtbot.waitUntil(lambda: opened.cutting.cut is not None, timeout=WAIT_MS)
+    assert opened.showing.view is View.CUT
+    assert opened.cutting.cut.histogram is not None
+    assert not [entry for entry in window.cut_panel.entries if entry.counts and "gouge" in entry.title.lower()]
+
+
+def test_a_new_scene_is_computed_and_has_no_file(qtbot, wiring):
+    wiring.window_.actions_["scene_new"].trigger()
+    proven(qtbot, wiring)
+    assert wiring.window_.scene.path is None
+    assert wiring.window_.file_label.text() == "untitled.toml"
+
+
+@pytest.mark.parametrize(("before", "after"), [("a b c", "a x c"), ("", "new"), ("old", ""), ("aaa", "aaaa"),
+                                               ("a\U0001d400b", "a\U0001d400c"),
+                                               ("\U0001d400\U0001d401", "\U0001d401"), ("one\ntwo\n", "one\n\ntwo\n")])  # fmt: skip
+def test_replacing_text_is_one_step_that_can_be_undone(qtbot, before, after):
+    document = SceneDocument()
+    document.load(before, None)
+    document.replace(after)
+    assert document.text == after
+    document.document.undo()
+    assert document.text == before
+    assert not document.document.isUndoAvailable()
