@@ -15,6 +15,8 @@ _R = "float64[::1]"
 DISC, CORNER, CONE, RADIUS, BEND = 0, 1, 2, 3, 4
 """Of a cutter's shape: radius of the flat, radius of the corner, rise of the cone (0: none), its own, and where the corner ends."""
 _STEPS, _NEAR = 80, 1e-14
+_SLIVER = 1e-22
+"""mm2: the square of how high a triangle is, seen from above, that has a slope."""
 
 
 @kernel("float64(float64, float64)", counts=False)
@@ -133,7 +135,8 @@ def over_triangle(t, x, y, shape, known):  # type: ignore[no-untyped-def]
     ax, ay, bx, by, cx, cy = t[0] - x, t[1] - y, t[3] - x, t[4] - y, t[6] - x, t[7] - y
     az, bz, cz = t[2], t[5], t[8]
     twice = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-    if twice != 0.0:
+    longest = max((bx - ax) ** 2 + (by - ay) ** 2, (cx - ax) ** 2 + (cy - ay) ** 2, (cx - bx) ** 2 + (cy - by) ** 2)
+    if twice * twice > _SLIVER * longest:  # of a narrower one, rounding would tell the slope; its edges say all
         east = ((bz - az) * (cy - ay) - (cz - az) * (by - ay)) / twice
         north = ((cz - az) * (bx - ax) - (bz - az) * (cx - ax)) / twice
         steep = length(east, north)

@@ -8,6 +8,8 @@ from app.jit import kernel
 
 _R = "float64[::1]"
 _FLAT = 1e-300
+_SLIVER = 1e-22
+"""mm2; a triangle whose height is less than the root of this is its edges: of what it faces only rounding would tell."""
 
 
 @kernel("float64(float64, float64, float64, float64, float64, float64, float64, float64, float64)", counts=False)
@@ -36,10 +38,10 @@ def square_from_triangle(t, ax, ay, az, bx, by, bz):  # type: ignore[no-untyped-
     best = _between(dx, dy, dz, ux, uy, uz, px, py, pz)
     best = min(best, _between(dx, dy, dz, vx, vy, vz, px, py, pz))
     best = min(best, _between(dx, dy, dz, vx - ux, vy - uy, vz - uz, px - ux, py - uy, pz - uz))
-    if square <= _FLAT:
+    uu, uv, vv = ux * ux + uy * uy + uz * uz, ux * vx + uy * vy + uz * vz, vx * vx + vy * vy + vz * vz
+    if square <= _SLIVER * max(uu, vv, uu - 2.0 * uv + vv) or square <= _FLAT:
         return best
     start, end = nx * px + ny * py + nz * pz, nx * (px + dx) + ny * (py + dy) + nz * (pz + dz)
-    uu, uv, vv = ux * ux + uy * uy + uz * uz, ux * vx + uy * vy + uz * vz, vx * vx + vy * vy + vz * vz
     for share in (0.0, 1.0, start / (start - end) if start * end < 0.0 else math.nan):  # both ends, and where it goes through
         if share == share:
             x, y, z = px + share * dx, py + share * dy, pz + share * dz

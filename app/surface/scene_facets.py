@@ -97,9 +97,9 @@ def _trimmed(facets: Facets, number: int, area: shapely.Geometry, name: str) -> 
     shapely.prepare(area)
     mine = np.flatnonzero(facets.owner == number)
     flat = shapely.polygons(facets.triangles[mine, :, :2])
-    shapely.prepare(flat)
-    whole = shapely.contains_properly(area, flat)
-    border = ~whole & shapely.dwithin(flat, area, np.maximum(facets.error[mine], 1e-12))
+    border = np.zeros(len(mine), np.bool_)
+    border[_near_outline(area, flat, np.maximum(facets.error[mine], 1e-12))] = True
+    whole = ~border & shapely.intersects_xy(area, *facets.triangles[mine, 0, :2].T)
     pieces = [_clipped(facets, int(n), area) for n in mine[border].tolist()]
     kept = np.concatenate([np.flatnonzero(facets.owner != number), mine[whole]])
     cut = [piece for piece in pieces if piece is not None]
@@ -120,6 +120,14 @@ def _trimmed(facets: Facets, number: int, area: shapely.Geometry, name: str) -> 
     return Facets(np.concatenate([rest.triangles, triangles]), np.concatenate([rest.owner, np.full(len(source), number)]),
                   np.concatenate([rest.patch, facets.patch[source]]), np.concatenate([rest.corners, corners]),
                   np.concatenate([rest.error, facets.error[source]]), facets.patches)  # fmt: skip
+
+
+def _near_outline(area: shapely.Geometry, flat: NDArray[np.object_], far: Floats) -> Ints:
+    """Return which polygons (n,) are nearer than `far` (n,) to the outline of an area."""
+    ends = [np.stack([places[:-1], places[1:]], axis=1) for ring in shapely.get_rings(shapely.get_parts(area))
+            for places in (shapely.get_coordinates(ring),)]  # fmt: skip
+    sides = shapely.STRtree(shapely.linestrings(np.concatenate(ends)))
+    return np.unique(sides.query(flat, predicate="dwithin", distance=far)[0])
 
 
 def _clipped(facets: Facets, n: int, area: shapely.Geometry) -> tuple[int, Floats] | None:

@@ -24,6 +24,10 @@ from app.ui.panels.side_panel import SidePanel
 from app.ui.panels.side_tabs import SideTabs
 from app.ui.stages.stages_view import StagesView
 from app.ui.status_bar import StatusBar
+from app.ui.surfaces.points_page import PointsPage
+from app.ui.surfaces.scene_panel import ScenePanel
+from app.ui.surfaces.scene_side import SceneSide
+from app.ui.surfaces.scene_text import SceneText
 from app.ui.surfaces.surfaces_view import SurfacesView
 from app.ui.tool_strip import ToolStrip
 from app.ui.tour import Callout
@@ -57,6 +61,10 @@ PLACES: dict[type[QWidget], tuple[str, str]] = {
     CurvesPanel: ("How near curves must keep to the moves, and the certificate of what was written.", ""),
     SurfacesView: (
         "A scene's surfaces and the paths over them, each surface in its own colour; Section shows one cutting plane.", "scene"),
+    ScenePanel: ("What the scene is made of. Choose a line to see and change its numbers; it is computed at once.", "scene"),
+    SceneText: ("The scene as a text, as it is saved. What is wrong is marked; what is right is computed while it is written.", "scene"),
+    PointsPage: ("Where the topmost surface changes, plane by plane. A click shows the place.", "scene"),
+    SceneSide: ("Scene: surfaces, passes, tools and stock. Text: the same in words. Points: where surfaces meet.", "scene"),
     NcView: ("The NC program as text and as path. A click on either shows the place in the other.", "posts"),
     QMenuBar: ("Everything that the program can do, with its keys. Ctrl+Shift+Space finds all of it by name.", ""),
     Callout: ("A tour of the window in six steps.", ""),

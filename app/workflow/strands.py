@@ -43,3 +43,13 @@ def strand(role: Role, points: Floats, surface: int = -1, tool: int = 0) -> Stra
     joined = np.ones(len(points), np.bool_)
     joined[-1:] = False
     return Strand(role, np.ascontiguousarray(points, np.float64), joined, surface, tool)
+
+
+@dataclass(frozen=True, eq=False)
+class BoundaryPoint:
+    """Where the topmost surface changes: its name, number of its plane over all passes, place (3,) mm, and kind."""
+
+    name: str
+    plane: int
+    place: Floats
+    kind: str

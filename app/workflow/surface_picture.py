@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 
 from app.model.moves import Purpose
 from app.model.tool import Tool
+from app.surface.compound import BoundaryKind
 from app.surface.drop_cutter import shape_of
 from app.surface.scene_facets import scene_facets
-from app.workflow.strands import Role, Strand
+from app.workflow.strands import BoundaryPoint, Role, Strand
 from app.workflow.surface import Computed
+from app.workflow.surface_plot import boundary_name
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -41,6 +43,18 @@ def move_strands(computed: Computed) -> Iterator[Strand]:
         points[at], points[at[first] - 1] = end[rows], start[rows[first]]
         joined[at - 1] = True
         yield Strand(list(Role)[key[0]], points, joined, key[1], key[2])
+
+
+def boundary_points(computed: Computed) -> tuple[BoundaryPoint, ...]:
+    """Return the boundary points of the compound surface, family by family, as its sections mark them."""
+    rows, first = [], 0
+    for family in computed.families:
+        found = family.surface.boundaries
+        for k in np.flatnonzero((found.before >= 0) & (found.after >= 0)).tolist():
+            name = boundary_name(int(found.before[k]), int(found.after[k]))
+            rows.append(BoundaryPoint(name, first + int(found.plane[k]), found.place[k], BoundaryKind(int(found.kind[k])).name.lower()))
+        first += len(family.planes.offsets)
+    return tuple(rows)
 
 
 def outline(tool: Tool) -> Floats:

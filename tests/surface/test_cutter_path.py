@@ -172,3 +172,14 @@ def test_where_surfaces_coincide_the_path_stays_on_the_one_it_came_on() -> None:
 
 def test_what_is_allowed_is_less_than_what_is_promised() -> None:
     assert ALLOWED < GOUGE
+
+
+def test_a_pass_through_the_pole_of_a_sphere_is_as_short_and_as_well_proven_as_any_other() -> None:
+    """There facets are slivers with two corners in one place, and what they face is rounding."""
+    follower = Follower(facets_of(ball(0, 0, -15, 30)), BALL, FollowOptions(0.0, 0.01, 1e-4))
+    through, beside = (cutter_path(follower, along_x(y)).runs[0].points for y in (0.0, 2.0))
+    assert len(through) < 2 * len(beside)
+    assert follower.proven(np.concatenate([through[:-1], through[1:]], axis=1)).all()
+    true = np.sqrt(np.maximum((30 + BALL.radius) ** 2 - through[:, 0] ** 2, 0)) - 15 - BALL.radius
+    inside = np.abs(through[:, 0]) < 25
+    assert (through[inside, 2] - true[inside]).min() >= -GOUGE

@@ -24,6 +24,7 @@ from app.ui.start import build
 from app.ui.theme import text_font
 from app.ui.wiring import Wiring
 from tests.ui.drawing_states import DrawingStates
+from tests.ui.scene_states import scene_states
 
 Picture = NDArray[np.uint8]
 
@@ -67,7 +68,7 @@ def states(wiring: Wiring, theme: ThemeChoice, size: tuple[int, int]) -> Iterato
     wiring.window_.resize(*size)
     made = DrawingStates(wiring, wait)
     made.begin()
-    for name in chain(made.tools(), made.pages(), made.over(), made.printing()):
+    for name in chain(made.tools(), made.pages(), made.over(), made.printing(), scene_states(wiring, wait)):
         wait(150)
         yield name, small(seen(wiring.window_))
 

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt, Signal
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QVBoxLayout, QWidget
 
 from app.ui.figures import counted
 from app.ui.labels import muted
-
-if TYPE_CHECKING:
-    from app.workflow.surface import Computed
+from app.workflow.strands import BoundaryPoint
 
 WIDTH = 420
 _HEADS = ("", "Plane", "X", "Y", "Z", "Kind")
@@ -23,39 +18,14 @@ _TIPS = ("The surfaces that meet, by their numbers", "Cutting plane, counted ove
 _Index = QModelIndex | QPersistentModelIndex
 
 
-@dataclass(frozen=True, eq=False)
-class Row:
-    """One boundary point: its name, number of its plane over all passes, place (3,) mm, and kind."""
-
-    name: str
-    plane: int
-    place: NDArray[np.float64]
-    kind: str
-
-
-def rows_of(computed: Computed) -> tuple[Row, ...]:
-    """Return the boundary points of the compound surface, family by family, as its sections mark them."""
-    from app.surface.compound import BoundaryKind
-    from app.workflow.surface_plot import boundary_name
-
-    rows, first = [], 0
-    for family in computed.families:
-        found = family.surface.boundaries
-        for k in np.flatnonzero((found.before >= 0) & (found.after >= 0)).tolist():
-            name = boundary_name(int(found.before[k]), int(found.after[k]))
-            rows.append(Row(name, first + int(found.plane[k]), found.place[k], BoundaryKind(int(found.kind[k])).name.lower()))
-        first += len(family.planes.offsets)
-    return tuple(rows)
-
-
 class PointsModel(QAbstractTableModel):
     """The rows for Qt."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.points: tuple[Row, ...] = ()
+        self.points: tuple[BoundaryPoint, ...] = ()
 
-    def show_points(self, points: tuple[Row, ...]) -> None:
+    def show_points(self, points: tuple[BoundaryPoint, ...]) -> None:
         """Show other points."""
         self.beginResetModel()
         self.points = points
@@ -128,7 +98,7 @@ class PointsPage(QWidget):
         self.table.selectionModel().currentRowChanged.connect(lambda now, _: self.chosen.emit(now.row()) if now.isValid() else None)
         self.show_points(())
 
-    def show_points(self, points: tuple[Row, ...]) -> None:
+    def show_points(self, points: tuple[BoundaryPoint, ...]) -> None:
         """Show other points."""
         self.model.show_points(points)
         self.told.setText(f"{counted(len(points), 'boundary point')}: where the topmost surface changes" if points

@@ -24,7 +24,6 @@ from app.ui.nc.reading import Source
 from app.ui.showing import Showing
 from app.ui.surfaces.asks import SHAPES
 from app.ui.surfaces.fresh import NEW_SCENE, Table, free_name, fresh_passes, fresh_surface, fresh_tool, surface_from_curves
-from app.ui.surfaces.points_page import rows_of
 from app.ui.surfaces.scene_side import POINTS, TEXT
 from app.ui.surfaces.scene_work import SceneState, SceneWork
 from app.ui.surfaces.shown_scene import ShownScene, read_file
@@ -285,7 +284,9 @@ class SceneControl(QObject):
         self._showing.show_missing()
 
     def _on_computed(self, shown: ShownScene, again: bool) -> None:
-        points = rows_of(shown.computed)
+        from app.workflow.surface_picture import boundary_points
+
+        points = boundary_points(shown.computed)
         self._view.show_scene(shown, points, again)
         self._side.panel.show_block(self._box)
         self._side.points.show_points(points)

@@ -14,12 +14,12 @@ from app.ui.icons import IconButton
 from app.ui.labels import Elided, muted
 from app.ui.nc.heads import bar
 from app.ui.panels.fields import ChoiceField
-from app.ui.surfaces.points_page import Row
 from app.ui.surfaces.scene_canvas import Pointed, SceneCanvas
 from app.ui.surfaces.scene_raster import ColourBy, Layer
 from app.ui.surfaces.scene_work import SceneState
 from app.ui.surfaces.shown_scene import ShownScene
 from app.ui.verdict import Level, Verdict
+from app.workflow.strands import BoundaryPoint
 
 
 class Look(Enum):
@@ -56,7 +56,7 @@ class SurfacesView(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.shown: ShownScene | None = None
-        self.points: tuple[Row, ...] = ()
+        self.points: tuple[BoundaryPoint, ...] = ()
         self.look, self.state = Look.SPACE, SceneState.NONE
         self.verdict, self.findings = Verdict(Level.NONE, "Not computed"), tuple[Finding, ...]()
         self.canvas, self.looks = SceneCanvas(), ChoiceField("", _NAMES)
@@ -104,7 +104,7 @@ class SurfacesView(QWidget):
         planes = counted(len(self.shown.planes), "plane")
         return f"{counted(len(computed.scene.surfaces), 'surface')} · {planes} · {counted(len(computed.moves.moves), 'move')}"
 
-    def show_scene(self, shown: ShownScene, points: tuple[Row, ...] = (), again: bool = False) -> None:
+    def show_scene(self, shown: ShownScene, points: tuple[BoundaryPoint, ...] = (), again: bool = False) -> None:
         """Show a scene: all of it, or, when it is the one that was shown in another state, from where it is looked at."""
         self.shown, self.points = shown, points
         self.name.setText(shown.computed.scene.name)

@@ -15,7 +15,7 @@ from app.ui.views import View
 
 WAIT_MS = 60_000
 SPHERES = resource("samples", "spheres.toml")
-SMALL = SPHERES.read_bytes().replace(b"pitch = 0.5", b"pitch = 3.0")
+SMALL = SPHERES.read_bytes().replace(b"pitch = 1.0", b"pitch = 4.0")
 
 
 @pytest.fixture
