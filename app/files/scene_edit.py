@@ -51,6 +51,7 @@ def with_table(text: str, name: str, table: Mapping[str, object]) -> str:
     made = tomlkit.table()
     for key, value in table.items():
         made[key] = _as_written(tree, key, value)
+    made.add(tomlkit.nl())
     if name not in tree:
         tree[name] = tomlkit.aot()
     cast(MutableSequence[Any], tree[name]).append(made)

@@ -163,9 +163,10 @@ def test_curves_of_the_drawing_become_a_surface(qtbot, opened):
     with qtbot.waitSignal(opened.scenes.failed) as told:
         window.scene_side.panel.curves_wanted.emit("loft")
     assert "select them in the Draw view" in told.args[0]
-    opened.run("line 0,0 30,5")
+    opened.run("line 0,20 30,25")
     opened.run("spline 0,0 10,8 20,2 30,6")
     opened.run("select all")
+    qtbot.waitUntil(lambda: len(opened.document.selection) == 2)
     window.scene_side.panel.curves_wanted.emit("ruled")
     again(qtbot, opened)
     assert said(opened).surfaces[-1].shape.kind == "ruled"

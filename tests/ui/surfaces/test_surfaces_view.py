@@ -177,7 +177,9 @@ def test_the_mouse_names_what_it_is_over_and_a_click_chooses_it(opened):
     view.set_look(Look.PLAN)
     view.canvas.grab()
     QTest.mouseMove(view.canvas, place_of(view.canvas, (50.0, 38.5, 0.0)))
-    assert "12b dome at 50." in window.status.message.text()
+    name, _, place = window.status.message.text().partition(" at ")
+    assert name == "12b dome"
+    assert [float(each) for each in place.split(",")] == pytest.approx([50.0, 38.5, 23.95], abs=0.3)
     QTest.mouseClick(view.canvas, Qt.MouseButton.LeftButton, pos=place_of(view.canvas, (50.0, 38.5, 0.0)))
     assert panel.subject == ("surface", 1)
     point = view.points[5]
