@@ -14,12 +14,10 @@ _R, _POINTS, _TRIANGLES = "float64[::1]", "float64[:, ::1]", "float64[:, :, ::1]
 _DEPTHS, _OWNERS, _LIGHTS, _PIXELS = "float32[:, ::1]", "int16[:, ::1]", "float32[:, ::1]", "uint8[:, :, ::1]"
 TARGET, SCALE, WIDE, HIGH = 9, 12, 13, 14
 """Of a frame (15,): behind nine numbers of the axes."""
-WIDTH, PATTERN, HIDDEN, BIAS, STRENGTH = 3, 4, 8, 9, 10
-"""Of a pen (11,): behind its blue, green and red: px wide; dash and gap twice, px; how much is left of it where it is hidden, how far
-behind a surface it is before that, mm, and how strong it is where it is not, up to 1."""
+WIDTH, PATTERN, HIDDEN, BIAS, STRENGTH, LEAST = 3, 4, 8, 9, 10, 11
+"""Of a pen (12,): behind its blue, green and red: px wide; dash and gap twice, px; how much is left of it where it is hidden, how far
+behind a surface it is before that, mm, how strong it is where it is not, up to 1; and px: shorter steps are joined with the next."""
 _DARKEST = 0.45
-_LEAST = 0.3
-"""px; steps shorter than this are joined with the next one."""
 
 
 @kernel(f"UniTuple(float64, 3)(float64, float64, float64, {_R})")
@@ -145,7 +143,7 @@ def draw_lines(points, joined, frame, pen, depths, image):  # type: ignore[no-un
         bx, by, bz = seen(points[n, 0], points[n, 1], points[n, 2], frame)
         if running:
             step = math.sqrt((bx - ax) ** 2 + (by - ay) ** 2)
-            if step < _LEAST and joined[n]:
+            if step < pen[LEAST] and joined[n]:
                 continue
             inside = (min(ax, bx) < wide + edge and max(ax, bx) > -edge and min(ay, by) < high + edge and max(ay, by) > -edge)
             if inside:

@@ -11,7 +11,7 @@ from app.ui.figures import counted
 from app.ui.labels import muted
 from app.workflow.strands import BoundaryPoint
 
-WIDTH = 420
+WIDTH = 440
 _HEADS = ("", "Plane", "X", "Y", "Z", "Kind")
 _TIPS = ("The surfaces that meet, by their numbers", "Cutting plane, counted over all passes", "mm", "mm", "mm",
          "crossing; edge: one ends; jump: two heights at one place; tangent: they touch")

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
+from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QColor,
     QImage,
@@ -33,6 +34,8 @@ _CLICK_PX = 3.0
 _MANY, _SAME_PX, _BEHIND = 300, 150, 0.3
 """More boundary points than this are dots; the same name stands this far apart, px; what is left of points behind a surface."""
 _EDGE = 16
+_LONG_S, _REST_MS = 0.03, 150
+"""A picture that takes longer is painted coarsely while it moves, and fine when it has rested for so long."""
 _KEYS = {Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Up: (0, -1), Qt.Key.Key_Down: (0, 1)}
 
 
@@ -79,6 +82,11 @@ class SceneCanvas(QWidget):
         self._from, self._at, self._pressed = QPointF(), QPointF(-1, -1), QPointF()
         self._moved = False
         self._over: Pointed | None = None
+        self._moving, self._took_s, self._ratio = False, 0.0, 1.0
+        self._resting = QTimer(self)
+        self._resting.setSingleShot(True)
+        self._resting.setInterval(_REST_MS)
+        self._resting.timeout.connect(self._on_rest)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)
 
@@ -111,9 +119,7 @@ class SceneCanvas(QWidget):
         if self._picture is not None and 0 <= number < len(self._picture.marks):
             x, y = self._seen(self._picture.marks[number : number + 1])[0, :2]
             if not (_EDGE < x < self.width() - _EDGE and _EDGE < y < self.height() - _EDGE):
-                self._moved = True
-                self.camera = self.camera.panned(self.width() / 2 - x, self.height() / 2 - y)
-                self._refresh()
+                self._move(self.camera.panned(self.width() / 2 - x, self.height() / 2 - y))
         self.update()
 
     def look(self, view: StandardView) -> None:
@@ -142,9 +148,7 @@ class SceneCanvas(QWidget):
         self.update()
 
     def _zoom(self, factor: float, x: float, y: float) -> None:
-        self._moved = True
-        self.camera = self.camera.zoomed(factor, (x, y), self._size)
-        self._refresh()
+        self._move(self.camera.zoomed(factor, (x, y), self._size))
 
     def _seen(self, points: Floats) -> Floats:
         return self.camera.project(points, self._size)
@@ -162,16 +166,38 @@ class SceneCanvas(QWidget):
         if self._picture is None:
             painter.fillRect(self.rect(), self._theme.canvas)
             return
-        ratio = self.devicePixelRatioF()
-        size = (max(round(self.width() * ratio), 1), max(round(self.height() * ratio), 1))
-        if self.drawn is None or self.drawn.owners.shape != size[::-1]:
-            self.drawn = raster(self._picture, Style(self.camera, self._inks, self.layers, self.colour_by, ratio), size)
+        if self.drawn is None:
+            self.drawn = self._drawn_now(self._picture)
         pixels = self.drawn.pixels
+        size = (pixels.shape[1], pixels.shape[0])
         painter.drawImage(QRectF(self.rect()), QImage(pixels.data, size[0], size[1], 4 * size[0], QImage.Format.Format_RGB32))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self._paint_marks(painter, self._picture)
         self._paint_tool(painter, self._picture)
         self._paint_legend(painter)
+
+    def _drawn_now(self, picture: Picture) -> Raster:
+        """Paint the picture anew: while it moves, and that takes long, with half as many px each way, and fine once it rests."""
+        coarse = self._moving and self._took_s > _LONG_S
+        self._ratio = self.devicePixelRatioF() * (0.5 if coarse else 1.0)
+        size = (max(round(self.width() * self._ratio), 1), max(round(self.height() * self._ratio), 1))
+        began = time.perf_counter()
+        made = raster(picture, Style(self.camera, self._inks, self.layers, self.colour_by, self._ratio, coarse), size)
+        if coarse:
+            self._resting.start()
+        else:
+            self._took_s = time.perf_counter() - began
+        return made
+
+    def _on_rest(self) -> None:
+        self._moving = False
+        self._refresh()
+
+    def _move(self, camera: Camera) -> None:
+        """Look from elsewhere."""
+        self._moved = self._moving = True
+        self.camera = camera
+        self._refresh()
 
     def _paint_marks(self, painter: QPainter, picture: Picture) -> None:
         if not len(picture.marks) or Layer.POINTS not in self.layers:
@@ -196,7 +222,7 @@ class SceneCanvas(QWidget):
 
     def _ahead(self, seen: Floats) -> NDArray[np.bool_]:
         """Return which places, as they are seen, no surface hides."""
-        drawn, ratio = self.drawn, self.devicePixelRatioF()
+        drawn, ratio = self.drawn, self._ratio
         if drawn is None:
             return np.ones(len(seen), np.bool_)
         high, wide = drawn.depths.shape
@@ -275,7 +301,7 @@ class SceneCanvas(QWidget):
         if len(picture.lows):
             x, y, z = ray.origin.tolist()
             return Pointed(-1, -1, (x, y, z))
-        ratio = self.devicePixelRatioF()
+        ratio = self._ratio
         row, column = int(at.y() * ratio), int(at.x() * ratio)
         if drawn is None or not (0 <= row < drawn.owners.shape[0] and 0 <= column < drawn.owners.shape[1]):
             return None
@@ -286,6 +312,7 @@ class SceneCanvas(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Fit again what was never moved."""
+        self._refresh()
         if not self._moved:
             self.fit()
 
@@ -310,12 +337,10 @@ class SceneCanvas(QWidget):
             self._set_over(self._point(event.position()))
             return
         by, self._from = event.position() - self._from, event.position()
-        self._moved = True
         if self.turns and event.buttons() == Qt.MouseButton.LeftButton:
-            self.camera = self.camera.orbited(-by.x() * _TURN, by.y() * _TURN, np.array(self.camera.target))
+            self._move(self.camera.orbited(-by.x() * _TURN, by.y() * _TURN, np.array(self.camera.target)))
         else:
-            self.camera = self.camera.panned(by.x(), by.y())
-        self._refresh()
+            self._move(self.camera.panned(by.x(), by.y()))
 
     def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
         """Point at nothing."""
@@ -336,12 +361,10 @@ class SceneCanvas(QWidget):
         if event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier & ~Qt.KeyboardModifier.ShiftModifier:
             super().keyPressEvent(event)
         elif way is not None:
-            self._moved = True
             if self.turns:
-                self.camera = self.camera.orbited(way[0] * _STEP * _TURN / 4, -way[1] * _STEP * _TURN / 4, np.array(self.camera.target))
+                self._move(self.camera.orbited(way[0] * _STEP * _TURN / 4, -way[1] * _STEP * _TURN / 4, np.array(self.camera.target)))
             else:
-                self.camera = self.camera.panned(-way[0] * _STEP, -way[1] * _STEP)
-            self._refresh()
+                self._move(self.camera.panned(-way[0] * _STEP, -way[1] * _STEP))
         elif event.key() == Qt.Key.Key_F:
             self.fit()
         elif event.key() in (Qt.Key.Key_Plus, Qt.Key.Key_Minus):

@@ -47,6 +47,8 @@ PATTERNS: Mapping[LineType, tuple[float, ...]] = {LineType.SOLID: (0.0,) * 4, Li
 """Dash and gap, twice, px."""
 _STRENGTH, _HIDDEN, _BEHIND = 0.5, 0.22, 0.35
 """How strongly surfaces are coloured; what is left of a line behind one; px that count as behind."""
+_LEAST_PX, _COARSE_PX = 0.3, 1.5
+"""Steps of lines that are shorter are left out: of a picture that stands, and of one on the move."""
 _DENSE_PX, _FAINTEST = 4.0, 0.18
 """Passes nearer together than this are drawn fainter, so that the surface is seen between them; down to this."""
 
@@ -85,13 +87,18 @@ class Raster:
 
 @dataclass(frozen=True)
 class Style:
-    """How a scene is painted: from where, with which colours, and what of it; `ratio` is px of the screen for each of the window."""
+    """How a scene is painted: from where, with which colours, and what of it.
+
+    Attributes:
+        ratio: px of the picture for each of the window. coarse: the picture is on the move, and quick rather than fine.
+    """
 
     camera: Camera
     inks: Inks
     layers: Layer = Layer.ALL
     colour_by: ColourBy = ColourBy.SURFACE
     ratio: float = 1.0
+    coarse: bool = False
 
 
 def raster(picture: Picture, style: Style, size: tuple[int, int]) -> Raster:
@@ -142,4 +149,4 @@ def _pen(each: Strand, style: Style, pitch: float) -> Floats:
     ratio, dense = style.ratio, min(max(pitch * style.camera.scale / _DENSE_PX, _FAINTEST), 1.0)
     strength = dense if each.role in (Role.PATH, Role.LINK) else 1.0
     return np.array([*ink[::-1], _WIDTHS[each.role] * ratio, *(length * ratio for length in pattern), _HIDDEN,
-                     _BEHIND / style.camera.scale + 1e-4, strength])  # fmt: skip
+                     _BEHIND / style.camera.scale + 1e-4, strength, _COARSE_PX if style.coarse else _LEAST_PX])  # fmt: skip
