@@ -17,7 +17,7 @@ Kind = TypeVar("Kind")
 Range = tuple[float, float]
 
 EXPECTED = {str: "a text", bool: "true or false", int: "a whole number", float: "a number", tuple[str, ...]: "a list of texts",
-            tuple[float, ...]: "a list of numbers"}  # fmt: skip
+            tuple[float, ...]: "a list of numbers", tuple[int, ...]: "a list of whole numbers"}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -148,7 +148,8 @@ def _value(kind: Any, value: Any, at: tuple[_Place, str], ranges: Mapping[str, R
     if isinstance(kind, type) and issubclass(kind, Enum) and value in [choice.value for choice in kind]:
         return kind(value)
     if typing.get_origin(kind) is tuple and isinstance(value, list) and _alike(typing.get_args(kind), value):
-        return tuple(item if isinstance(item, str) else float(_in_range(item, at, ranges)) for item in value)
+        whole = typing.get_args(kind) == (int, ...)
+        return tuple(item if whole or isinstance(item, str) else float(_in_range(item, at, ranges)) for item in value)
     if (part := _repeated(kind)) is not None and isinstance(value, list):
         return tuple(_item(part, item, at, (number, ranges)) for number, item in enumerate(value, 1))
     if kind in (int, float) and type(value) in (int, kind):
@@ -196,6 +197,8 @@ def _alike(parts: tuple[Any, ...], values: list[Any]) -> bool:
     """Tell whether the values are those of a tuple type: texts, or so many numbers."""
     if parts == (str, ...):
         return all(isinstance(value, str) for value in values)
+    if parts == (int, ...):
+        return all(type(value) is int for value in values)
     if parts == (float, ...):
         return all(type(value) in (int, float) for value in values)
     return len(parts) == len(values) and all(type(value) in (int, float) for value in values)

@@ -26,7 +26,7 @@ JOB_TABLES = ("tool", "heights", "origin", "output")
 _UNITS = {"mm": 1.0, "in": 25.4}
 _NO_LENGTHS = frozenset({
     "number", "flutes", "spindle_speed", "tip_angle", "feeds", "angle_deg", "rotate_deg", "turn_deg", "scale",
-    "degree", "degree_u", "degree_v", "knots", "knots_u", "knots_v", "weights", "x_axis", "y_axis", "axis",
+    "degree", "degree_u", "degree_v", "faces", "knots", "knots_u", "knots_v", "weights", "x_axis", "y_axis", "axis",
 })  # fmt: skip
 """Keys whose numbers are the same in inches."""
 

@@ -270,8 +270,29 @@ class MeshShape(_Checked):
             raise self._wrong(f"file is {self.file!r}", "it must be an .stl, .obj or .ply file")
 
 
+@dataclass(frozen=True)
+class StepShape(_Checked):
+    """Faces of a STEP file, in mm whatever its units.
+
+    Attributes:
+        faces: their numbers, from 1 on, in the order of the file; (): all of them.
+        tolerance: how far the triangles that stand for them may be off, mm.
+    """
+
+    kind: ClassVar[str] = "step"
+    file: str
+    faces: tuple[int, ...] = ()
+    tolerance: float = 0.005
+
+    def _check(self) -> None:
+        if not 1e-4 <= self.tolerance <= 1.0:
+            raise self._wrong(f"tolerance is {self.tolerance:g} mm", "use 0.0001 to 1 mm")
+        if not self.file.lower().endswith((".step", ".stp")):
+            raise self._wrong(f"file is {self.file!r}", "it must be a .step or .stp file")
+
+
 Shape = (
     PlaneShape | SphereShape | CylinderShape | ConeShape | TorusShape | BilinearShape | BicubicShape | BsplineShape | LoftShape
-    | RuledShape | RevolvedShape | SweptShape | MeshShape
+    | RuledShape | RevolvedShape | SweptShape | MeshShape | StepShape
 )  # fmt: skip
 """Everything that a surface can be given as."""

@@ -28,6 +28,7 @@ from app.model.scene_shapes import (
     RevolvedShape,
     RuledShape,
     SphereShape,
+    StepShape,
     SweptShape,
     TorusShape,
 )
@@ -38,6 +39,7 @@ from app.surface.patch import BsplineSurface
 from app.surface.revolve import revolved
 from app.surface.ruled import ruled
 from app.surface.section_curve import Resolved, contours_of, resolve, resolve_all
+from app.surface.step_faces import step_triangles
 from app.surface.sweep import TOLERANCE, following_sweep, parallel_sweep
 
 Floats = NDArray[np.float64]
@@ -143,6 +145,9 @@ def _shaped(surface: Surface, sources: Sources) -> Built:
             return _of(surface, (parallel_sweep(profile.curve, guide.curve),), profile, guide)
         built = _of(surface, following_sweep(profile.curve, guide.curve), profile, guide)
         return replace(built, deviation=built.deviation + TOLERANCE)
+    if isinstance(shape, StepShape):
+        triangles = step_triangles(shape.file, sources.data(shape.file), shape.faces, shape.tolerance)
+        return Built(surface, triangles=triangles, deviation=shape.tolerance)
     assert isinstance(shape, MeshShape)
     return Built(surface, triangles=triangles_of(shape, sources))
 

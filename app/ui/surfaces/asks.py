@@ -116,6 +116,8 @@ def shape_asks(shape: Shape) -> tuple[Ask, ...]:
             asks.append(Ask(Kind.NUMBER, name, key, value, "" if each.name == "scale" else "mm", low))
         elif isinstance(value, Keep):
             asks.append(Ask(Kind.CHOICE, name, key, value, choices=_KEEP))
+        elif each.name == "faces":
+            asks.append(Ask(Kind.TOLD, f"Faces {', '.join(map(str, value))}" if value else "All faces"))
         elif isinstance(value, str):
             asks.append(Ask(Kind.WORDS, name, key, value))
         elif isinstance(value, tuple) and len(value) == 3 and all(isinstance(part, float) for part in value):

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 SAMPLES = ("compound", "spheres", "torus", "die")
 FILTER = "Scenes (*.toml)"
-_MESHES = "Meshes (*.stl *.obj *.ply)"
+_SOLIDS = "Meshes and STEP files (*.stl *.obj *.ply *.step *.stp)"
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,14 +190,15 @@ class SceneControl(QObject):
         self._add("surface", lambda scene: surface_from_curves(kind, curves, scene))
 
     def add_from_file(self) -> None:
-        """Ask for a mesh and add it."""
+        """Ask for a mesh or a STEP file and add it."""
         path = self.choose_mesh()
         if path is None:
             return
+        kind = "step" if path.suffix.lower() in (".step", ".stp") else "mesh"
         base = self.document.path.parent if self.document.path is not None else None
         named = path.name if base is not None and path.parent == base else str(path)
         self._add("surface", lambda scene: {"name": free_name(path.stem, (each.name for each in scene.surfaces)),
-                                            "shape": {"kind": "mesh", "file": named}})  # fmt: skip
+                                            "shape": {"kind": kind, "file": named}})  # fmt: skip
 
     @property
     def _box(self) -> tuple[float, ...]:
@@ -324,7 +325,7 @@ class SceneControl(QObject):
         return Path(name) if name else None
 
     def _choose_mesh(self) -> Path | None:
-        name, _ = QFileDialog.getOpenFileName(self._window, "Add a surface from a file", self._window.settings.last_folder, _MESHES)
+        name, _ = QFileDialog.getOpenFileName(self._window, "Add a surface from a file", self._window.settings.last_folder, _SOLIDS)
         return Path(name) if name else None
 
 
