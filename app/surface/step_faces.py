@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,7 +15,7 @@ from app.errors import GeometryError, InputError
 
 Floats = NDArray[np.float64]
 
-EXTRA = "STEP files are read by Open CASCADE, which is not installed here; install it with: pip install 'hitofude[step]'."
+EXTRA = "STEP files are read by Open CASCADE, which is not installed here; install it with: {} -m pip install 'cadquery-ocp>=8,<9'."
 _ANGLE = 0.3
 """radians; triangles of one face lean no more from one to the next, whatever the tolerance."""
 _TIMES, _FINER = 6, 0.4
@@ -58,7 +59,7 @@ def _faces(name: str, data: bytes) -> tuple[Any, list[Any]]:
         from OCP.TopExp import TopExp_Explorer
         from OCP.TopoDS import TopoDS
     except ImportError as error:
-        raise InputError(f"{name}: {EXTRA}") from error
+        raise InputError(f"{name}: {EXTRA.format(sys.executable)}") from error
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "scene.step"
         path.write_bytes(data)

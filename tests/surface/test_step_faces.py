@@ -38,7 +38,7 @@ def test_without_the_library_it_is_told_what_to_install(monkeypatch) -> None:
     for name in [each for each in sys.modules if each.split(".")[0] == "OCP"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "OCP", None)
-    with pytest.raises(InputError, match=r"dome\.step: .*pip install 'hitofude\[step\]'"):
+    with pytest.raises(InputError, match=r"dome\.step: .* -m pip install 'cadquery-ocp"):
         step_triangles("dome.step", PLATE, (), 0.01)
 
 

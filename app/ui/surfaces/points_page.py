@@ -9,12 +9,14 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QVBoxL
 
 from app.ui.figures import counted
 from app.ui.labels import muted
+from app.ui.theme import Theme
 from app.workflow.strands import BoundaryPoint
 
 WIDTH = 440
 _HEADS = ("", "Plane", "X", "Y", "Z", "Kind")
 _TIPS = ("The surfaces that meet, by their numbers", "Cutting plane, counted over all passes", "mm", "mm", "mm",
          "crossing; edge: one ends; jump: two heights at one place; tangent: they touch")
+_CELLS = "QTableView::item { padding-left: 12px; padding-right: 4px; }"
 _Index = QModelIndex | QPersistentModelIndex
 
 
@@ -31,11 +33,13 @@ class PointsModel(QAbstractTableModel):
         self.points = points
         self.endResetModel()
 
-    def rowCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: N802, B008 (Qt's)
+    def rowCount(self, parent: _CELLS = "QTableView::item { padding-left: 12px; padding-right: 4px; }"
+_Index = QModelIndex()) -> int:  # noqa: N802, B008 (Qt's)
         """As many as there are points."""
         return 0 if parent.isValid() else len(self.points)
 
-    def columnCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: N802, B008 (Qt's)
+    def columnCount(self, parent: _CELLS = "QTableView::item { padding-left: 12px; padding-right: 4px; }"
+_Index = QModelIndex()) -> int:  # noqa: N802, B008 (Qt's)
         """Name, plane, place, kind."""
         return 0 if parent.isValid() else len(_HEADS)
 
@@ -82,7 +86,6 @@ class PointsPage(QWidget):
         self.table.verticalHeader().setDefaultSectionSize(24)
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.table.setStyleSheet("QTableView::item { padding-left: 12px; padding-right: 4px; }")
         self.table.setAccessibleName("Boundary points")
         header = self.table.horizontalHeader()
         header.setHighlightSections(False)
@@ -97,6 +100,11 @@ class PointsPage(QWidget):
         whole.addWidget(self.table, 1)
         self.table.selectionModel().currentRowChanged.connect(lambda now, _: self.chosen.emit(now.row()) if now.isValid() else None)
         self.show_points(())
+
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme."""
+        chosen = f"selection-background-color: {theme.chosen.name()}; selection-color: {theme.ink.name()};"
+        self.table.setStyleSheet(f"QTableView {{ background: {theme.paper.name()}; {chosen} }} {_CELLS}")
 
     def show_points(self, points: tuple[BoundaryPoint, ...]) -> None:
         """Show other points."""
