@@ -33,13 +33,11 @@ class PointsModel(QAbstractTableModel):
         self.points = points
         self.endResetModel()
 
-    def rowCount(self, parent: _CELLS = "QTableView::item { padding-left: 12px; padding-right: 4px; }"
-_Index = QModelIndex()) -> int:  # noqa: N802, B008 (Qt's)
+    def rowCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: N802, B008 (Qt's)
         """As many as there are points."""
         return 0 if parent.isValid() else len(self.points)
 
-    def columnCount(self, parent: _CELLS = "QTableView::item { padding-left: 12px; padding-right: 4px; }"
-_Index = QModelIndex()) -> int:  # noqa: N802, B008 (Qt's)
+    def columnCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: N802, B008 (Qt's)
         """Name, plane, place, kind."""
         return 0 if parent.isValid() else len(_HEADS)
 

@@ -229,7 +229,7 @@ class SceneCanvas(QWidget):
         column, row = (np.floor(seen[:, axis] * ratio).astype(np.int64) for axis in (0, 1))
         inside = (column >= 0) & (column < wide) & (row >= 0) & (row < high)
         depth = drawn.depths[np.where(inside, row, 0), np.where(inside, column, 0)]
-        return np.asarray(~inside | (seen[:, 2] >= depth - 3.0 / self.camera.scale))
+        return np.asarray(~inside | (seen[:, 2] >= depth - 8.0 / self.camera.scale))
 
     def _paint_names(self, painter: QPainter, seen: Floats, labels: Sequence[str], first: Sequence[int]) -> None:
         """Write names where they cover no other one, and far from the same name; those of `first` in any case."""
