@@ -9,13 +9,14 @@ from pathlib import Path
 
 from app.atomic import write_together
 from app.cli_files import check_outputs, read_input, shown_progress
-from app.cli_options import OptionParser
+from app.cli_options import OptionParser, number
 from app.cli_output import finding_lines, helped, tell
 from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.files.scene_toml import read_scene, sources_of
 from app.files.surface_plot import VIEWS, Look
 from app.workflow.surface import Computed, compute
+from app.workflow.surface_loop import closed_loop
 from app.workflow.surface_nc import WrittenScene, write_scene_nc
 from app.workflow.surface_plot import FORMATS, Drawn, PlotScene, plot_surface
 from app.workflow.surface_points import scene_points_csv
@@ -47,9 +48,12 @@ def surface_command(argv: Sequence[str], stopped: threading.Event) -> int:
     progress = shown_progress(arguments.quiet, stopped)
     path: Path = arguments.scene
     scene = read_scene(path.name, read_input(path))
-    computed = compute(scene, sources_of(lambda name: read_input(path.parent / name)), progress.part(0.0, 0.7))
-    written = write_scene_nc(computed, progress.part(0.7, 0.95)) if "output" in outputs else None
+    sources = sources_of(lambda name: read_input(path.parent / name))
+    computed = compute(scene, sources, progress.part(0.0, 0.5))
+    written = write_scene_nc(computed, progress.part(0.5, 0.7)) if "output" in outputs or arguments.loop is not None else None
     report = surface_report(computed, written)
+    if written is not None and arguments.loop is not None:
+        report.data["loop"] = closed_loop(written, sources, arguments.loop, progress.part(0.7, 1.0))
     texts = dict(_texts(arguments, outputs, computed, written))
     if "report" in outputs:
         texts[outputs["report"]] = report.text().encode()
@@ -75,6 +79,8 @@ def _parser() -> OptionParser:
                         help="what is plotted: the cutters' paths (default), the compound surface, or both")
     parser.add_argument("--points", metavar="OUT.csv", type=Path, help="the compound surface and its boundary points as a table")
     parser.add_argument("--report", metavar="R.json", type=Path, help="everything that was computed and proven, as JSON")
+    parser.add_argument("--loop", metavar="T", type=number("loop"), help="with --report: the program is cut, smoothed within T mm and cut again, "
+                        "all told in the report")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
     return parser
 
@@ -86,6 +92,8 @@ def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
         raise InputError("surface has nothing to write; add -o OUT.ngc, --plot OUT.svg, --points OUT.csv or --report R.json")
     if "plot" in outputs and outputs["plot"].suffix.lower() not in FORMATS:
         raise InputError(f"--plot {outputs['plot']}: a plot is one of {', '.join(FORMATS)}; change the name")
+    if arguments.loop is not None and "report" not in outputs:
+        raise InputError("--loop tells what it finds in the report; add --report R.json")
     check_outputs(outputs, [arguments.scene])
     return outputs
 
@@ -99,8 +107,9 @@ def _texts(
     if "plot" in outputs:
         path = outputs["plot"]
         what = PlotScene(VIEWS[arguments.view], Look(arguments.look), Drawn(arguments.draw))
-        (page, *_) = plot_surface(computed, path.suffix, what)
-        yield path, page
-    if written is not None:
+        sheets = plot_surface(computed, path.suffix, what)
+        for number, sheet in enumerate(sheets, 1):
+            yield path if len(sheets) == 1 else path.with_name(f"{path.stem}_{number}{path.suffix}"), sheet
+    if written is not None and "output" in outputs:
         for file in written.files:
             yield file.named(outputs["output"]), file.nc.text.encode()

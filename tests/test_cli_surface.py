@@ -107,6 +107,31 @@ def test_surfaces_then_cut_then_smooth_then_cut_is_clean_and_keeps_the_boundarie
     assert len(after.splitlines()) < len(before.splitlines()) / 3
 
 
+def test_one_report_tells_the_whole_way_from_surfaces_to_the_cut_of_the_smoothed_program(tmp_path: Path) -> None:
+    scene, report = tmp_path / "scene.toml", tmp_path / "r.json"
+    scene.write_text(BALLS.replace("pitch = 0.5", "scallop = 0.02"))
+    assert main(["surface", str(scene), "--loop", "0.005", "--report", str(report), "--quiet"]) == 0
+    told = json.loads(report.read_text())
+    loop = told["loop"]
+    assert told["gouge"]["count"] == 0
+    assert loop["boundaries_kept"]
+    assert loop["smooth"][0]["tolerance"]["proven_mm"] <= 0.005
+    assert loop["smooth"][0]["blocks"]["after"] < loop["smooth"][0]["blocks"]["before"] / 3
+    for name in ("cut", "cut_smoothed"):
+        assert loop[name]["gouge"]["count"] == 0
+        assert loop[name]["rapids_in_material"] == []
+        assert loop[name]["removed_mm3"] > 1000
+    assert loop["cut_smoothed"]["removed_mm3"] == pytest.approx(loop["cut"]["removed_mm3"], rel=1e-3)
+
+
+def test_a_loop_without_a_report_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene = tmp_path / "scene.toml"
+    scene.write_text(BALLS)
+    assert main(["surface", str(scene), "--loop", "0.005", "-o", str(tmp_path / "a.ngc")]) == 2
+    assert "add --report R.json" in capsys.readouterr().err
+    assert not (tmp_path / "a.ngc").exists()
+
+
 def test_a_cut_too_deep_into_a_surface_is_a_gouge_of_that_depth(tmp_path: Path) -> None:
     files = written(tmp_path)
     lines = files["ngc"].read_text().splitlines()
