@@ -79,8 +79,8 @@ def _parser() -> OptionParser:
                         help="what is plotted: the cutters' paths (default), the compound surface, or both")
     parser.add_argument("--points", metavar="OUT.csv", type=Path, help="the compound surface and its boundary points as a table")
     parser.add_argument("--report", metavar="R.json", type=Path, help="everything that was computed and proven, as JSON")
-    parser.add_argument("--loop", metavar="T", type=number("loop"), help="with --report: the program is cut, smoothed within T mm and cut again, "
-                        "all told in the report")
+    parser.add_argument("--loop", metavar="T", type=number("loop"),
+                        help="with --report: the program is cut, smoothed within T mm and cut again, all told in the report")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
     return parser
 
