@@ -58,7 +58,8 @@ class VectorField(QWidget):
         for field, number in zip(self.fields, value, strict=True):
             field.show_value(number)
             if not (field.edit.hasFocus() and field.edit.isModified()):
-                field.edit.setText(f"{number:.{field.spec.decimals}f}".rstrip("0").rstrip("."))
+                text = field.edit.text()
+                field.edit.setText(text.rstrip("0").rstrip(".") if "." in text else text)
                 field.edit.setCursorPosition(0)
 
 

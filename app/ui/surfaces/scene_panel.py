@@ -314,6 +314,14 @@ class ScenePanel(QScrollArea):
     def _on_changed(self, ask: Ask, value: object) -> None:
         if ask.kind is Kind.COLOUR or not (isinstance(value, str) and value == "" and ask.kind is Kind.WORDS and ask.name != "Name"):
             self._set(self.subject, ask.changes(value))
+            if self.subject[0] == "tool" and ask.key == ("number",):
+                self._renumber(int(ask.value), value)
+
+    def _renumber(self, before: int, number: object) -> None:
+        """Have the passes of a tool go on with it under its new number."""
+        for at, passes in enumerate(self._shown.passes if self._shown is not None else ()):
+            if passes.tool == before:
+                self._set(("passes", at), {("tool",): number})
 
     def _set(self, subject: Subject, values: Mapping[tuple[str | int, ...], object]) -> None:
         place: tuple[str | int, ...] = () if subject == THE_SCENE else subject

@@ -158,6 +158,25 @@ def test_places_take_three_numbers(qtbot, opened):
     assert field.fields[0].edit.property("wrong") == "true"
 
 
+def test_places_are_shown_and_typed_in_inches_while_the_window_shows_inches(qtbot, opened):
+    panel = opened.window_.scene_side.panel
+    panel.choose(("surface", 1))
+    field = panel.form.fields["Moved by"]
+    opened.window_.actions_["units_inch"].trigger()
+    type_into(field.fields[0], "2")
+    assert said(opened).surfaces[1].move == pytest.approx((50.8, 0.0, 0.0))
+    qtbot.waitUntil(lambda: field.fields[0].edit.text() == "2")
+    opened.window_.actions_["units_mm"].trigger()
+
+
+def test_a_tool_keeps_its_passes_under_another_number(qtbot, opened):
+    panel = opened.window_.scene_side.panel
+    panel.choose(("tool", 0))
+    type_into(panel.form.fields["T number"], "7")
+    assert said(opened).tools[0].number == 7
+    assert said(opened).passes[0].tool == 7
+
+
 def test_curves_of_the_drawing_become_a_surface(qtbot, opened):
     window = opened.window_
     with qtbot.waitSignal(opened.scenes.failed) as told:
