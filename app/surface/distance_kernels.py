@@ -1,4 +1,4 @@
-"""Compiled: how far a segment is from a triangle in space, in closed form."""
+"""Compiled: how far a segment, or all that is above it, is from a triangle in space, in closed form."""
 
 from __future__ import annotations
 
@@ -35,19 +35,50 @@ def square_from_triangle(t, ax, ay, az, bx, by, bz):  # type: ignore[no-untyped-
     px, py, pz = ax - t[0], ay - t[1], az - t[2]
     nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
     square = nx * nx + ny * ny + nz * nz
-    best = _between(dx, dy, dz, ux, uy, uz, px, py, pz)
-    best = min(best, _between(dx, dy, dz, vx, vy, vz, px, py, pz))
-    best = min(best, _between(dx, dy, dz, vx - ux, vy - uy, vz - uz, px - ux, py - uy, pz - uz))
+    best, inside = math.inf, 0
     uu, uv, vv = ux * ux + uy * uy + uz * uz, ux * vx + uy * vy + uz * vz, vx * vx + vy * vy + vz * vz
-    if square <= _SLIVER * max(uu, vv, uu - 2.0 * uv + vv) or square <= _FLAT:
+    if square > _SLIVER * max(uu, vv, uu - 2.0 * uv + vv) and square > _FLAT:
+        start, end = nx * px + ny * py + nz * pz, nx * (px + dx) + ny * (py + dy) + nz * (pz + dz)
+        for share in (0.0, 1.0, start / (start - end) if start * end < 0.0 else math.nan):  # both ends, and where it goes through
+            if share == share:
+                x, y, z = px + share * dx, py + share * dy, pz + share * dz
+                du, dv = x * ux + y * uy + z * uz, x * vx + y * vy + z * vz
+                s, r = vv * du - uv * dv, uu * dv - uv * du
+                if s >= 0.0 and r >= 0.0 and s + r <= square:
+                    off = nx * x + ny * y + nz * z
+                    best = min(best, off * off / square)
+                    inside += 1
+    if inside >= 2:  # over its face, or through it, all along
         return best
-    start, end = nx * px + ny * py + nz * pz, nx * (px + dx) + ny * (py + dy) + nz * (pz + dz)
-    for share in (0.0, 1.0, start / (start - end) if start * end < 0.0 else math.nan):  # both ends, and where it goes through
-        if share == share:
-            x, y, z = px + share * dx, py + share * dy, pz + share * dz
-            du, dv = x * ux + y * uy + z * uz, x * vx + y * vy + z * vz
-            s, r = (vv * du - uv * dv) / square, (uu * dv - uv * du) / square
-            if s >= 0.0 and r >= 0.0 and s + r <= 1.0:
-                off = nx * x + ny * y + nz * z
-                best = min(best, off * off / square)
+    best = min(best, _between(dx, dy, dz, ux, uy, uz, px, py, pz))
+    best = min(best, _between(dx, dy, dz, vx, vy, vz, px, py, pz))
+    return min(best, _between(dx, dy, dz, vx - ux, vy - uy, vz - uz, px - ux, py - uy, pz - uz))
+
+
+@kernel(f"float64({_R}, float64, float64, float64, float64, float64, float64)", counts=False)
+def square_from_curtain(t, ax, ay, az, bx, by, bz):  # type: ignore[no-untyped-def]
+    """Return the square of the distance of a triangle (9,) from all that is on or above the segment from a to b."""
+    best = square_from_triangle(t, ax, ay, az, bx, by, bz)
+    top = max(t[2], t[5], t[8])
+    if top <= min(az, bz):
+        return best
+    best = min(best, square_from_triangle(t, ax, ay, az, ax, ay, max(az, top)))
+    best = min(best, square_from_triangle(t, bx, by, bz, bx, by, max(bz, top)))
+    dx, dy, dz = bx - ax, by - ay, bz - az
+    square = dx * dx + dy * dy
+    if square <= _FLAT:
+        return best
+    for k in range(3):  # corners in front of the curtain, and edges that go through it
+        n = 3 * ((k + 1) % 3)
+        x, y, z = t[3 * k] - ax, t[3 * k + 1] - ay, t[3 * k + 2] - az
+        share, off = (x * dx + y * dy) / square, x * dy - y * dx
+        if 0.0 <= share <= 1.0 and z >= share * dz:
+            best = min(best, off * off / square)
+        ex, ey, ez = t[n] - t[3 * k], t[n + 1] - t[3 * k + 1], t[n + 2] - t[3 * k + 2]
+        end = off + ex * dy - ey * dx
+        if off * end < 0.0:
+            at = off / (off - end)
+            share = ((x + at * ex) * dx + (y + at * ey) * dy) / square
+            if 0.0 <= share <= 1.0 and z + at * ez >= share * dz:
+                return 0.0
     return best

@@ -32,7 +32,8 @@ class Facets:
         owner: (n,) number of the surface that each is of.
         patch: (n,) number of the patch that it stands for a part of, NONE where it is the surface itself.
         corners: (n, 3, 2) parameters of its corners in that patch, each from 0 to 1.
-        error: (n,) no place of that part is farther from the triangle than this, mm.
+        error: (n,) no place of that part is farther than this from the triangle's place of the same parameters, mm.
+        bulge: (n, 2) nor farther than this below and above the triangle, square to it, on the side that its corners are told to, mm; >= 0.
         patches: of all surfaces.
     """
 
@@ -41,6 +42,7 @@ class Facets:
     patch: Ints
     corners: Floats
     error: Floats
+    bulge: Floats
     patches: Patches
 
     def __post_init__(self) -> None:
@@ -57,12 +59,12 @@ class Facets:
         """Return the facets of triangles (n, 3, 3) that are the surface themselves."""
         count = len(triangles)
         return Facets(np.ascontiguousarray(triangles, np.float64), np.full(count, owner, np.int64), np.full(count, NONE, np.int64),
-                      np.zeros((count, 3, 2)), np.zeros(count), patches_of(()))
+                      np.zeros((count, 3, 2)), np.zeros(count), np.zeros((count, 2)), patches_of(()))
 
     def only(self, rows: Ints | NDArray[np.bool_]) -> Facets:
         """Return some of them."""
         return replace(self, triangles=self.triangles[rows], owner=self.owner[rows], patch=self.patch[rows],
-                       corners=self.corners[rows], error=self.error[rows])
+                       corners=self.corners[rows], error=self.error[rows], bulge=self.bulge[rows])
 
     @cached_property
     def tree(self) -> Tree:
@@ -98,7 +100,7 @@ def joined(parts: Sequence[Facets]) -> Facets:
         np.concatenate([each.spans for each in patches]))  # fmt: skip
     return Facets(np.concatenate([part.triangles for part in parts]), np.concatenate([part.owner for part in parts]),
                   np.concatenate(numbers), np.concatenate([part.corners for part in parts]),
-                  np.concatenate([part.error for part in parts]), whole)  # fmt: skip
+                  np.concatenate([part.error for part in parts]), np.concatenate([part.bulge for part in parts]), whole)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +110,7 @@ class Tree:
     Attributes:
         boxes: (2^k - 1, 8) of what each node's facets stand for: x0, y0, x1, y1, top, and a plane that nothing of it is above: its
             slopes along X and Y and its height at the origin. The root first; children of i are 2 i + 1 and 2 i + 2.
-        triangles: (n, 9) in the order of the leaves. corners: (n, 6), patch: (n,), error: (n,), owner: (n,) likewise.
+        triangles: (n, 9) in the order of the leaves. corners: (n, 6), patch, error, owner: (n,), bulge: (n, 2) likewise.
         order: (n,) their numbers.
         control: (patches, p + 1, q + 1, 4).
     """
@@ -118,6 +120,7 @@ class Tree:
     corners: Floats
     patch: Ints
     error: Floats
+    bulge: Floats
     owner: Ints
     order: Ints
     control: Floats
@@ -125,7 +128,7 @@ class Tree:
     @property
     def held(self) -> tuple[Floats | Ints | int, ...]:
         """What kernels take, see `desk_kernels`."""
-        return (self.boxes, self.triangles, self.corners, self.patch, self.error, self.owner, self.control, LEAF)
+        return (self.boxes, self.triangles, self.corners, self.patch, self.error, self.owner, self.control, LEAF, self.bulge)
 
 
 def _tree(facets: Facets) -> Tree:
@@ -142,7 +145,7 @@ def _tree(facets: Facets) -> Tree:
     planes = np.concatenate([_planes(facets.triangles[order], error[order], len(level)) for level in levels[::-1]])
     return Tree(np.column_stack([np.concatenate(levels[::-1]), planes]), np.ascontiguousarray(facets.triangles.reshape(-1, 9)[order]),
                 np.ascontiguousarray(facets.corners.reshape(-1, 6)[order]), facets.patch[order], error[order],
-                facets.owner[order], order, facets.patches.control)  # fmt: skip
+                facets.bulge[order], facets.owner[order], order, facets.patches.control)  # fmt: skip
 
 
 def _merged(boxes: Floats) -> Floats:

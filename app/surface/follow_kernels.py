@@ -1,4 +1,10 @@
-"""Compiled: a cutter along one line over surfaces: points so near that every chord is proven, and where surfaces change."""
+"""Compiled: a cutter along one line over surfaces: points so near that every chord is proven, and where surfaces change.
+
+On one patch the path goes from touch to touch by Newton's method, as far as the chord's middle allows, and many chords are
+proven together: nearly all of a path is made so. Where that proof fails, or a patch ends, the path is taken up from the last
+chord that is proven and goes on with care: all facets are asked at every point, changes of surface are solved for, and chords
+are proven one by one.
+"""
 
 from __future__ import annotations
 
@@ -7,11 +13,11 @@ import math
 import numpy as np
 
 from app.jit import kernel
-from app.surface.chord_kernels import CLEAR, clear
-from app.surface.desk_kernels import ANY, CONTROL, DESK, NONE, OWNER, PATCH, TREE, new_desk
+from app.surface.desk_kernels import ANY, CHORDS, CONTROL, DESK, NONE, OWNER, PATCH, PLACES, TREE, new_desk
 from app.surface.drop_kernels import drop_one
 from app.surface.quick_kernels import quick_one
-from app.surface.touch_kernels import tip_over
+from app.surface.touch_kernels import tip_over, touch_within
+from app.surface.way_kernels import way_clear
 
 _R, _MANY = "float64[::1]", "float64[:, ::1]"
 S, X, Y, Z, FACET, U, V, LEFT, LEFT_U, LEFT_V, NEW, TRUE_Z = range(12)
@@ -24,11 +30,16 @@ DS, TOLERANCE, ALLOWED, LEAST, GRID, SLACK, FINE = range(7)
 _STACK = 256
 _TIE, _MET, _EQUAL, _FINEST = 1e-9, 1e-7, 1e-11, 1e-10
 _ROOTS = 80
+_SAG, _RISE, _MORE = 0.85, 0.9, 1.5
+"""Of what is allowed and tolerated: chords are made so long that they are about so far off. And by so much longer, at most, than the last."""
+_SLOW = 16
+"""Most chords that are made with care before the quick way is tried again; it begins with a group of _FEW."""
+_FEW = 4
 _CLOSE = 0.02
 """mm; a chord as short as this that is not proven suggests that something was missed at its ends."""
 _TAKEN, _JUMPS, _SPLIT, _AGAIN = 0, 1, 2, 3
 """What becomes of a chord: it is taken, by way of a corner, or it is split, or looked at again."""
-_FOUND, _CHORD, _PAIR, _OTHER = 0, 1, 2, 4
+_FOUND, _PAIR, _OTHER = 0, 1, 3
 """Rows to work on."""
 NO_PROOF, NO_ROOM = -2, -1
 
@@ -39,17 +50,55 @@ def _written(z, rules):  # type: ignore[no-untyped-def]
     return math.ceil(z / rules[GRID] - 1e-6) * rules[GRID] if rules[GRID] > 0.0 and z > -math.inf else z
 
 
-@kernel(f"void({TREE}, {_R}, {_R}, {_R}, float64, int64, {_R}, {_R}, {DESK})", counts=False)
-def _at(tree, shape, line, rules, s, whose, found, row, desk):  # type: ignore[no-untyped-def]
-    """Set a row to what is touched at a place along the line, near what was `found` last; whose: as in `quick_one`."""
+@kernel(f"UniTuple(float64, 2)({_R}, {_R}, float64)", counts=False)
+def _place(line, rules, s):  # type: ignore[no-untyped-def]
+    """Return a place along the line as it will be written."""
     x, y = line[0] + s * line[2], line[1] + s * line[3]
     if rules[GRID] > 0.0:
         x, y = round(x / rules[GRID]) * rules[GRID], round(y / rules[GRID]) * rules[GRID]
-    found[0], found[1] = x, y
+    return x, y
+
+
+@kernel(f"void({_R}, {_R}, float64, float64, float64, float64, float64, float64, float64)", counts=False)
+def _fill(row, rules, s, x, y, tip, facet, u, v):  # type: ignore[no-untyped-def]
+    """Set a row to what is touched, on both sides."""
+    row[S], row[X], row[Y], row[Z], row[NEW], row[TRUE_Z] = s, x, y, _written(tip, rules), 0.0, tip
+    row[FACET], row[U], row[V] = facet, u, v
+    row[LEFT], row[LEFT_U], row[LEFT_V] = facet, u, v
+
+
+@kernel(f"void({TREE}, {_R}, {_R}, {_R}, float64, int64, {_R}, {_R}, {DESK})", counts=False)
+def _at(tree, shape, line, rules, s, whose, found, row, desk):  # type: ignore[no-untyped-def]
+    """Set a row to what is touched at a place along the line, near what was `found` last; whose: as in `quick_one`."""
+    found[0], found[1] = _place(line, rules, s)
     quick_one(tree, shape, whose, rules[SLACK], rules[FINE], found, desk)
-    row[S], row[X], row[Y], row[Z], row[NEW], row[TRUE_Z] = s, x, y, _written(found[2], rules), 0.0, found[2]
-    row[FACET], row[U], row[V] = found[3], found[4], found[5]
-    row[LEFT], row[LEFT_U], row[LEFT_V] = found[3], found[4], found[5]
+    _fill(row, rules, s, found[0], found[1], found[2], found[3], found[4], found[5])
+
+
+@kernel(f"boolean({TREE}, {_R}, {_R}, {_R}, {_R}, float64, {_R})", counts=False)
+def _onward(tree, shape, line, rules, left, s, right):  # type: ignore[no-untyped-def]
+    """Set `right` to what is touched further on the patch that is touched on the left; False where that is not known."""
+    if left[FACET] < 0.0 or left[U] != left[U]:
+        return False
+    patch = tree[PATCH][int(left[FACET])]
+    if patch < 0:
+        return False
+    x, y = _place(line, rules, s)
+    tip, u, v = touch_within(tree[CONTROL], patch, left[U], left[V], x, y, shape)
+    _fill(right, rules, s, x, y, tip, left[FACET], u, v)
+    return tip > -math.inf
+
+
+@kernel(f"float64({TREE}, {_R}, {_R}, {_R}, {_R})", counts=False)
+def _spare(tree, shape, rules, left, right):  # type: ignore[no-untyped-def]
+    """Return how many times as long a chord on one patch could be, by how low the tip comes over the patch in its middle."""
+    span, rise = right[S] - left[S], right[Z] - left[Z]
+    x, y, z = 0.5 * (left[X] + right[X]), 0.5 * (left[Y] + right[Y]), 0.5 * (left[Z] + right[Z])
+    u, v = 0.5 * (left[U] + right[U]), 0.5 * (left[V] + right[V])
+    low = tip_over(tree[CONTROL], tree[PATCH][int(left[FACET])], u, v, x, y, shape)
+    deep = (low - z) * span / math.sqrt(span * span + rise * rise)
+    most = _SAG * rules[ALLOWED] if deep > 0.0 else _RISE * rules[TOLERANCE]
+    return math.sqrt(most / max(abs(deep), 1e-12))
 
 
 @kernel(f"void({_R}, {_R})", counts=False)
@@ -61,6 +110,15 @@ def _copy(row, target):  # type: ignore[no-untyped-def]
 @kernel(f"int64({TREE}, {_R}, int64)", counts=False)
 def _owner(tree, row, column):  # type: ignore[no-untyped-def]
     return tree[OWNER][int(row[column])] if row[column] >= 0.0 else NONE
+
+
+@kernel(f"int64({TREE}, {_R}, {_R}, {_MANY}, int64, int64, {DESK})", counts=False)
+def _proven(tree, shape, rules, out, first, count, desk):  # type: ignore[no-untyped-def]
+    """Return how many of the chords from a row on, all on one patch, are proven; none of them goes into other surfaces at all."""
+    for n in range(count + 1):
+        for c in range(3):
+            desk[PLACES][n, c] = out[first + n, X + c]
+    return way_clear(tree, shape, count, _owner(tree, out[first + 1], FACET), rules[ALLOWED], desk)
 
 
 @kernel(f"float64({TREE}, {_R}, {_R}, float64, float64)", counts=False)
@@ -188,10 +246,9 @@ def _judge(tree, shape, line, rules, left, right, middle, rows, desk):  # type: 
                 return _SPLIT
             asked = False
         else:
-            chord = rows[_CHORD]
             for c in range(3):
-                chord[c], chord[3 + c] = left[X + c], right[X + c]
-            if clear(tree, shape, chord, rules[ALLOWED], desk) == CLEAR:
+                desk[PLACES][0, c], desk[PLACES][1, c] = left[X + c], right[X + c]
+            if way_clear(tree, shape, 1, ANY, rules[ALLOWED], desk) == 1:
                 return _TAKEN
             if span <= _CLOSE and (_missed(tree, shape, rules, left, desk) or _missed(tree, shape, rules, right, desk)):
                 return _AGAIN
@@ -225,7 +282,7 @@ def follow(tree, shape, line, rules, out):  # type: ignore[no-untyped-def]
             surfaces; shortest chord; grid that places are rounded to, or 0; SLACK and FINE of `quick_one`; all mm.
         out: (k, COLUMNS).
     """
-    desk, waiting, rows = new_desk(), np.empty((_STACK, COLUMNS)), np.full((5, COLUMNS), -1.0)
+    desk, waiting, rows = new_desk(), np.empty((_STACK, COLUMNS)), np.full((4, COLUMNS), -1.0)
     left, middle = np.empty(COLUMNS), np.empty(COLUMNS)
     least, ds, last = rules[LEAST], rules[DS], line[5]
     _at(tree, shape, line, rules, line[4], ANY, rows[_FOUND], left, desk)
@@ -234,10 +291,38 @@ def follow(tree, shape, line, rules, out):  # type: ignore[no-untyped-def]
     if left[Z] > -math.inf:
         _copy(left, out[0])
         count = 1
-    while depth > 0 or left[S] < last:
+    sure, careful, slow, group = count - 1, 0, 1, _FEW  # chords up to row `sure` are proven
+    while True:
+        if count + 3 > len(out):
+            return NO_ROOM
+        ended, open_ = depth == 0 and left[S] >= last, count - 1 - sure
+        if open_ == group or (open_ > 0 and (ended or careful > 0)):
+            good = _proven(tree, shape, rules, out, sure, open_, desk)
+            sure += good
+            slow, group = 1, min(2 * group, CHORDS)
+            if good < open_:  # take it up from there
+                careful, slow, group = slow, min(2 * slow, _SLOW), _FEW
+                ds = out[sure + 1, S] - out[sure, S]
+                count = sure + 1
+                _copy(out[sure], left)
+            continue
+        if ended:
+            return count
+        s = left[S] + ds if left[S] + ds < last - least else last
+        if careful == 0:
+            span = s - left[S]
+            if span < 4.0 * least or not _onward(tree, shape, line, rules, left, s, middle):
+                careful = 1
+                continue
+            times = _spare(tree, shape, rules, left, middle)
+            if times >= 1.0:
+                _copy(middle, out[count])
+                _copy(middle, left)
+                count += 1
+            ds = min(span * min(0.97 * times, _MORE), rules[DS])
+            continue
         if depth == 0:
-            s = min(left[S] + ds, last)
-            _at(tree, shape, line, rules, last if last - s < least else s, ANY, rows[_FOUND], waiting[0], desk)
+            _at(tree, shape, line, rules, s, ANY, rows[_FOUND], waiting[0], desk)
             depth = 1
         right = waiting[depth - 1]
         _stay(tree, shape, line, rules, left, right, rows, desk)
@@ -250,12 +335,9 @@ def follow(tree, shape, line, rules, out):  # type: ignore[no-untyped-def]
             _copy(middle, waiting[depth])
             depth += 1
         elif fate != _AGAIN:
-            if count + 3 > len(out):
-                return NO_ROOM
             count = _emit(left, right, fate == _JUMPS, out, count)
-            span = right[S] - left[S]
+            span, sure = right[S] - left[S], count - 1
             _copy(right, left)
             depth -= 1
             if depth == 0:
-                ds = min(1.5 * max(span, least), rules[DS])
-    return count
+                ds, careful = min(1.5 * max(span, least), rules[DS]), careful - 1

@@ -19,6 +19,16 @@ def place(control, patch, u, v):  # type: ignore[no-untyped-def]
     p, q = control.shape[1] - 1, control.shape[2] - 1
     s, t = 1.0 - u, 1.0 - v
     x = y = z = w = 0.0
+    if p == 3 and q == 3:  # what nearly all are, in half the time
+        low, near, far, high = t * t * t, 3.0 * t * t * v, 3.0 * t * v * v, v * v * v
+        for i in range(4):
+            share = s * s * s if i == 0 else (3.0 * s * s * u if i == 1 else (3.0 * s * u * u if i == 2 else u * u * u))
+            a, b, c, d = share * low, share * near, share * far, share * high
+            x += a * control[patch, i, 0, 0] + b * control[patch, i, 1, 0] + c * control[patch, i, 2, 0] + d * control[patch, i, 3, 0]
+            y += a * control[patch, i, 0, 1] + b * control[patch, i, 1, 1] + c * control[patch, i, 2, 1] + d * control[patch, i, 3, 1]
+            z += a * control[patch, i, 0, 2] + b * control[patch, i, 1, 2] + c * control[patch, i, 2, 2] + d * control[patch, i, 3, 2]
+            w += a * control[patch, i, 0, 3] + b * control[patch, i, 1, 3] + c * control[patch, i, 2, 3] + d * control[patch, i, 3, 3]
+        return x / w, y / w, z / w
     up = 1.0
     for i in range(p + 1):
         a, b, c, d = 0.0, 0.0, 0.0, 0.0

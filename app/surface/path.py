@@ -23,8 +23,8 @@ from app.surface.planes import Stretch, extent_on, stretches
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-ALLOWED = 9e-5
-"""mm; no chord goes deeper into a surface, measured square to the cutter: that is proven for each."""
+ALLOWED = 9.99e-5
+"""mm; no chord goes deeper into a surface, measured square to the cutter: that is proven for each. Rounding has the rest of 1e-4."""
 _FINE = 1e-7
 _ROOM = 4096
 _CHORDS = 2_000
@@ -77,12 +77,12 @@ class Follower:
 
     def proven(self, chords: Floats, progress: Progress = NO_PROGRESS) -> NDArray[np.bool_]:
         """Return which ways (m, 6) of the tip, from a place to a place, go nowhere deeper than ALLOWED into what is to be left."""
-        from app.surface import chord_kernels
+        from app.surface import way_kernels
 
         lowered = np.ascontiguousarray(chords - np.array([0, 0, self._leave, 0, 0, self._leave]))
         found = np.zeros(len(chords), np.bool_)
         spans = [(first, min(first + _CHORDS, len(chords))) for first in range(0, len(chords), _CHORDS)]
-        waiting = [pool().submit(chord_kernels.clear_all, self._held, self._shape, lowered, *span, ALLOWED, found) for span in spans]
+        waiting = [pool().submit(way_kernels.clear_all, self._held, self._shape, lowered, *span, ALLOWED, found) for span in spans]
         for n, each in enumerate(waiting):
             each.result()
             progress.step((n + 1) / len(waiting), "Proving")

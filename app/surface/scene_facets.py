@@ -22,9 +22,9 @@ from app.surface.tessellate import tessellate
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-_SHARE = 2e-4
+_SHARE = 3e-4
 """Of the surfaces' extent: how far facets may be off them, at most."""
-_COARSEST, _FINEST = 0.03, 1e-5
+_COARSEST, _FINEST = 0.06, 1e-5
 _CHORD = 1e-6
 """mm by which chords may be off a region's arcs."""
 _FAR = 1e7
@@ -119,7 +119,8 @@ def _trimmed(facets: Facets, number: int, area: shapely.Geometry, name: str) -> 
         triangles[smooth] = places.reshape(-1, 3, 3)
     return Facets(np.concatenate([rest.triangles, triangles]), np.concatenate([rest.owner, np.full(len(source), number)]),
                   np.concatenate([rest.patch, facets.patch[source]]), np.concatenate([rest.corners, corners]),
-                  np.concatenate([rest.error, facets.error[source]]), facets.patches)  # fmt: skip
+                  np.concatenate([rest.error, facets.error[source]]),
+                  np.concatenate([rest.bulge, np.repeat(facets.error[source, None], 2, axis=1)]), facets.patches)  # fmt: skip
 
 
 def _near_outline(area: shapely.Geometry, flat: NDArray[np.object_], far: Floats) -> Ints:

@@ -3,9 +3,13 @@
 A surface whose second derivatives are no longer than M_uu, M_uv and M_vv is nowhere farther from a triangle with its corners
 on it, a by b in parameters, than (a² M_uu + 2 a b M_uv + b² M_vv) / 8 (Filip, Magedson, Markot 1986). The derivatives are
 bounded by the differences of control points, whose hull holds them; of rational patches by the quotient rule on such bounds.
+Most of them usually lies within the surface, where parameters run faster or slower; so the same is asked of the heights over each
+triangle alone: that bounds how far the surface bulges from it.
 """
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +25,8 @@ Ints = NDArray[np.int64]
 _GRID = 8
 """Most facets along a side of a sub-patch; one that wants more is halved, and bounded anew, more closely."""
 MOST_FACETS = 8_000_000
+_AT_ONCE = 100_000
+"""Facets whose bulge is asked at once."""
 
 
 def tessellate(patches: Patches, tolerance: float, progress: Progress = NO_PROGRESS) -> Facets:
@@ -40,10 +46,12 @@ def tessellate(patches: Patches, tolerance: float, progress: Progress = NO_PROGR
         uu, uv, vv = bounds[rows].T
         error = (uu / nu**2 + 2 * uv / (nu * nv) + vv / nv**2) / 8
         each = 2 * nu * nv
-        made.append((triangles, np.repeat(number[rows], each), corners, np.repeat(error, each)))
-    triangles, patch, corners, error = (np.concatenate(column) for column in zip(*made, strict=True))
+        bulge = [_bulges(control[part], triangles.reshape(len(rows), nu, nv, 2, 3, 3)[at], (nu, nv)) for at, part in _batches(rows, each)]
+        bulges = np.minimum(np.concatenate(bulge), np.repeat(error, each)[:, None])
+        made.append((triangles, np.repeat(number[rows], each), corners, np.repeat(error, each), bulges))
+    triangles, patch, corners, error, bulges = (np.concatenate(column) for column in zip(*made, strict=True))
     kept = _wide(triangles)
-    found = Facets(triangles, patches.owner[patch], patch, corners, error, patches)
+    found = Facets(triangles, patches.owner[patch], patch, corners, error, bulges, patches)
     return found if kept.all() else found.only(kept)
 
 
@@ -84,32 +92,48 @@ def _counts(bounds: Floats, tolerance: float) -> Ints:
     return np.asarray(np.ceil(np.minimum(wanted, 1e6) * (1 - 1e-9)), np.int64)
 
 
-def _second_derivatives(control: Floats) -> Floats:
-    """Return bounds (n, 3) of the lengths of S_uu, S_uv and S_vv over whole patches, mm."""
+def _second_derivatives(control: Floats, signed: bool = False) -> Floats:
+    """Return bounds (n, 3) of the lengths of S_uu, S_uv and S_vv over whole patches (n, p + 1, q + 1, k + 1) in k dimensions.
+
+    Args:
+        signed: of patches in one dimension, bounds (n, 3, 2): what they, and their opposites, are nowhere more than, if that is >= 0.
+    """
     p, q = control.shape[1] - 1, control.shape[2] - 1
-    weight = control[..., 3]
+    weight = control[..., -1]
     least = weight.min(axis=(1, 2))
     corners = control[:, [0, 0, -1, -1], [0, -1, 0, -1]]
-    centre = (corners[..., :3] / corners[..., 3:]).mean(axis=1)
-    about = control[..., :3] - weight[..., None] * centre[:, None, None]
+    centre = (corners[..., :-1] / corners[..., -1:]).mean(axis=1)
+    about = control[..., :-1] - weight[..., None] * centre[:, None, None]
 
-    def most(array: Floats, u: int, v: int) -> Floats:
-        """Return the largest difference of control points, so many times along u and v, as a derivative."""
+    def turned(array: Floats, u: int, v: int) -> Floats:
+        """Return the differences of control points, so many times along u and v, as derivatives (n, ...)."""
         for axis, degree, times in ((1, p, u), (2, q, v)):
             if times > degree:
-                return np.zeros(len(array))
+                return np.zeros((len(array), 1, 1, *array.shape[3:]))
             for k in range(times):
                 array = np.diff(array, axis=axis) * (degree - k)
-        lengths = np.linalg.norm(array, axis=-1) if array.ndim == 4 else np.abs(array)
-        return np.asarray(lengths.max(axis=(1, 2)))
+        return array
+
+    def most(array: Floats, u: int, v: int) -> Floats:
+        """Return how long the longest of them are (n,)."""
+        found = turned(array, u, v)
+        return np.asarray((np.linalg.norm(found, axis=-1) if found.ndim == 4 else np.abs(found)).max(axis=(1, 2)))
+
+    def outer(u: int, v: int) -> Floats:
+        """Return the same of the places (n, 1), or how far they go both ways (n, 2)."""
+        if not signed:
+            return most(about, u, v)[:, None]
+        found = turned(about, u, v)
+        return np.maximum(np.concatenate([found, -found], axis=-1).max(axis=(1, 2)), 0.0)
 
     far = most(about / weight[..., None], 0, 0)
     w_u, w_v = most(weight, 1, 0), most(weight, 0, 1)
     s_u, s_v = (most(about, 1, 0) + w_u * far) / least, (most(about, 0, 1) + w_v * far) / least
-    uu = most(about, 2, 0) + most(weight, 2, 0) * far + 2 * w_u * s_u
-    uv = most(about, 1, 1) + most(weight, 1, 1) * far + w_u * s_v + w_v * s_u
-    vv = most(about, 0, 2) + most(weight, 0, 2) * far + 2 * w_v * s_v
-    return np.asarray(np.column_stack([uu, uv, vv]) / least[:, None])
+    uu = outer(2, 0) + (most(weight, 2, 0) * far + 2 * w_u * s_u)[:, None]
+    uv = outer(1, 1) + (most(weight, 1, 1) * far + w_u * s_v + w_v * s_u)[:, None]
+    vv = outer(0, 2) + (most(weight, 0, 2) * far + 2 * w_v * s_v)[:, None]
+    found = np.stack([uu, uv, vv], axis=1) / least[:, None, None]
+    return found if signed else np.asarray(found[..., 0])
 
 
 def _halves(control: Floats, axis: int) -> tuple[Floats, Floats]:
@@ -137,6 +161,36 @@ def _grid(control: Floats, box: Floats, counts: tuple[int, int]) -> tuple[Floats
     a, b, c, d = whole[:, :-1, :-1], whole[:, 1:, :-1], whole[:, 1:, 1:], whole[:, :-1, 1:]
     both = np.stack([np.stack([a, b, c], axis=3), np.stack([a, c, d], axis=3)], axis=3).reshape(-1, 3, 5)
     return np.ascontiguousarray(both[..., :3]), np.ascontiguousarray(both[..., 3:])
+
+
+def _batches(rows: Ints, each: int) -> Iterator[tuple[slice, Ints]]:
+    """Yield sub-patches by so many that their facets fit into memory: where they stand, and their numbers."""
+    many = max(1, _AT_ONCE // each)
+    for first in range(0, len(rows), many):
+        yield slice(first, first + many), rows[first : first + many]
+
+
+def _bulges(control: Floats, triangles: Floats, counts: tuple[int, int]) -> Floats:
+    """Return how far sub-patches reach below and above their triangles (n, nu, nv, 2, 3, 3), square to each (m, 2); inf without an area."""
+    within = [_within(count, degree - 1) for count, degree in zip(counts, control.shape[1:3], strict=True)]
+    net = np.einsum("aki,blj,nijc->nabklc", within[0], within[1], control, optimize=True)
+    normal = np.cross(triangles[..., 1, :] - triangles[..., 0, :], triangles[..., 2, :] - triangles[..., 0, :])
+    size = np.linalg.norm(normal, axis=-1)
+    normal /= np.maximum(size, 1e-300)[..., None]
+    about = net[..., :3] - net[..., 3:] * triangles[:, :, :, 0, None, None, 0]
+    height = np.einsum("nabklc,nabtc->nabtkl", about, normal, optimize=True)
+    weight = np.broadcast_to(net[:, :, :, None, ..., 3], height.shape)
+    bends = _second_derivatives(np.stack([height, weight], axis=-1).reshape(-1, *control.shape[1:3], 2), signed=True)
+    uu, uv, vv = np.moveaxis(bends, 1, 0)
+    found = (np.maximum(uu, 0.0) + 2 * uv.max(axis=-1, keepdims=True) + np.maximum(vv, 0.0)) / 8
+    return np.asarray(np.where(size.ravel()[:, None] > 0.0, found, np.inf))
+
+
+def _within(count: int, degree: int) -> Floats:
+    """Return what makes control points (degree + 1) those of each of so many equal parts (count, degree + 1, degree + 1)."""
+    nodes = np.arange(degree + 1) / max(degree, 1)
+    back = np.linalg.inv(bernstein(nodes, degree))
+    return np.stack([back @ bernstein((k + nodes) / count, degree) for k in range(count)])
 
 
 def _wide(triangles: Floats) -> NDArray[np.bool_]:

@@ -49,7 +49,7 @@ def _off(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"UniTuple(float64, 3)({_NETS}, int64, float64, float64, float64, float64, {_R})", counts=False)
-def _within(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
+def touch_within(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
     """Return the tip's height and where it touches, by Newton's method from (u, v); -inf and where it left a patch, or NaN."""
     off_x, off_y = _off(control, patch, u, v, x, y, shape)
     ux, uy = _off(control, patch, u + _TURN_STEP, v, x, y, shape)
@@ -115,7 +115,7 @@ def touch(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
 
     -inf where Newton's method led nowhere. The height is that over a true place; another one may be higher.
     """
-    best, best_u, best_v = _within(control, patch, u, v, x, y, shape)
+    best, best_u, best_v = touch_within(control, patch, u, v, x, y, shape)
     if best == -math.inf and best_u == best_u:
         out_u, out_v = max(-best_u, best_u - 1.0), max(-best_v, best_v - 1.0)
         if out_u >= out_v:
