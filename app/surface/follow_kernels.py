@@ -31,7 +31,7 @@ _STACK = 256
 _TIE, _MET, _EQUAL, _FINEST = 1e-9, 1e-7, 1e-11, 1e-10
 _ROOTS = 80
 _SAG, _RISE, _MORE = 0.85, 0.9, 1.5
-"""Of what is allowed and tolerated: chords are made so long that they are about so far off. And by so much longer, at most, than the last."""
+"""Chords are made so long that they are off by about so much of what is allowed, and tolerated; times the last one's length at most."""
 _SLOW = 16
 """Most chords that are made with care before the quick way is tried again; it begins with a group of _FEW."""
 _FEW = 4
@@ -272,6 +272,70 @@ def _emit(left, right, corner, out, count):  # type: ignore[no-untyped-def]
     return count
 
 
+@kernel(f"Tuple((int64, float64, boolean))({TREE}, {_R}, {_R}, {_R}, float64, {_MANY}, int64, {_R}, {DESK})", counts=False)
+def _quickly(tree, shape, line, rules, ds, out, count, row, desk):  # type: ignore[no-untyped-def]
+    """Go on from the last point on its patch, by Newton's method, as far as that goes and chords are proven.
+
+    Return how many points there are then, how long the next chord should be, and whether all that was proven was good.
+    """
+    sure, group, least, last = count - 1, _FEW, rules[LEAST], line[5]  # chords up to row `sure` are proven
+    while True:
+        left, waiting = out[count - 1], count - 1 - sure
+        s = left[S] + ds if left[S] + ds < last - least else last
+        goes = waiting < group and count + 3 <= len(out) and s - left[S] >= 4.0 * least
+        goes = goes and left[S] < last and _onward(tree, shape, line, rules, left, s, row)
+        if goes:
+            times = _spare(tree, shape, rules, left, row)
+            ds = min((s - left[S]) * min(0.97 * times, _MORE), rules[DS])
+            if times >= 1.0:
+                _copy(row, out[count])
+                count += 1
+            continue
+        if waiting == 0:
+            return count, ds, True
+        good = _proven(tree, shape, rules, out, sure, waiting, desk)
+        sure += good
+        if good < waiting:
+            return sure + 1, out[sure + 1, S] - out[sure, S], False
+        group = min(2 * group, CHORDS)
+
+
+@kernel(f"Tuple((int64, float64))({TREE}, {_R}, {_R}, {_R}, float64, int64, {_R}, {_MANY}, int64, {_MANY}, {_MANY}, {DESK})", counts=False)
+def _carefully(tree, shape, line, rules, ds, times, left, out, count, waiting, rows, desk):  # type: ignore[no-untyped-def]
+    """Go on by so many chords at most from `left`, which goes along; return how many points there are then, or why it ends, and `ds`.
+
+    Args:
+        waiting: (k, COLUMNS) to work in: places beyond the chord that is looked at. rows: (4, COLUMNS) to work in.
+    """
+    least, last, middle = rules[LEAST], line[5], waiting[_STACK]
+    for _ in range(times):
+        if left[S] >= last:
+            break
+        depth = 1
+        _at(tree, shape, line, rules, left[S] + ds if left[S] + ds < last - least else last, ANY, rows[_FOUND], waiting[0], desk)
+        while depth > 0:
+            if count + 3 > len(out):
+                return NO_ROOM, ds
+            right = waiting[depth - 1]
+            _stay(tree, shape, line, rules, left, right, rows, desk)
+            fate = _judge(tree, shape, line, rules, left, right, middle, rows, desk)
+            if fate == _AGAIN:
+                if count > 0 and left[Z] > -math.inf:
+                    _copy(left, out[count - 1])
+                continue
+            if fate == _SPLIT:
+                if depth == _STACK:
+                    return NO_PROOF, ds
+                _copy(middle, waiting[depth])
+                depth += 1
+                continue
+            count = _emit(left, right, fate == _JUMPS, out, count)
+            ds = min(1.5 * max(right[S] - left[S], least), rules[DS])
+            _copy(right, left)
+            depth -= 1
+    return count, ds
+
+
 @kernel(f"int64({TREE}, {_R}, {_R}, {_R}, {_MANY})")
 def follow(tree, shape, line, rules, out):  # type: ignore[no-untyped-def]
     """Follow surfaces along a line; return how many points there are, NO_ROOM in `out` for them, or NO_PROOF of a chord.
@@ -282,62 +346,20 @@ def follow(tree, shape, line, rules, out):  # type: ignore[no-untyped-def]
             surfaces; shortest chord; grid that places are rounded to, or 0; SLACK and FINE of `quick_one`; all mm.
         out: (k, COLUMNS).
     """
-    desk, waiting, rows = new_desk(), np.empty((_STACK, COLUMNS)), np.full((4, COLUMNS), -1.0)
-    left, middle = np.empty(COLUMNS), np.empty(COLUMNS)
-    least, ds, last = rules[LEAST], rules[DS], line[5]
+    desk, waiting, rows, left = new_desk(), np.empty((_STACK + 1, COLUMNS)), np.full((4, COLUMNS), -1.0), np.empty(COLUMNS)
     _at(tree, shape, line, rules, line[4], ANY, rows[_FOUND], left, desk)
     left[NEW] = BEGINS
-    count, depth = 0, 0
+    count, ds, slow = 0, rules[DS], 1
     if left[Z] > -math.inf:
         _copy(left, out[0])
         count = 1
-    sure, careful, slow, group = count - 1, 0, 1, _FEW  # chords up to row `sure` are proven
-    while True:
-        if count + 3 > len(out):
-            return NO_ROOM
-        ended, open_ = depth == 0 and left[S] >= last, count - 1 - sure
-        if open_ == group or (open_ > 0 and (ended or careful > 0)):
-            good = _proven(tree, shape, rules, out, sure, open_, desk)
-            sure += good
-            slow, group = 1, min(2 * group, CHORDS)
-            if good < open_:  # take it up from there
-                careful, slow, group = slow, min(2 * slow, _SLOW), _FEW
-                ds = out[sure + 1, S] - out[sure, S]
-                count = sure + 1
-                _copy(out[sure], left)
-            continue
-        if ended:
+    while left[S] < line[5]:
+        if left[Z] > -math.inf:
+            before = count
+            count, ds, good = _quickly(tree, shape, line, rules, ds, out, count, waiting[0], desk)
+            _copy(out[count - 1], left)
+            slow = 1 if good or count > before else min(2 * slow, _SLOW)
+        count, ds = _carefully(tree, shape, line, rules, ds, slow, left, out, count, waiting, rows, desk)
+        if count < 0:
             return count
-        s = left[S] + ds if left[S] + ds < last - least else last
-        if careful == 0:
-            span = s - left[S]
-            if span < 4.0 * least or not _onward(tree, shape, line, rules, left, s, middle):
-                careful = 1
-                continue
-            times = _spare(tree, shape, rules, left, middle)
-            if times >= 1.0:
-                _copy(middle, out[count])
-                _copy(middle, left)
-                count += 1
-            ds = min(span * min(0.97 * times, _MORE), rules[DS])
-            continue
-        if depth == 0:
-            _at(tree, shape, line, rules, s, ANY, rows[_FOUND], waiting[0], desk)
-            depth = 1
-        right = waiting[depth - 1]
-        _stay(tree, shape, line, rules, left, right, rows, desk)
-        fate = _judge(tree, shape, line, rules, left, right, middle, rows, desk)
-        if fate == _AGAIN and count > 0 and left[Z] > -math.inf:
-            _copy(left, out[count - 1])
-        elif fate == _SPLIT:
-            if depth == _STACK:
-                return NO_PROOF
-            _copy(middle, waiting[depth])
-            depth += 1
-        elif fate != _AGAIN:
-            count = _emit(left, right, fate == _JUMPS, out, count)
-            span, sure = right[S] - left[S], count - 1
-            _copy(right, left)
-            depth -= 1
-            if depth == 0:
-                ds, careful = min(1.5 * max(span, least), rules[DS]), careful - 1
+    return count

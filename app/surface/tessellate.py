@@ -37,7 +37,7 @@ def tessellate(patches: Patches, tolerance: float, progress: Progress = NO_PROGR
         Cancelled: the job was asked to stop.
     """
     control, number, box, counts = _divided(patches, tolerance, progress)
-    made: list[tuple[Floats, Ints, Floats, Floats]] = []
+    made: list[tuple[Floats, Ints, Floats, Floats, Floats]] = []
     bounds = _second_derivatives(control)
     for nu, nv in np.unique(counts, axis=0).tolist():
         rows = np.flatnonzero((counts == (nu, nv)).all(axis=1))
@@ -124,7 +124,7 @@ def _second_derivatives(control: Floats, signed: bool = False) -> Floats:
         if not signed:
             return most(about, u, v)[:, None]
         found = turned(about, u, v)
-        return np.maximum(np.concatenate([found, -found], axis=-1).max(axis=(1, 2)), 0.0)
+        return np.asarray(np.maximum(np.concatenate([found, -found], axis=-1).max(axis=(1, 2)), 0.0))
 
     far = most(about / weight[..., None], 0, 0)
     w_u, w_v = most(weight, 1, 0), most(weight, 0, 1)

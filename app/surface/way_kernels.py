@@ -111,8 +111,8 @@ def _widen(row, x, y, z, below, above):  # type: ignore[no-untyped-def]
         below, above: how far it may be off that way along (x, y, z), which the whole facet faces, of OFF.
     """
     off = row[OFF]
-    for c in range(9):
-        row[WIDENED + c] = row[c]
+    for k in range(9):
+        row[WIDENED + k] = row[k]
     row[RISE] = off
     ax, ay, az, bx, by, bz = row[3] - row[0], row[4] - row[1], row[5] - row[2], row[6] - row[3], row[7] - row[4], row[8] - row[5]
     east, north, up = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
@@ -169,7 +169,8 @@ def _facet_clear(tree, n, shape, allowed, fine, failing, looked, most, desk):  #
         if first >= failing or stop == first:
             continue
         single, span = stop - first == 1, groups[node, _OFF]
-        if apart(work[waiting, WIDENED:RISE], work[waiting, RISE] + span, shape, groups[node, :_OFF], allowed, _OFTEN if single else _SELDOM, desk):
+        times = _OFTEN if single else _SELDOM
+        if apart(work[waiting, WIDENED:RISE], near + span, shape, groups[node, :_OFF], allowed, times, desk):
             continue
         if looked > most or waiting + 4 > LAST or (single and near <= fine):
             failing = first
