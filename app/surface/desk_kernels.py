@@ -12,7 +12,7 @@ from app.surface.patch_kernels import copy_row
 _R, _MANY, _NETS, _INTS = "float64[::1]", "float64[:, ::1]", "float64[:, :, :, ::1]", "int64[::1]"
 TREE = f"Tuple(({_MANY}, {_MANY}, {_MANY}, {_INTS}, {_R}, {_INTS}, {_NETS}, int64, {_MANY}))"
 BOXES, TRIANGLES, CORNERS, PATCH, ERROR, OWNER, CONTROL, LEAF, BULGE = range(9)
-"""Of what `Tree.held` gives: its arrays, and how many facets a leaf has."""
+"""Of what `Tree.held` gives: its arrays, and how many facets a leaf has. PATCH is NONE of facets that stand for themselves."""
 DESK = f"Tuple(({_MANY}, {_MANY}, {_INTS}, {_R}, {_INTS}, {_R}, {_MANY}, {_MANY}))"
 WORK, SHAPES, NODES, BOUNDS, WHICH, HEIGHTS, PLACES, GROUPS = range(8)
 """Of what `new_desk` makes to work on: rows of facets; two cutters' shapes; nodes that wait and their bounds; facets that may be

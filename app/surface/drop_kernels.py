@@ -145,7 +145,7 @@ def drop_one(tree, shape, x, y, whose, fine, desk):  # type: ignore[no-untyped-d
             for n in range(start, min(start + tree[LEAF], len(triangles))):
                 if whose != ANY and tree[OWNER][n] != whose:
                     continue
-                if error[n] <= fine:
+                if error[n] <= fine or tree[PATCH][n] < 0:
                     low = over_triangle(triangles[n], x, y, shape, best)
                 else:
                     low = over_facet(tree, n, x, y, shape, best, fine, desk)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.errors import GeometryError
-from app.surface.patch import Patches, patches_of
+from app.surface.patch import Patches, joined_patches, patches_of
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -46,8 +46,6 @@ class Facets:
     patches: Patches
 
     def __post_init__(self) -> None:
-        if not len(self.triangles):
-            raise GeometryError("surfaces of no triangles; at least one was expected.")
         if not np.isfinite(self.triangles).all():
             raise GeometryError("a surface has corners that are not finite.")
 
@@ -58,8 +56,16 @@ class Facets:
     def of_mesh(triangles: Floats, owner: int = 0) -> Facets:
         """Return the facets of triangles (n, 3, 3) that are the surface themselves."""
         count = len(triangles)
+        if not count:
+            raise GeometryError("surfaces of no triangles; at least one was expected.")
         return Facets(np.ascontiguousarray(triangles, np.float64), np.full(count, owner, np.int64), np.full(count, NONE, np.int64),
                       np.zeros((count, 3, 2)), np.zeros(count), np.zeros((count, 2)), patches_of(()))
+
+    @staticmethod
+    def none(patches: Patches) -> Facets:
+        """Return no facets, of patches of the same degrees."""
+        return Facets(np.zeros((0, 3, 3)), np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3, 2)), np.zeros(0),
+                      np.zeros((0, 2)), patches.only(np.zeros(len(patches), np.bool_)))  # fmt: skip
 
     def only(self, rows: Ints | NDArray[np.bool_]) -> Facets:
         """Return some of them."""
@@ -95,12 +101,14 @@ def joined(parts: Sequence[Facets]) -> Facets:
         raise GeometryError("patches of different degrees do not go together; make them by one call of `patches_of`.")
     before = np.cumsum([0, *(len(part.patches) for part in parts)])
     numbers = [np.where(part.patch >= 0, part.patch + first, NONE) for part, first in zip(parts, before.tolist(), strict=False)]
-    whole = patches_of(()) if not patches else Patches(
-        np.concatenate([each.control for each in patches]), np.concatenate([each.owner for each in patches]),
-        np.concatenate([each.spans for each in patches]))  # fmt: skip
-    return Facets(np.concatenate([part.triangles for part in parts]), np.concatenate([part.owner for part in parts]),
-                  np.concatenate(numbers), np.concatenate([part.corners for part in parts]),
-                  np.concatenate([part.error for part in parts]), np.concatenate([part.bulge for part in parts]), whole)  # fmt: skip
+    numbered = [replace(part, patch=number) for part, number in zip(parts, numbers, strict=True)]
+    return joined_parts(numbered, joined_patches(patches) if patches else patches_of(()))
+
+
+def joined_parts(parts: Sequence[Facets], patches: Patches) -> Facets:
+    """Return facets of the same patches as one."""
+    names = ("triangles", "owner", "patch", "corners", "error", "bulge")
+    return Facets(*(np.concatenate([getattr(part, name) for part in parts]) for name in names), patches)
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +118,8 @@ class Tree:
     Attributes:
         boxes: (2^k - 1, 8) of what each node's facets stand for: x0, y0, x1, y1, top, and a plane that nothing of it is above: its
             slopes along X and Y and its height at the origin. The root first; children of i are 2 i + 1 and 2 i + 2.
-        triangles: (n, 9) in the order of the leaves. corners: (n, 6), patch, error, owner: (n,), bulge: (n, 2) likewise.
+        triangles: (n, 9) in the order of the leaves. corners: (n, 6), patch, error, owner: (n,), bulge: (n, 2) likewise; patch is
+            NONE where that is not whole: such facets stand for themselves, and for all that is within their error.
         order: (n,) their numbers.
         control: (patches, p + 1, q + 1, 4).
     """
@@ -143,8 +152,9 @@ def _tree(facets: Facets) -> Tree:
     while len(levels[-1]) > 1:
         levels.append(_merged(levels[-1].reshape(-1, 2, 5)))
     planes = np.concatenate([_planes(facets.triangles[order], error[order], len(level)) for level in levels[::-1]])
+    patch = np.where(np.append(facets.patches.whole, False)[facets.patch], facets.patch, NONE)
     return Tree(np.column_stack([np.concatenate(levels[::-1]), planes]), np.ascontiguousarray(facets.triangles.reshape(-1, 9)[order]),
-                np.ascontiguousarray(facets.corners.reshape(-1, 6)[order]), facets.patch[order], error[order],
+                np.ascontiguousarray(facets.corners.reshape(-1, 6)[order]), patch[order], error[order],
                 facets.bulge[order], facets.owner[order], order, facets.patches.control)  # fmt: skip
 
 

@@ -231,7 +231,9 @@ def _judge(tree, shape, line, rules, left, right, middle, rows, desk):  # type: 
         _at(tree, shape, line, rules, half, ANY, rows[_FOUND], middle, desk)
         return _SPLIT
     if span <= least:
-        return _JUMPS if abs(right[Z] - left[Z]) > 2.0 * span else _TAKEN
+        if abs(right[Z] - left[Z]) <= 2.0 * span:
+            return _TAKEN
+        return _AGAIN if _missed(tree, shape, rules, left if left[Z] < right[Z] else right, desk) else _JUMPS
     length = math.sqrt(span * span + (right[Z] - left[Z]) ** 2)
     x, y, z = 0.5 * (left[X] + right[X]), 0.5 * (left[Y] + right[Y]), 0.5 * (left[Z] + right[Z])
     most = rules[TOLERANCE] * length / span
@@ -270,6 +272,23 @@ def _emit(left, right, corner, out, count):  # type: ignore[no-untyped-def]
         _copy(right, out[count])
         count += 1
     return count
+
+
+@kernel(f"UniTuple(int64, 2)({_R}, {_MANY}, int64, {_MANY}, int64)", counts=False)
+def _back(left, waiting, depth, out, count):  # type: ignore[no-untyped-def]
+    """Where `left` has been raised, have the chord to it looked at again; return how many points there are then, and how many wait."""
+    if count == 0 or not left[Z] > out[count - 1, Z]:
+        return count, depth
+    if count == 1 or left[NEW] == BEGINS:
+        _copy(left, out[count - 1])
+        return count, depth
+    left[NEW] = 0.0
+    _copy(left, waiting[depth])
+    count -= 1
+    while out[count - 1, NEW] == CORNER:
+        count -= 1
+    _copy(out[count - 1], left)
+    return count, depth + 1
 
 
 @kernel(f"Tuple((int64, float64, boolean))({TREE}, {_R}, {_R}, {_R}, float64, {_MANY}, int64, {_R}, {DESK})", counts=False)
@@ -320,8 +339,9 @@ def _carefully(tree, shape, line, rules, ds, times, left, out, count, waiting, r
             _stay(tree, shape, line, rules, left, right, rows, desk)
             fate = _judge(tree, shape, line, rules, left, right, middle, rows, desk)
             if fate == _AGAIN:
-                if count > 0 and left[Z] > -math.inf:
-                    _copy(left, out[count - 1])
+                if depth == _STACK:
+                    return NO_PROOF, ds
+                count, depth = _back(left, waiting, depth, out, count)
                 continue
             if fate == _SPLIT:
                 if depth == _STACK:

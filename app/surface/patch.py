@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from math import comb
 
 import numpy as np
@@ -60,11 +60,13 @@ class Patches:
         control: (n, p + 1, q + 1, 4) control points w x, w y, w z, w.
         owner: (n,) number of the surface that each is of.
         spans: (n, 4) u0, u1, v0, v1 of each in its surface's own parameters, which go from 0 to 1.
+        whole: (n,) whether none of it is trimmed off; what is left of others are triangles, and kernels do not ask them.
     """
 
     control: Floats
     owner: Ints
     spans: Floats
+    whole: NDArray[np.bool_]
 
     def __len__(self) -> int:
         return len(self.owner)
@@ -73,6 +75,10 @@ class Patches:
     def degrees(self) -> tuple[int, int]:
         """Along u and v."""
         return self.control.shape[1] - 1, self.control.shape[2] - 1
+
+    def only(self, rows: Ints | NDArray[np.bool_]) -> Patches:
+        """Return some of them."""
+        return Patches(self.control[rows], self.owner[rows], self.spans[rows], self.whole[rows])
 
     def points(self, patch: Ints, u: Floats, v: Floats) -> Floats:
         """Return places (m, 3) of patches (m,) at their own parameters (m,), from 0 to 1 in each patch."""
@@ -101,7 +107,13 @@ def patches_of(surfaces: Sequence[Sequence[BsplineSurface]]) -> Patches:
         control.append(raised)
         owner.append(np.full(len(raised), number))
         spans.append(edges)
-    return Patches(np.ascontiguousarray(np.concatenate(control)), np.concatenate(owner), np.concatenate(spans))
+    whole = np.ones(sum(map(len, owner)), np.bool_)
+    return Patches(np.ascontiguousarray(np.concatenate(control)), np.concatenate(owner), np.concatenate(spans), whole)
+
+
+def joined_patches(parts: Sequence[Patches]) -> Patches:
+    """Return one set of patches or more, of the same degrees, as one."""
+    return Patches(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(Patches)))
 
 
 def _pieces(surface: BsplineSurface) -> tuple[Floats, Floats]:

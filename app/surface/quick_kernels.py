@@ -44,8 +44,6 @@ from app.surface.touch_kernels import touch
 _R = "float64[::1]"
 _TIMES, _MANY_FACETS = 40, 8
 """So often is a facet quartered, and so many facets are, for one place."""
-_CARE = 1.0
-"""Of a facet's error bound: how far it is really off."""
 _LEAN = 50.0
 _AROUND = 2.5
 """Facets within so many of their sizes of a touched place have nothing else to say."""
@@ -86,6 +84,12 @@ def _refined(tree, n, x, y, shape, known, fine, care, desk):  # type: ignore[no-
     return best, best_u, best_v
 
 
+@kernel(f"float64({TREE}, int64)", counts=False)
+def _off(tree, n):  # type: ignore[no-untyped-def]
+    """Return how far the tip over a facet may be from that over what it stands for."""
+    return tree[ERROR][n] * _lean(tree[TRIANGLES][n]) if tree[PATCH][n] >= 0 else 0.0
+
+
 @kernel(f"int64({DESK}, int64, int64, float64)", counts=False)
 def _remember(desk, count, n, low):  # type: ignore[no-untyped-def]
     """Put a facet among those that may be touched, the highest first; return how many they are."""
@@ -121,11 +125,14 @@ def _likely(tree, shape, x, y, whose, slack, known, desk):  # type: ignore[no-un
             if whose != ANY and tree[OWNER][n] != whose:
                 continue
             low = over_triangle(triangles[n], x, y, shape, best - lean)
-            if low == -math.inf or low <= best - lean:
+            if low == -math.inf:
                 continue
-            best = max(best, low)
+            off = _off(tree, n)
+            if low + off <= best:
+                continue
+            best = max(best, low - off)
             count = _remember(desk, count, n, low)
-            while count > 1 and desk[HEIGHTS][count - 1] < best - _LEAN * slack:
+            while count > 1 and desk[HEIGHTS][count - 1] + _off(tree, desk[WHICH][count - 1]) < best:
                 count -= 1
     return count
 
@@ -166,10 +173,10 @@ def quick_one(tree, shape, whose, slack, fine, found, desk):  # type: ignore[no-
     ball, refined = shape[DISC] == 0.0 and shape[CONE] == 0.0, 0
     for k in range(count):
         n, own = desk[WHICH][k], desk[HEIGHTS][k]
-        most = tree[ERROR][n] * _lean(tree[TRIANGLES][n])
-        if own + _CARE * most <= best:
+        most = _off(tree, n)
+        if own + most <= best:
             continue
-        if tree[ERROR][n] <= fine and not (ball and tree[PATCH][n] >= 0):
+        if tree[PATCH][n] < 0 or (tree[ERROR][n] <= fine and not ball):
             if own > best:
                 best, touched, best_u, best_v = own, n, math.nan, math.nan
             continue
@@ -183,10 +190,10 @@ def quick_one(tree, shape, whose, slack, fine, found, desk):  # type: ignore[no-
                 if tip > best:
                     best, touched, best_u, best_v = tip, n, u, v
                 continue
+        if refined == _MANY_FACETS:
+            continue
         refined += 1
-        if refined > _MANY_FACETS:
-            break
-        tip, u, v = _refined(tree, n, x, y, shape, best, fine, _CARE * _lean(tree[TRIANGLES][n]), desk)
+        tip, u, v = _refined(tree, n, x, y, shape, best, fine, _lean(tree[TRIANGLES][n]), desk)
         if tip > best:
             best, touched, best_u, best_v = tip, n, u, v
     if not ball and shape[CONE] == 0.0 and refined > 0 and best_u == best_u:  # it may be touched beside a facet's own edges

@@ -15,12 +15,12 @@ from app.model.part import Region
 from app.model.scene import Side
 from app.progress import NO_PROGRESS, Progress
 from app.surface.build import Built, BuiltTrim
-from app.surface.facets import NONE, Facets, joined
+from app.surface.facets import NONE, Facets, joined, joined_parts
 from app.surface.patch import patches_of
 from app.surface.tessellate import tessellate
+from app.surface.trim import trimmed_mesh, trimmed_patches
 
 Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 _SHARE = 3e-4
 """Of the surfaces' extent: how far facets may be off them, at most."""
@@ -35,11 +35,13 @@ class SceneFacets:
     """All surfaces of a scene.
 
     Attributes:
-        facets: of all that are machined; owners count the scene's surfaces.
+        facets: of all that are machined, trimmed; owners count the scene's surfaces.
+        uncut: the same as if nothing were trimmed: sections are cut where they leave a surface's area, exactly.
         areas: where in XY a trimmed surface counts, by its number.
     """
 
     facets: Facets
+    uncut: Facets
     areas: Mapping[int, shapely.Geometry]
 
 
@@ -62,11 +64,27 @@ def scene_facets(built: Sequence[Built], tolerance: float | None = None, progres
     for number, each in enumerate(built):
         if each.surface.enabled and each.triangles is not None:
             parts.append(Facets.of_mesh(each.triangles, number))
-    facets = joined(parts)
+    uncut = joined(parts)
     areas = {number: area_of(each.trims) for number, each in enumerate(built) if each.surface.enabled and each.trims}
+    facets = _trimmed(uncut, areas, near, progress) if areas else uncut
+    for number in areas:
+        if not (facets.owner == number).any():
+            raise GeometryError(f"Surface {built[number].surface.name}: its trims leave nothing of it; check their outlines.")
+    return SceneFacets(facets, uncut, areas)
+
+
+def _trimmed(facets: Facets, areas: Mapping[int, shapely.Geometry], near: float, progress: Progress) -> Facets:
+    """Return facets, those of some surfaces as areas leave them."""
+    smooth = np.isin(facets.patches.owner, list(areas))
+    parts = [facets.only(~np.isin(facets.owner, list(areas)))]
     for number, area in areas.items():
-        facets = _trimmed(facets, number, area, built[number].surface.name)
-    return SceneFacets(facets, areas)
+        mine = facets.only((facets.owner == number) & (facets.patch == NONE))
+        parts.append(trimmed_mesh(mine, area))
+    parts = [joined_parts(parts, facets.patches)]
+    if smooth.any():
+        whole, cut = trimmed_patches(facets.patches.only(smooth), areas, progress)
+        parts += [tessellate(whole, near, progress), cut] if len(whole) else [cut]
+    return joined(parts)
 
 
 def _near(control: Floats, built: Sequence[Built]) -> float:
@@ -90,61 +108,3 @@ def region_area(regions: Sequence[Region]) -> shapely.Geometry:
     """Return regions as polygons whose chords are within a thousandth of a micron of their arcs."""
     rings = [[sample(contour_rows(contour), _CHORD) for contour in region.contours] for region in regions]
     return shapely.union_all([shapely.make_valid(shapely.Polygon(outer, holes)) for outer, *holes in rings])
-
-
-def _trimmed(facets: Facets, number: int, area: shapely.Geometry, name: str) -> Facets:
-    """Return facets, those of one surface cut where it ends; each a little beyond, by as much as it may be off."""
-    shapely.prepare(area)
-    mine = np.flatnonzero(facets.owner == number)
-    flat = shapely.polygons(facets.triangles[mine, :, :2])
-    border = np.zeros(len(mine), np.bool_)
-    border[_near_outline(area, flat, np.maximum(facets.error[mine], 1e-12))] = True
-    whole = ~border & shapely.intersects_xy(area, *facets.triangles[mine, 0, :2].T)
-    pieces = [_clipped(facets, int(n), area) for n in mine[border].tolist()]
-    kept = np.concatenate([np.flatnonzero(facets.owner != number), mine[whole]])
-    cut = [piece for piece in pieces if piece is not None]
-    if not whole.any() and not cut:
-        raise GeometryError(f"Surface {name}: its trims leave nothing of it; check their outlines.")
-    rest = facets.only(kept)
-    if not cut:
-        return rest
-    source = np.concatenate([np.full(len(shares), n) for n, shares in cut])
-    shares = np.concatenate([shares for _, shares in cut])
-    corners = np.einsum("nkc,ncd->nkd", shares, facets.corners[source])
-    triangles = np.einsum("nkc,ncd->nkd", shares, facets.triangles[source])
-    smooth = np.flatnonzero(facets.patch[source] != NONE)
-    if len(smooth):
-        at = corners[smooth].reshape(-1, 2)
-        places = facets.patches.points(np.repeat(facets.patch[source[smooth]], 3), at[:, 0], at[:, 1])
-        triangles[smooth] = places.reshape(-1, 3, 3)
-    return Facets(np.concatenate([rest.triangles, triangles]), np.concatenate([rest.owner, np.full(len(source), number)]),
-                  np.concatenate([rest.patch, facets.patch[source]]), np.concatenate([rest.corners, corners]),
-                  np.concatenate([rest.error, facets.error[source]]),
-                  np.concatenate([rest.bulge, np.repeat(facets.error[source, None], 2, axis=1)]), facets.patches)  # fmt: skip
-
-
-def _near_outline(area: shapely.Geometry, flat: NDArray[np.object_], far: Floats) -> Ints:
-    """Return which polygons (n,) are nearer than `far` (n,) to the outline of an area."""
-    ends = [np.stack([places[:-1], places[1:]], axis=1) for ring in shapely.get_rings(shapely.get_parts(area))
-            for places in (shapely.get_coordinates(ring),)]  # fmt: skip
-    sides = shapely.STRtree(shapely.linestrings(np.concatenate(ends)))
-    return np.unique(sides.query(flat, predicate="dwithin", distance=far)[0])
-
-
-def _clipped(facets: Facets, n: int, area: shapely.Geometry) -> tuple[int, Floats] | None:
-    """Return a facet's number and shares (k, 3, 3) of its corners at the corners of what an area leaves of it; None: nothing."""
-    a, b, c = facets.triangles[n, :, :2]
-    twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-    if abs(twice) <= 1e-12:  # upright: it is kept whole where its middle is kept
-        return (n, np.eye(3)[None]) if shapely.intersects_xy(area, *facets.triangles[n, :, :2].mean(axis=0)) else None
-    near = shapely.intersection(area, shapely.buffer(shapely.Polygon([a, b, c]), 4 * facets.error[n] + 1e-9))
-    grown = shapely.buffer(near, facets.error[n]) if facets.error[n] else near
-    left = shapely.intersection(grown, shapely.Polygon([a, b, c]))
-    polygons = [part for part in shapely.get_parts(left) if part.geom_type == "Polygon" and part.area > 0]
-    triangles = [part for polygon in polygons for part in shapely.get_parts(shapely.constrained_delaunay_triangles(polygon))]
-    if not triangles:
-        return None
-    at = shapely.get_coordinates(triangles).reshape(-1, 4, 2)[:, :3]
-    second = ((at[..., 0] - a[0]) * (c[1] - a[1]) - (at[..., 1] - a[1]) * (c[0] - a[0])) / twice
-    third = ((b[0] - a[0]) * (at[..., 1] - a[1]) - (b[1] - a[1]) * (at[..., 0] - a[0])) / twice
-    return n, np.clip(np.stack([1 - second - third, second, third], axis=-1), 0.0, 1.0)

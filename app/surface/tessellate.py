@@ -38,7 +38,7 @@ def tessellate(patches: Patches, tolerance: float, progress: Progress = NO_PROGR
     """
     control, number, box, counts = _divided(patches, tolerance, progress)
     made: list[tuple[Floats, Ints, Floats, Floats, Floats]] = []
-    bounds = _second_derivatives(control)
+    bounds = second_derivatives(control)
     for nu, nv in np.unique(counts, axis=0).tolist():
         rows = np.flatnonzero((counts == (nu, nv)).all(axis=1))
         progress.step(0.5, "Making facets")
@@ -55,6 +55,31 @@ def tessellate(patches: Patches, tolerance: float, progress: Progress = NO_PROGR
     return found if kept.all() else found.only(kept)
 
 
+def facets_alone(patches: Patches) -> Facets:
+    """Return two facets for each patch, and how far the surface is off them, seen as a whole: parameters may be elsewhere.
+
+    It is off as far as it bulges from them, or as its sides leave them: no farther than their control points.
+    """
+    control = patches.control
+    uu, uv, vv = second_derivatives(control).T
+    triangles, corners = _grid(control, np.tile([0.0, 0.0, 1.0, 1.0], (len(patches), 1)), (1, 1))
+    most = [_bulges(control[part], triangles.reshape(-1, 1, 1, 2, 3, 3)[at], (1, 1)) for at, part in _batches(np.arange(len(patches)), 2)]
+    bulge = np.concatenate([np.zeros((0, 2)), *most]).reshape(-1, 4).max(axis=1)
+    places = control[..., :3] / control[..., 3:]
+    sides = [_from_chord(places[:, k]) for k in (0, -1)] + [_from_chord(places[:, :, k]) for k in (0, -1)]
+    error = np.repeat(np.minimum(np.maximum.reduce([bulge, *sides]), (uu + 2 * uv + vv) / 8), 2)
+    patch = np.repeat(np.arange(len(patches)), 2)
+    found = Facets(triangles, patches.owner[patch], patch, corners, error, np.repeat(error[:, None], 2, axis=1), patches)
+    return found.only(_wide(triangles))
+
+
+def _from_chord(places: Floats) -> Floats:
+    """Return how far places (n, k, 3) are from the lines through the first and the last of them (n,)."""
+    chord, away = places[:, -1:] - places[:, :1], places - places[:, :1]
+    square = np.maximum((chord**2).sum(axis=-1, keepdims=True), 1e-300)
+    return np.asarray(np.linalg.norm(away - (away * chord).sum(axis=-1, keepdims=True) / square * chord, axis=-1).max(axis=1))
+
+
 def _divided(patches: Patches, tolerance: float, progress: Progress) -> tuple[Floats, Ints, Floats, Ints]:
     """Return sub-patches (control points, patch, u0 v0 u1 v1) and how many facets each wants along u and v."""
     control, number = patches.control, np.arange(len(patches))
@@ -63,7 +88,7 @@ def _divided(patches: Patches, tolerance: float, progress: Progress) -> tuple[Fl
     total = 0
     while len(control):
         progress.step(0.0, "Making facets")
-        counts = _counts(_second_derivatives(control), tolerance)
+        counts = _counts(second_derivatives(control), tolerance)
         fine = (counts <= _GRID).all(axis=1)
         done.append((control[fine], number[fine], box[fine], counts[fine]))
         total += 2 * int(np.minimum(counts, _GRID).prod(axis=1).sum())
@@ -72,7 +97,7 @@ def _divided(patches: Patches, tolerance: float, progress: Progress) -> tuple[Fl
         control, number, box, counts = control[~fine], number[~fine], box[~fine], counts[~fine]
         for axis in (0, 1):
             wanting = counts[:, axis] > _GRID
-            first, second = _halves(control[wanting], axis)
+            first, second = halves(control[wanting], axis)
             below, above = box[wanting].copy(), box[wanting].copy()
             below[:, 2 + axis] = above[:, axis] = (box[wanting, axis] + box[wanting, 2 + axis]) / 2
             control = np.concatenate([control[~wanting], first, second])
@@ -92,7 +117,7 @@ def _counts(bounds: Floats, tolerance: float) -> Ints:
     return np.asarray(np.ceil(np.minimum(wanted, 1e6) * (1 - 1e-9)), np.int64)
 
 
-def _second_derivatives(control: Floats, signed: bool = False) -> Floats:
+def second_derivatives(control: Floats, signed: bool = False) -> Floats:
     """Return bounds (n, 3) of the lengths of S_uu, S_uv and S_vv over whole patches (n, p + 1, q + 1, k + 1) in k dimensions.
 
     Args:
@@ -136,7 +161,7 @@ def _second_derivatives(control: Floats, signed: bool = False) -> Floats:
     return found if signed else np.asarray(found[..., 0])
 
 
-def _halves(control: Floats, axis: int) -> tuple[Floats, Floats]:
+def halves(control: Floats, axis: int) -> tuple[Floats, Floats]:
     """Return the halves of patches along u or v (de Casteljau)."""
     points = np.moveaxis(control, axis + 1, 0)
     first, second = [points[0]], [points[-1]]
@@ -180,7 +205,7 @@ def _bulges(control: Floats, triangles: Floats, counts: tuple[int, int]) -> Floa
     about = net[..., :3] - net[..., 3:] * triangles[:, :, :, 0, None, None, 0]
     height = np.einsum("nabklc,nabtc->nabtkl", about, normal, optimize=True)
     weight = np.broadcast_to(net[:, :, :, None, ..., 3], height.shape)
-    bends = _second_derivatives(np.stack([height, weight], axis=-1).reshape(-1, *control.shape[1:3], 2), signed=True)
+    bends = second_derivatives(np.stack([height, weight], axis=-1).reshape(-1, *control.shape[1:3], 2), signed=True)
     uu, uv, vv = np.moveaxis(bends, 1, 0)
     found = (np.maximum(uu, 0.0) + 2 * uv.max(axis=-1, keepdims=True) + np.maximum(vv, 0.0)) / 8
     return np.asarray(np.where(size.ravel()[:, None] > 0.0, found, np.inf))

@@ -220,7 +220,8 @@ def way_clear(tree, shape, count, mine, allowed, desk):  # type: ignore[no-untyp
         start = (node - inner) * tree[LEAF]
         for n in range(start, min(start + tree[LEAF], len(tree[TRIANGLES]))):
             own = allowed if mine == ANY or tree[OWNER][n] == mine else 0.0
-            failing, looked = _facet_clear(tree, n, shape, own, _FINEST * allowed, failing, looked, most, desk)
+            fine = _FINEST * allowed if tree[PATCH][n] >= 0 else math.inf
+            failing, looked = _facet_clear(tree, n, shape, own, fine, failing, looked, most, desk)
     return failing
 
 

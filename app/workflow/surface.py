@@ -123,8 +123,8 @@ def compute(scene: Scene, sources: Sources, progress: Progress = NO_PROGRESS) ->
     progress.step(0.9, "Joining passes")
     top = max(stock.z1, float(facets.facets.triangles[:, :, 2].max()))
     moves = surface_moves([_milling(family) for family in families], top + scene.safe_z, top + scene.retract_z)
-    own = SceneFacets(replace(facets.facets, owner=numbers[facets.facets.owner]),
-                      {order[number]: area for number, area in facets.areas.items()})  # fmt: skip
+    trimmed, uncut = (replace(each, owner=numbers[each.owner]) for each in (facets.facets, facets.uncut))
+    own = SceneFacets(trimmed, uncut, {order[number]: area for number, area in facets.areas.items()})
     return Computed(scene, built, own, tuple(families), moves, stock, (origin[0], origin[1], origin[2]), grid)
 
 
@@ -155,7 +155,7 @@ def _family(scene: Scene, facets: SceneFacets, passes: Passes, rest: tuple[float
         planes = even_planes(passes.origin, passes.angle, passes.pitch, facets.facets.triangles[:, :, :2].reshape(-1, 2))
     else:
         planes = scallop_planes(facets.facets, tool, passes.scallop or 0.0, passes.origin, passes.angle)
-    surface = compound_surface(facets.facets, planes, passes.chord_tolerance, facets.areas, progress.part(0.0, 0.3))
+    surface = compound_surface(facets.uncut, planes, passes.chord_tolerance, facets.areas, progress.part(0.0, 0.3))
     below = facets.facets if passes.floor is None else _with_floor(facets.facets, passes.floor, len(scene.surfaces), tool)
     follower = Follower(below, tool, FollowOptions(passes.stock_to_leave, passes.chord_tolerance, grid))
     path = cutter_path(follower, planes, _area(passes.boundary, tool, sources), progress.part(0.3, 1.0))
