@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -107,8 +108,10 @@ def joined(parts: Sequence[Facets]) -> Facets:
 
 def joined_parts(parts: Sequence[Facets], patches: Patches) -> Facets:
     """Return facets of the same patches as one."""
-    names = ("triangles", "owner", "patch", "corners", "error", "bulge")
-    return Facets(*(np.concatenate([getattr(part, name) for part in parts]) for name in names), patches)
+    def every(name: str) -> Any:
+        return np.concatenate([getattr(part, name) for part in parts])
+
+    return Facets(every("triangles"), every("owner"), every("patch"), every("corners"), every("error"), every("bulge"), patches)
 
 
 @dataclass(frozen=True, eq=False)
