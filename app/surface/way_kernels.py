@@ -172,7 +172,11 @@ def _facet_clear(tree, n, shape, allowed, fine, failing, looked, most, desk):  #
         times = _OFTEN if single else _SELDOM
         if apart(work[waiting, WIDENED:RISE], near + span, shape, groups[node, :_OFF], allowed, times, desk):
             continue
-        if looked > most or waiting + 4 > LAST or (single and near <= fine):
+        if single and off <= fine:  # a rounded skin is slimmer at sharp corners than a wider triangle
+            if not apart(work[waiting, :9], off + span, shape, groups[node, :_OFF], allowed, times, desk):
+                failing = first
+            continue
+        if looked > most or waiting + 4 > LAST:
             failing = first
             continue
         if not single and (span >= near or near <= fine):
