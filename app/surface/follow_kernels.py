@@ -91,11 +91,16 @@ def _onward(tree, shape, line, rules, left, s, right):  # type: ignore[no-untype
 
 @kernel(f"float64({TREE}, {_R}, {_R}, {_R}, {_R})", counts=False)
 def _spare(tree, shape, rules, left, right):  # type: ignore[no-untyped-def]
-    """Return how many times as long a chord on one patch could be, by how low the tip comes over the patch in its middle."""
+    """Return how many times as long a chord on one patch could be, by how low the tip comes over the patch in its middle; 0: unknown."""
     span, rise = right[S] - left[S], right[Z] - left[Z]
     x, y, z = 0.5 * (left[X] + right[X]), 0.5 * (left[Y] + right[Y]), 0.5 * (left[Z] + right[Z])
     u, v = 0.5 * (left[U] + right[U]), 0.5 * (left[V] + right[V])
-    low = tip_over(tree[CONTROL], tree[PATCH][int(left[FACET])], u, v, x, y, shape)
+    patch = tree[PATCH][int(left[FACET])]
+    low = tip_over(tree[CONTROL], patch, u, v, x, y, shape)
+    if low == -math.inf:  # a cutter's rim touches elsewhere
+        low, u, v = touch_within(tree[CONTROL], patch, u, v, x, y, shape)
+    if low == -math.inf:
+        return 0.0
     deep = (low - z) * span / math.sqrt(span * span + rise * rise)
     most = _SAG * rules[ALLOWED] if deep > 0.0 else _RISE * rules[TOLERANCE]
     return math.sqrt(most / max(abs(deep), 1e-12))
@@ -303,8 +308,8 @@ def _quickly(tree, shape, line, rules, ds, out, count, row, desk):  # type: igno
         s = left[S] + ds if left[S] + ds < last - least else last
         goes = waiting < group and count + 3 <= len(out) and s - left[S] >= 4.0 * least
         goes = goes and left[S] < last and _onward(tree, shape, line, rules, left, s, row)
-        if goes:
-            times = _spare(tree, shape, rules, left, row)
+        times = _spare(tree, shape, rules, left, row) if goes else 0.0
+        if times > 0.0:
             ds = min((s - left[S]) * min(0.97 * times, _MORE), rules[DS])
             if times >= 1.0:
                 _copy(row, out[count])
