@@ -15,6 +15,8 @@ from app.surface.distance_kernels import square_from_curtain
 
 _R = "float64[::1]"
 APART, _TOGETHER, _OPEN = 0, 1, 2
+_SHORT = 0.1
+"""Of what is allowed: a stretch of a chord that is looked at in one."""
 
 
 @kernel(f"boolean({_R}, {_R}, {_R}, {_R}, float64, float64, int64)", counts=False)
@@ -41,7 +43,7 @@ def _along(triangle, chord, tool, shape, skin, length, times):  # type: ignore[n
         if left <= 0.0 and right <= 0.0:
             return True
         first, stop = low if left > 0.0 else middle, high if right > 0.0 else middle
-        if (stop - first) * length <= -skin:  # what is open is so short that a skin of half of it is enough
+        if (stop - first) * length <= -_SHORT * skin:  # what is open is so short that a skin of half of it is enough
             more = skin + 0.5 * (stop - first) * length
             thicken(tool, more, shape)
             new = 0.5 * (first + stop)

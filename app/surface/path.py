@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import shapely
@@ -145,7 +146,7 @@ def _compound(facets: Facets, planes: Planes, numbers: Sequence[int], parts: Seq
     runs: list[Run] = []
     for plane, rows in zip(numbers, parts, strict=True):
         starts = np.flatnonzero(rows[:, k.NEW] == k.BEGINS)
-        for first, stop in zip(starts.tolist(), [*starts[1:].tolist(), len(rows)], strict=True):
+        for first, stop in pairwise([*starts.tolist(), len(rows)]):
             if stop - first > 1:
                 owner = facets.owner[rows[first : stop - 1, k.FACET].astype(np.int64)]
                 runs.append(Run(plane, rows[first:stop, k.X : k.Z + 1].copy(), owner))

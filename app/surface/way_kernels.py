@@ -52,7 +52,7 @@ _NARROW = 0.5
 _NOTHING = 1e-300
 _PART = 0.25
 """Of the cutter's radius: longer chords are proven in parts."""
-_OFTEN, _SELDOM = 32, 4
+_OFTEN, _SELDOM = 48, 4
 """So often is a single chord divided, and the line of a group."""
 _FINEST = 0.125
 """Of what is allowed: facets as near to the surface are taken for it."""
