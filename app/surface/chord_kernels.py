@@ -15,7 +15,7 @@ from app.surface.distance_kernels import square_from_curtain
 
 _R = "float64[::1]"
 APART, _TOGETHER, _OPEN = 0, 1, 2
-_SHORT = 0.1
+_SHORT = 0.02
 """Of what is allowed: a stretch of a chord that is looked at in one."""
 
 

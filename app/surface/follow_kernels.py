@@ -32,9 +32,8 @@ _TIE, _MET, _EQUAL, _FINEST = 1e-9, 1e-7, 1e-11, 1e-10
 _ROOTS = 80
 _SAG, _RISE, _MORE = 0.85, 0.9, 1.5
 """Chords are made so long that they are off by about so much of what is allowed, and tolerated; times the last one's length at most."""
-_SLOW = 16
+_SLOW, _FEW = 16, 4
 """Most chords that are made with care before the quick way is tried again; it begins with a group of _FEW."""
-_FEW = 4
 _CLOSE = 0.02
 """mm; a chord as short as this that is not proven suggests that something was missed at its ends."""
 _TAKEN, _JUMPS, _SPLIT, _AGAIN = 0, 1, 2, 3
@@ -217,9 +216,20 @@ def _missed(tree, shape, rules, row, desk):  # type: ignore[no-untyped-def]
     tip, touched = drop_one(tree, shape, row[X], row[Y], ANY, rules[FINE], desk)
     if not tip > row[Z] + rules[FINE]:
         return False
-    row[Z], row[TRUE_Z], row[FACET], row[LEFT] = _written(tip, rules), tip, touched, touched
+    row[Z] = _written(tip, rules)
+    if row[NEW] == BOUNDARY:  # what it touches is known; it is written elsewhere
+        return True
+    row[TRUE_Z], row[FACET], row[LEFT] = tip, touched, touched
     row[U] = row[V] = row[LEFT_U] = row[LEFT_V] = math.nan
     return True
+
+
+@kernel(f"boolean({TREE}, {_R}, {_R}, {_R}, {_R}, {DESK})", counts=False)
+def _clear(tree, shape, rules, left, right, desk):  # type: ignore[no-untyped-def]
+    """Return whether the chord between two places is proven."""
+    for c in range(3):
+        desk[PLACES][0, c], desk[PLACES][1, c] = left[X + c], right[X + c]
+    return way_clear(tree, shape, 1, ANY, rules[ALLOWED], desk) == 1
 
 
 @kernel(f"int64({TREE}, {_R}, {_R}, {_R}, {_R}, {_R}, {_R}, {_MANY}, {DESK})", counts=False)
@@ -236,9 +246,11 @@ def _judge(tree, shape, line, rules, left, right, middle, rows, desk):  # type: 
         _at(tree, shape, line, rules, half, ANY, rows[_FOUND], middle, desk)
         return _SPLIT
     if span <= least:
-        if abs(right[Z] - left[Z]) <= 2.0 * span:
-            return _TAKEN
-        return _AGAIN if _missed(tree, shape, rules, left if left[Z] < right[Z] else right, desk) else _JUMPS
+        jumps = abs(right[Z] - left[Z]) > 2.0 * span
+        doubtful = jumps or not _clear(tree, shape, rules, left, right, desk)
+        if doubtful and (_missed(tree, shape, rules, left, desk) or _missed(tree, shape, rules, right, desk)):
+            return _AGAIN
+        return _JUMPS if jumps else _TAKEN
     length = math.sqrt(span * span + (right[Z] - left[Z]) ** 2)
     x, y, z = 0.5 * (left[X] + right[X]), 0.5 * (left[Y] + right[Y]), 0.5 * (left[Z] + right[Z])
     most = rules[TOLERANCE] * length / span
@@ -253,9 +265,7 @@ def _judge(tree, shape, line, rules, left, right, middle, rows, desk):  # type: 
                 return _SPLIT
             asked = False
         else:
-            for c in range(3):
-                desk[PLACES][0, c], desk[PLACES][1, c] = left[X + c], right[X + c]
-            if way_clear(tree, shape, 1, ANY, rules[ALLOWED], desk) == 1:
+            if _clear(tree, shape, rules, left, right, desk):
                 return _TAKEN
             if span <= _CLOSE and (_missed(tree, shape, rules, left, desk) or _missed(tree, shape, rules, right, desk)):
                 return _AGAIN
@@ -287,7 +297,7 @@ def _back(left, waiting, depth, out, count):  # type: ignore[no-untyped-def]
     if count == 1 or left[NEW] == BEGINS:
         _copy(left, out[count - 1])
         return count, depth
-    left[NEW] = 0.0
+    left[NEW] = left[NEW] if left[NEW] == BOUNDARY else 0.0
     _copy(left, waiting[depth])
     count -= 1
     while out[count - 1, NEW] == CORNER:
