@@ -27,7 +27,6 @@ from app.surface.desk_kernels import (
     LAST,
     LEAF,
     NODES,
-    NONE,
     OFF,
     OWNER,
     PATCH,
@@ -260,17 +259,19 @@ def _gather(chords, k, part, stop, shape, most, desk):  # type: ignore[no-untype
 def clear_all(tree, shape, chords, first, stop, allowed, found):  # type: ignore[no-untyped-def]
     """Set which of chords first to stop - 1 (m, 6) go nowhere deeper into surfaces than allowed, for all that can be proven."""
     desk = new_desk()
-    k, part, alone = first, 0, NONE
+    k, part, group = first, 0, CHORDS
     for n in range(first, stop):
         found[n] = True
     while k < stop:
-        count, after, rest = _gather(chords, k, part, stop, shape, 1 if k == alone else CHORDS, desk)
+        count, after, rest = _gather(chords, k, part, stop, shape, group, desk)
         failing = way_clear(tree, shape, count, ANY, allowed, desk)
         if failing == count:
-            k, part = after, rest
+            k, part, group = after, rest, min(2 * group, CHORDS)
         elif count > 1:  # together with others it may have taken too long
-            k = alone = desk[WHICH][failing]
-            part = 0
+            part = part if desk[WHICH][failing] == k else 0
+            k, group = desk[WHICH][failing], 1
+            while failing > 0 and desk[WHICH][failing - 1] == k:
+                part, failing = part + 1, failing - 1
         else:
             found[k] = False
             k, part = k + 1, 0
