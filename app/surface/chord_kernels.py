@@ -19,6 +19,30 @@ _SHORT = 0.02
 """Of what is allowed: a stretch of a chord that is looked at in one."""
 
 
+@kernel(f"float64({_R}, float64, float64, float64, float64)", counts=False)
+def _nearest(t, ax, ay, bx, by):  # type: ignore[no-untyped-def]
+    """Return where on a chord, from 0 to 1, it is nearest to a triangle (9,), both seen from above: beside a corner, or over a side."""
+    dx, dy = bx - ax, by - ay
+    square = dx * dx + dy * dy
+    if square == 0.0:
+        return 0.5
+    best, nearest = 0.5, math.inf
+    for k in range(3):
+        x, y = t[3 * k] - ax, t[3 * k + 1] - ay
+        at = min(max((x * dx + y * dy) / square, 0.0), 1.0)
+        off = (x - at * dx) ** 2 + (y - at * dy) ** 2
+        if off < nearest:
+            best, nearest = at, off
+        to_x, to_y = t[3 * (k + 1) % 9] - ax, t[(3 * (k + 1) + 1) % 9] - ay
+        side, other = x * dy - y * dx, to_x * dy - to_y * dx
+        if side * other < 0.0:  # the side crosses the chord's line
+            share = side / (side - other)
+            at = ((x + share * (to_x - x)) * dx + (y + share * (to_y - y)) * dy) / square
+            if 0.0 <= at <= 1.0:
+                return at
+    return best
+
+
 @kernel(f"boolean({_R}, {_R}, {_R}, {_R}, float64, float64, int64)", counts=False)
 def _along(triangle, chord, tool, shape, skin, length, times):  # type: ignore[no-untyped-def]
     """Return whether a cutter with a skin is proven to go nowhere into a triangle along a chord.
@@ -33,8 +57,12 @@ def _along(triangle, chord, tool, shape, skin, length, times):  # type: ignore[n
     at = over_triangle(triangle, 0.5 * (ax + bx), 0.5 * (ay + by), shape, -math.inf) + skin - 0.5 * (az + bz)
     if max(at_low, at, at_high) > 0.0:
         return False
-    if at_low == -math.inf and at == -math.inf and at_high == -math.inf:
-        return True  # in reach nowhere, or by less than a chord of that length can be off
+    if at_low == -math.inf and at == -math.inf and at_high == -math.inf:  # in reach nowhere, or between these places
+        middle = _nearest(triangle, ax, ay, bx, by)
+        x, y, z = ax + middle * (bx - ax), ay + middle * (by - ay), az + middle * (bz - az)
+        at = over_triangle(triangle, x, y, shape, -math.inf) + skin - z
+        if at == -math.inf or at > 0.0:
+            return at < 0.0
     for _ in range(times):
         left = at + (at - at_high) * (middle - low) / (high - middle) if at > -math.inf else math.inf
         right = at + (at - at_low) * (high - middle) / (middle - low) if at > -math.inf else math.inf

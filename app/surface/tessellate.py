@@ -50,9 +50,7 @@ def tessellate(patches: Patches, tolerance: float, progress: Progress = NO_PROGR
         bulges = np.minimum(np.concatenate(bulge), np.repeat(error, each)[:, None])
         made.append((triangles, np.repeat(number[rows], each), corners, np.repeat(error, each), bulges))
     triangles, patch, corners, error, bulges = (np.concatenate(column) for column in zip(*made, strict=True))
-    kept = _wide(triangles)
-    found = Facets(triangles, patches.owner[patch], patch, corners, error, bulges, patches)
-    return found if kept.all() else found.only(kept)
+    return Facets(triangles, patches.owner[patch], patch, corners, error, bulges, patches)
 
 
 def facets_alone(patches: Patches) -> Facets:
@@ -69,8 +67,7 @@ def facets_alone(patches: Patches) -> Facets:
     sides = [_from_chord(places[:, k]) for k in (0, -1)] + [_from_chord(places[:, :, k]) for k in (0, -1)]
     error = np.repeat(np.minimum(np.maximum.reduce([bulge, *sides]), (uu + 2 * uv + vv) / 8), 2)
     patch = np.repeat(np.arange(len(patches)), 2)
-    found = Facets(triangles, patches.owner[patch], patch, corners, error, np.repeat(error[:, None], 2, axis=1), patches)
-    return found.only(_wide(triangles))
+    return Facets(triangles, patches.owner[patch], patch, corners, error, np.repeat(error[:, None], 2, axis=1), patches)
 
 
 def _from_chord(places: Floats) -> Floats:
@@ -216,10 +213,3 @@ def _within(count: int, degree: int) -> Floats:
     nodes = np.arange(degree + 1) / max(degree, 1)
     back = np.linalg.inv(bernstein(nodes, degree))
     return np.stack([back @ bernstein((k + nodes) / count, degree) for k in range(count)])
-
-
-def _wide(triangles: Floats) -> NDArray[np.bool_]:
-    """Return which triangles are not points or lines; those at a surface's poles are left out."""
-    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
-    same = (a == b).all(axis=1) | (b == c).all(axis=1) | (c == a).all(axis=1)
-    return np.asarray(~same)

@@ -9,12 +9,14 @@ import pytest
 import shapely
 import trimesh
 
-from app.model.scene_shapes import TorusShape
+from app.model.scene_curves import SectionCurve
+from app.model.scene_shapes import SweptShape, TorusShape
 from app.model.tool import Tool, ToolKind
 from app.surface.compound import BoundaryKind, Compound
 from app.surface.drop_cutter import drop
 from app.surface.facets import Facets
 from app.surface.path import ALLOWED, Follower, FollowOptions, cutter_path
+from app.surface.planes import even_planes
 from tests.surface.scenes import along_x, ball, facets_of, plane
 
 TORUS = Path(__file__).parents[1] / "data" / "meshes" / "torus.stl"
@@ -168,6 +170,33 @@ def test_where_surfaces_coincide_the_path_stays_on_the_one_it_came_on() -> None:
     (run,) = path.runs
     changes = np.flatnonzero(np.diff(run.owner))
     assert len(changes) == 1 and run.points[changes[0] + 1, 0] == pytest.approx(10.0, abs=0.01)
+
+
+@pytest.mark.parametrize("tool", [Tool(1, 6.0), Tool(1, 6.0, ToolKind.BULL, corner_radius=0.5), Tool(1, 6.0, ToolKind.BALL)],
+                         ids=["flat", "bull", "ball"])  # fmt: skip
+def test_a_spike_beside_a_way_is_met_wherever_it_stands_along_it(tool: Tool) -> None:
+    """The cutter's side goes into it by less than a chord of the places that are looked at is off its rim."""
+    ways = np.array([[float(k), 0.0, 0.0, k + 1.0, 0.0, 0.0] for k in range(8)])
+    for x in np.linspace(0.3, 7.7, 41).tolist():
+        for beside, clear in ((2.997, False), (3.001, True)):
+            spike = np.array([[[x, beside, 4.0], [x + 1e-4, beside + 1.0, 4.0], [x - 1e-4, beside + 1.0, 4.0]]])
+            for chord in (ways, np.array([[0.0, 0.0, 0.0, 8.0, 0.0, 0.0]])):
+                assert Follower(Facets.of_mesh(spike), tool).proven(chord).all() == clear
+
+
+def test_planes_that_meet_nothing_have_no_runs() -> None:
+    path = cutter_path(Follower(facets_of(ball(0, 0, 0, 5)), BALL), along_x(-30.0, 0.0, 30.0))
+    assert [run.plane for run in path.runs] == [1]
+
+
+def test_a_flat_over_a_smooth_sheet_needs_few_points_and_its_way_is_proven() -> None:
+    """Its rim leaves the middle between two places that it touches by a hair."""
+    profile, guide = ((0.0, 0.0, 0.0), (0.0, 10.0, 5.5), (0.0, 20.0, 0.0)), ((0.0, 5.0, 0.0), (20.0, 8.0, 1.83), (40.0, 12.0, 1.0))
+    sheet = SweptShape(SectionCurve(profile), SectionCurve(guide))
+    follower = Follower(facets_of(sheet), Tool(1, 6.0), FollowOptions(0.0, 0.05, 1e-4))
+    path = cutter_path(follower, even_planes((0.0, 0.0), math.radians(158.3), 5.4, follower.facets.triangles[:, :, :2].reshape(-1, 2)))
+    assert sum(len(run.points) for run in path.runs) < 4_000
+    assert follower.proven(chords(path)).all()
 
 
 def test_what_is_allowed_is_less_than_what_is_promised() -> None:

@@ -42,3 +42,10 @@ def test_corners_lie_on_the_surface_and_halving_the_tolerance_doubles_the_facets
     coarse, fine = (facets_of(ball(0, 0, 0, 10), tolerance=each) for each in (0.02, 0.005))
     assert np.linalg.norm(fine.triangles.reshape(-1, 3), axis=1) == pytest.approx(10.0, abs=1e-9)
     assert 2.0 < len(fine) / len(coarse) < 8.0
+
+
+def test_facets_stand_for_all_of_a_patch_that_ends_in_a_point() -> None:
+    facets = facets_of(ConeShape((0.0, 0.0, -5.0), (0.0, 0.0, 7.0), 5.0, 0.0))
+    first, second = (facets.corners[:, k] - facets.corners[:, 0] for k in (1, 2))
+    share = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) / 2
+    np.testing.assert_allclose(np.bincount(facets.patch, share), 1.0)
