@@ -59,8 +59,7 @@ def _along(triangle, chord, tool, shape, skin, length, times):  # type: ignore[n
         return False
     if at_low == -math.inf and at == -math.inf and at_high == -math.inf:  # in reach nowhere, or between these places
         middle = _nearest(triangle, ax, ay, bx, by)
-        x, y, z = ax + middle * (bx - ax), ay + middle * (by - ay), az + middle * (bz - az)
-        at = over_triangle(triangle, x, y, shape, -math.inf) + skin - z
+        at = over_triangle(triangle, ax + middle * (bx - ax), ay + middle * (by - ay), shape, -math.inf) + skin - az - middle * (bz - az)
         if at == -math.inf or at > 0.0:
             return at < 0.0
     for _ in range(times):
