@@ -108,7 +108,8 @@ def joined(parts: Sequence[Facets]) -> Facets:
 
 def joined_parts(parts: Sequence[Facets], patches: Patches) -> Facets:
     """Return facets of the same patches as one."""
-    def every(name: str) -> Any:
+
+    def every(name: str) -> NDArray[Any]:
         return np.concatenate([getattr(part, name) for part in parts])
 
     return Facets(every("triangles"), every("owner"), every("patch"), every("corners"), every("error"), every("bulge"), patches)

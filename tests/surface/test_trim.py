@@ -115,7 +115,7 @@ def test_cutters_over_what_is_left_of_a_bumpy_surface_against_dense_sampling(see
                                   Trim(circle=(0.0, 0.0, 7.0), keep=Side.OUTSIDE)], ids=["circle", "triangle", "hole"])  # fmt: skip
 def test_what_is_left_covers_the_area_once(trim: Trim) -> None:
     """Seen from above a ball has two sides."""
-    inside = shapely.Polygon(trim.outline).area if trim.outline else math.pi * trim.circle[2] ** 2  # type: ignore[index]
+    inside = math.pi * trim.circle[2] ** 2 if trim.circle else shapely.Polygon(trim.outline).area
     area = inside if trim.keep is Side.INSIDE else math.pi * RADIUS**2 - inside
     facets = facets_of(trimmed(ball(0, 0, 0, RADIUS), trim))
     assert area_seen(facets) / 2 == pytest.approx(area, rel=1e-3)  # chords of facets as coarse as the scene allows
