@@ -286,7 +286,7 @@ class CutView(QWidget):
         try:
             self.surface = made_surface(self, self.painting.paint)
         except HitofudeError as error:
-            self.failure = str(error)
+            self.failure = f"The cut cannot be shown. {error}"
             self.sentence.setText(self.failure)
             self.overlay.hide()
             self.legend.hide()

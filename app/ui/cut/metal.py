@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from app.graphics import compiled
 from app.ui.cut.camera import Floats
 from app.ui.cut.frame import CLIP_PLANES, Frame, section_ends
 from app.ui.cut.picture import CutPicture
-from app.ui.cut.programs import compiled
 
 if TYPE_CHECKING:
     import moderngl

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from app.graphics import compiled
 from app.ui.cut.colouring import Colouring
 from app.ui.cut.frame import CLIP_PLANES, Frame
 from app.ui.cut.metal import Metal, MetalPrograms
 from app.ui.cut.path_ribbons import PathRibbons, Sight
 from app.ui.cut.picture import CutPaths, CutPicture
-from app.ui.cut.programs import compiled
 from app.ui.cut.stage import Stage
 
 if TYPE_CHECKING:

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QImage, QOpenGLContext, QPainter, QPaintEvent, QSurfaceFormat
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QWidget
 
-from app.errors import HitofudeError
+from app.graphics import standalone_context
 from app.ui.cut.scene import CutScene
 
 if TYPE_CHECKING:
@@ -22,8 +21,6 @@ T = TypeVar("T")
 Paint = Callable[[CutScene], None]
 
 _NEEDED = (3, 3)
-_HOW = "Install a graphics driver, or the packages libegl1 and libgl1, and start again."
-
 
 def surface_format() -> QSurfaceFormat:
     """Return what the widget asks of OpenGL; depth and samples are those of the picture that it shows."""
@@ -39,23 +36,6 @@ def widgets_have_opengl() -> bool:
     context = QOpenGLContext()
     context.setFormat(surface_format())
     return context.create() and context.format().version() >= _NEEDED
-
-
-def standalone_context() -> moderngl.Context:
-    """Return an OpenGL context without a screen, which is not current.
-
-    Raises:
-        HitofudeError: there is no OpenGL 3.3.
-    """
-    import moderngl
-
-    try:
-        settings: dict[str, Any] = {"backend": "egl"} if sys.platform == "linux" else {}
-        context = moderngl.create_context(require=330, standalone=True, **settings)
-    except Exception as fault:  # moderngl raises plain Exception
-        raise HitofudeError(f"The cut cannot be shown: there is no OpenGL 3.3 here ({fault}). {_HOW}") from fault
-    with context:
-        return context
 
 
 class GlSurface(QOpenGLWidget):

@@ -28,7 +28,7 @@ SIZE = (320, 240)
 
 def without_a_screen():
     """An OpenGL context without a screen; where there is none the test is skipped, and says why."""
-    from app.ui.cut.surface import standalone_context
+    from app.graphics import standalone_context
 
     try:
         context = standalone_context()
