@@ -187,14 +187,17 @@ def store(heights, lines, box, turned, floor):
             heights[row + r, col + c] = z if z > floor else floor
 
 
-@kernel("void(int32[:, ::1], int32[::1], UniTuple(int64, 4), boolean)")
-def store_owners(owners, lines, box, turned):
-    """Copy a tile's owners into a grid; cells without one keep what they have."""
+@kernel("void(int32[:, ::1], int32[::1], UniTuple(int64, 4), boolean, boolean)")
+def move_owners(owners, lines, box, turned, there):
+    """Copy a tile of a grid's owners into lines (`there`), or back."""
     row, col, rows, cols = box
     for r in range(rows):
         for c in range(cols):
-            owner = lines[c * STRIDE + r if turned else r * STRIDE + c]
-            owners[row + r, col + c] = owner if owner >= 0 else owners[row + r, col + c]
+            at = c * STRIDE + r if turned else r * STRIDE + c
+            if there:
+                lines[at] = owners[row + r, col + c]
+            else:
+                owners[row + r, col + c] = lines[at]
 
 
 @kernel(
@@ -242,7 +245,7 @@ def cut_tile(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, 
         grid: as for `count`.
         box: first row and column of the tile, its rows and columns.
         turned: whether its lines run along Y.
-        before, after: heights of the whole grid. owners: motion that cut each cell last; no rows: not wanted.
+        before, after: heights of the whole grid. owners: motion that cut each cell last, -1 = none; no rows: not wanted.
         told: a row for each ref, or nothing: volume in mm of height, engaged cells, greatest depth, its cell
             as row * columns + column, and the height that is reached there.
         limits: floor, and the depth from which a piece that only asks is told of, mm.
@@ -255,11 +258,13 @@ def cut_tile(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, 
     mine = np.full(TILE * STRIDE if len(owners) > 0 else 0, np.int32(-1))
     swept, sums, notes = np.full(STRIDE + LANES, np.float32(math.inf)), np.zeros(2 * LANES, np.float32), np.zeros(NOTES)
     load(before, heights, box, turned)
+    if len(owners) > 0:
+        move_owners(owners, mine, box, turned, True)
     cut_lines(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, frame, turned,
               heights, mine, swept, sums, notes, told, limits)  # fmt: skip
     store(after, heights, box, turned, np.float32(limits[0]))
     if len(owners) > 0:
-        store_owners(owners, mine, box, turned)
+        move_owners(owners, mine, box, turned, False)
     for k in range(len(told)):
         slow, fast = int(told[k, 3]) // STRIDE, int(told[k, 3]) % STRIDE
         told[k, 3] = (row + fast) * before.shape[1] + col + slow if turned else (row + slow) * before.shape[1] + col + fast
