@@ -102,7 +102,8 @@ class History:
             Cancelled: the job was asked to stop.
         """
         ensure_memory(workpiece.grid, 4 * BYTES_A_CELL)
-        self._workpiece, self.motions = workpiece, sum(len(course.motions) for course in courses)
+        self._workpiece, self._cutters = workpiece, cutters
+        self.motions = sum(len(course.motions) for course in courses)
         self.base = Field(workpiece.heights.copy(), np.full(workpiece.heights.shape, -1, np.int32))
         self._batches: list[_Batch] = []
         sweeps = [Sweeps(workpiece.grid, course, cutters, (Rapids.ASKED, LEVEL), True) for course in courses]
@@ -130,6 +131,20 @@ class History:
         for batch in self._batches:
             progress.step(0.0)
             batch.cut(field, first, last, progress)
+
+    def advance_along(self, field: Field, course: Course, motion: int) -> None:
+        """Cut a field along the way that one motion has gone so far.
+
+        Args:
+            field: as the motions before have left it; overwritten.
+            course: that way, all of it cutting. motion: whose it is, counted through all courses.
+        """
+        sweeps = Sweeps(self._workpiece.grid, course, self._cutters, (Rapids.IGNORED, LEVEL), True)
+        own = Field(field.heights, np.full_like(field.owner, -1))
+        part = sweeps.part(0, len(course.motions))
+        top = float(self._workpiece.heights.max())
+        part.cut(own.heights, own, part.sorting(top), Limits(top, float(self._workpiece.floor), LEVEL))
+        field.owner[own.owner >= 0] = motion
 
     def behind(self, motion: int) -> tuple[int, int]:
         """Return the number of the last block that ends at or before a motion, -1 = none, and how many motions are done there."""
