@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from app.graphics import compiled
 from app.ui.cut.camera import Floats
 from app.ui.cut.frame import Frame
+from app.ui.cut.glass import passes
 from app.ui.cut.tool_outline import DrawnTool, Part, ToolOutline
 
 if TYPE_CHECKING:
@@ -32,9 +33,8 @@ _SMOOTH = np.cos(np.radians(20.0))
 _ALPHAS = ((0.86, 1.0), (0.58, 0.98), (0.46, 0.96))
 """By part: of what faces the eye and of what turns away from it."""
 
-_PASSES = ((">", True, False, 0.16), ("<", False, True, 1.0), ("<=", True, False, 1.0))
-"""What is behind metal, faintly; then depths alone; then what is nearest, so that no inner side shines through: rule of the depth
-test, whether colours and depths are written, and share of the alphas."""
+_HIDDEN = 0.16
+"""How much is left of a tool behind metal."""
 
 _HELIX = np.tan(np.radians(30.0))
 
@@ -87,17 +87,9 @@ class ToolBody:
         ctx, (_, array, count) = self._ctx, self._held
         sides = _MOVING_SIDES if frame.budget else _SIDES
         self._set_uniforms(self.tool, frame, reach, sides)
-        ctx.enable_only(ctx.DEPTH_TEST | ctx.CULL_FACE | ctx.BLEND)
-        over = (ctx.SRC_ALPHA, ctx.ONE_MINUS_SRC_ALPHA, ctx.ONE, ctx.ONE)
-        ctx.blend_func = over  # type: ignore[assignment]  # four are taken too: the last two are for alpha
-        for rule, colours, depths, share in _PASSES:
-            ctx.depth_func, target.color_mask, target.depth_mask = rule, (colours,) * 4, depths
-            target.use()  # masks hold from then on
+        for share in passes(ctx, target, _HIDDEN, closed=True):
             self._program["share"] = share
             array.render(ctx.TRIANGLE_STRIP, vertices=2 * (sides + 1), instances=count)
-        ctx.depth_func, target.depth_mask = "<", True
-        target.use()
-        ctx.enable_only(ctx.DEPTH_TEST)
 
     def release(self) -> None:
         """Give everything back to the graphics system."""
@@ -110,9 +102,10 @@ class ToolBody:
         halfway = light + axes[2]
         widest = max(float(stretch.points[:, 1].max()) for stretch in tool.outline.stretches if stretch.part is Part.CUTTING)
         values = {
-            "tip": self.tip, "sides": sides, "alphas": list(_ALPHAS), "light": tuple(light), "eye": tuple(axes[2]), "right": tuple(axes[0]), "edge": look.edge,
+            "tip": self.tip, "sides": sides, "alphas": list(_ALPHAS), "light": tuple(light), "eye": tuple(axes[2]), "right": tuple(axes[0]),
             "halfway": tuple(halfway / np.linalg.norm(halfway)), "strength": look.strength, "flutes": float(tool.flutes),
-            "inks": [look.tools[tool.ink % len(look.tools)], look.steel, look.holder], "lead": _HELIX / (2 * np.pi * widest),
+            "edge": look.edge, "inks": [look.tools[tool.ink % len(look.tools)], look.steel, look.holder],
+            "lead": _HELIX / (2 * np.pi * widest),
             "to_clip": tuple(frame.camera.matrix(frame.size, reach).T.ravel()),
         }  # fmt: skip
         for name, value in values.items():

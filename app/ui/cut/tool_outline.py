@@ -146,4 +146,4 @@ def _without_doubles(points: Floats) -> Floats:
     """Return points without those that stand where the one before does."""
     if not len(points):
         return points
-    return points[np.append(True, np.any(np.abs(np.diff(points, axis=0)) > 1e-9, axis=1))]
+    return np.asarray(points[np.append(True, np.any(np.abs(np.diff(points, axis=0)) > 1e-9, axis=1))])
