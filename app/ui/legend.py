@@ -108,7 +108,7 @@ class Legend(QFrame):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         self.rows: dict[Sample, LegendRow] = {}
-        for sample in Sample:
+        for sample in (sample for sample in Sample if sample is not Sample.WEDGES):
             row = LegendRow(sample)
             row.toggled.connect(lambda on, s=sample: self.layer_switched.emit(s, on))
             self.rows[sample] = row

@@ -24,13 +24,14 @@ class Sample(Enum):
     LEFT = "Left material"
     UNREACHABLE = "Out of reach"
     CLAMP = "Keep-out"
+    WEDGES = "Wedges"
 
 
 def sample_pen(sample: Sample, theme: Theme) -> QPen:
     """Return the pen that paths of this kind are drawn with."""
     colours = {Sample.PART: theme.ink, Sample.POCKET: theme.pocket, Sample.REST: theme.rest, Sample.CONTOUR: theme.contour,
                Sample.LINK: theme.pocket, Sample.RAPID: theme.rapid, Sample.PLUNGE: theme.plunge,
-               Sample.LEFT: theme.left, Sample.UNREACHABLE: theme.unreachable, Sample.CLAMP: theme.warning}
+               Sample.LEFT: theme.left, Sample.UNREACHABLE: theme.unreachable, Sample.CLAMP: theme.warning, Sample.WEDGES: theme.regions[4]}
     pen = QPen(colours[sample], 1.0 if sample in (Sample.LINK, Sample.RAPID, Sample.PART) else 1.8)
     pen.setCapStyle(Qt.PenCapStyle.FlatCap)
     if sample is Sample.CONTOUR:
@@ -76,8 +77,18 @@ class LineSample(QWidget):
             painter.drawPoint(middle)
         elif self._sample in (Sample.LEFT, Sample.UNREACHABLE, Sample.CLAMP):
             self._hatch(painter, painter.pen().color())
+        elif self._sample is Sample.WEDGES:
+            self._facets(painter)
         else:
             painter.drawLine(QPointF(1, middle.y()), QPointF(self.width() - 1, middle.y()))
+
+    def _facets(self, painter: QPainter) -> None:
+        """Draw two facets of a cylinder and two of a wedge."""
+        colours = (self._theme.regions[4], self._theme.contour)
+        for k in range(4):
+            painter.setPen(QPen(colours[k // 2].darker(220), 1))
+            painter.setBrush(colours[k // 2])
+            painter.drawRect(QRectF(2.5 + 6 * k, 3.5, 6, self.height() - 7))
 
     def _hatch(self, painter: QPainter, colour: QColor) -> None:
         area = QRectF(1.5, 2.5, self.width() - 3, self.height() - 5)

@@ -88,11 +88,12 @@ class CutLegend(QFrame):
     """A quiet sheet in the upper right corner.
 
     Signals:
-        colour_chosen(CutColour). layer_switched(Sample, on). section_chosen(Side, share in [0, 1] of the stock).
+        colour_chosen(CutColour). layer_switched(Sample, on). wedges_switched(on). section_chosen(Side, share in [0, 1] of the stock).
     """
 
     colour_chosen = Signal(CutColour)
     layer_switched = Signal(Sample, bool)
+    wedges_switched = Signal(bool)
     section_chosen = Signal(Side, float)
 
     def __init__(self, parent: QWidget) -> None:
@@ -105,6 +106,9 @@ class CutLegend(QFrame):
         self.side = ChoiceField("Section", [(side, side.value) for side in Side], 60)
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.rows = {sample: LegendRow(sample) for sample in (Sample.POCKET, Sample.CONTOUR, Sample.PLUNGE, Sample.RAPID)}
+        self.wedges = LegendRow(Sample.WEDGES)
+        self.wedges.setChecked(False)
+        self.wedges.hide()
         self.body = QWidget()
         self._lay_out()
         self._connect()
@@ -127,7 +131,7 @@ class CutLegend(QFrame):
         body.addWidget(self.key)
         body.addSpacing(6)
         body.addWidget(self.colour)
-        for widgets in (list(self.rows.values()), [self.side, self.slider]):
+        for widgets in ([*self.rows.values(), self.wedges], [self.side, self.slider]):
             body.addSpacing(8)
             body.addWidget(hairline())
             body.addSpacing(8)
@@ -146,6 +150,7 @@ class CutLegend(QFrame):
         self.slider.valueChanged.connect(lambda _: self._tell_section())
         for sample, row in self.rows.items():
             row.toggled.connect(lambda on, s=sample: self.layer_switched.emit(s, on))
+        self.wedges.toggled.connect(self.wedges_switched)
 
     @property
     def chosen_side(self) -> Side:
@@ -165,6 +170,15 @@ class CutLegend(QFrame):
         for sample, row in self.rows.items():
             row.setVisible(sample in present)
         self.fit_contents()
+
+    def show_wedges(self, possible: bool) -> None:
+        """Have the row for the facets of a sweep, or not."""
+        self.wedges.setVisible(possible)
+        self.fit_contents()
+
+    def tell_facet(self, facet: float) -> None:
+        """Tell how large these facets are, mm."""
+        self.wedges.label.setText(f"{Sample.WEDGES.value}, facets d = {facet:.2g} mm")
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""

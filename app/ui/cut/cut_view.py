@@ -46,7 +46,7 @@ class CutView(QWidget):
     Attributes:
         picture: what is shown; None = nothing. detail: a part of it that was cut again with finer cells; None = there is none.
         colours: of both. camera: from where they are seen, in the screen's px.
-        hit: the cell under the mouse. failure: why nothing can be shown here, or "".
+        playing: the tool at its place, and cells that change. hit: the cell under the mouse. failure: why nothing can be shown here, or "".
     """
 
     cell_picked = Signal(float, float, float, int)
@@ -63,6 +63,7 @@ class CutView(QWidget):
         self.failure = ""
         self.surface: GlSurface | ImageSurface | None = None
         self.painting, self.colours, self._hands = Painting(self), Colours(self), Hands(self)
+        self.playing = self.painting.playing
         self._shown = frozenset(int(look) for look in Look)
         self._fitted, self._making = True, False
         self._side, self._signs = Side.WHOLE, (1.0, 1.0)
@@ -90,6 +91,7 @@ class CutView(QWidget):
         self.setAccessibleName("Cut in three dimensions")
         self.legend.colour_chosen.connect(self.set_colour)
         self.legend.layer_switched.connect(self._on_layer)
+        self.legend.wedges_switched.connect(self.playing.switch_wedges)
         self.legend.section_chosen.connect(self._on_section)
         self.profile.closed.connect(lambda: self.show_line(None))
         self.colours.known.connect(self._show_colours)

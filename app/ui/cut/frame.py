@@ -50,15 +50,15 @@ class Frame:
         finest = max(1, int(1.0 / (picture.pitch * self.camera.scale)))
         return max(finest, int(np.ceil(np.sqrt(cells / self.budget)))) if self.budget else finest
 
-    def seen_cells(self, picture: CutPicture) -> tuple[tuple[int, int], tuple[int, int]]:
-        """Return the first and the last column and row that can be in the picture."""
+    def seen_cells(self, picture: CutPicture, highest: float) -> tuple[tuple[int, int], tuple[int, int]]:
+        """Return the first and the last column and row that can be in the picture; no cell is higher than `highest`, mm."""
         width, height = self.size
         rays = [self.camera.ray(at, self.size) for at in ((0, 0), (width, 0), (0, height), (width, height))]
         counts = np.array([picture.columns, picture.rows])
         slant = rays[0].direction[2]
         if abs(slant) < _LEAST_SLANT:
             return (0, 0), (picture.columns - 1, picture.rows - 1)
-        levels = (picture.floor, picture.highest)
+        levels = (picture.floor, highest)
         places = np.array([ray.origin + (z - ray.origin[2]) / slant * ray.direction for ray in rays for z in levels])
         cells = (places[:, :2] - picture.low[:2]) / picture.pitch
         first = np.clip(np.floor(cells.min(axis=0)) - 1, 0, counts - 1).astype(int)

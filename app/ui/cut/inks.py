@@ -20,6 +20,9 @@ def look_of(theme: Theme) -> CutLook:
     return CutLook(
         canvas=_share(theme.canvas), stock=_parts(inks_of(theme).stock), hatch=_share(theme.unreachable),
         paths=(rapid, pocket, plunge, contour), strength=(0.36, 0.66, 0.10) if dark else (0.50, 0.56, 0.08),
+        tools=tuple(_share(colour) for colour in theme.regions), steel=(0.76, 0.78, 0.81) if dark else (0.70, 0.72, 0.75),
+        holder=(0.42, 0.45, 0.50) if dark else (0.44, 0.47, 0.52), edge=(0.80, 0.83, 0.88) if dark else (0.16, 0.18, 0.21),
+        facets=(_share(theme.regions[4]), contour[:3]),
     )  # fmt: skip
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from app.graphics import compiled
 from app.ui.cut.camera import Floats
 from app.ui.cut.frame import CLIP_PLANES, Frame, section_ends
+from app.ui.cut.patch import Patch
 from app.ui.cut.picture import CutPicture
 
 if TYPE_CHECKING:
@@ -63,6 +64,7 @@ class Metal:
     def __init__(self, ctx: moderngl.Context, programs: MetalPrograms, palette: moderngl.Texture) -> None:
         self._ctx, self._programs, self._palette = ctx, programs, palette
         self._picture: CutPicture | None = None
+        self._range, self._averaged = (0.0, 0.0), True
         self._heights = ctx.texture((1, 1), 1, dtype="f4")
         self._values, self._relief = (ctx.texture((1, 1), bands) for bands in (1, 4))
 
@@ -73,6 +75,16 @@ class Metal:
         self._heights.filter = (ctx.LINEAR, ctx.LINEAR)
         self._relief = self._filled(self._relief, picture.relief)
         self._relief.build_mipmaps()
+        self._range, self._averaged = (picture.lowest, picture.highest), True
+
+    def patch(self, patch: Patch) -> None:
+        """Take other heights, relief and colours over for a rectangle of cells; after `fill` and `colour`."""
+        low, high = self._range
+        self._range = min(low, float(patch.heights.min())), max(high, float(patch.heights.max()))
+        place = (patch.col, patch.row, patch.heights.shape[1], patch.heights.shape[0])
+        for texture, data in ((self._heights, patch.heights), (self._relief, patch.relief), (self._values, patch.values)):
+            texture.write(np.ascontiguousarray(data), viewport=place, alignment=1)
+        self._averaged = False
 
     def colour(self, values: NDArray[np.uint8]) -> None:
         """Take over the place of each cell in the palette."""
@@ -98,7 +110,7 @@ class Metal:
         self._draw_walls(frame, picture)
         if frame.camera.pitch < 0:
             programs.bare[programs.floor].render(self._ctx.TRIANGLE_STRIP, vertices=4)
-        has_holes = picture.lowest <= picture.floor or frame.section is not None or hole is not NO_HOLE
+        has_holes = self._range[0] <= picture.floor or frame.section is not None or hole is not NO_HOLE
         yield from self._draw_top(frame, picture, programs.clipped if has_holes else programs.whole)
 
     def release(self) -> None:
@@ -108,11 +120,14 @@ class Metal:
 
     def _draw_top(self, frame: Frame, picture: CutPicture, field: moderngl.Program) -> Iterator[None]:
         ctx, array = self._ctx, self._programs.bare[field]
-        (column, row), (last_column, last_row) = frame.seen_cells(picture)
+        (column, row), (last_column, last_row) = frame.seen_cells(picture, self._range[1])
         stride = frame.stride(picture, (last_column - column) * (last_row - row))
         across, along = -(-(last_column - column) // stride), -(-(last_row - row) // stride)
         sharp = picture.pitch * frame.camera.scale > _SHARP
-        self._relief.filter = (ctx.LINEAR if sharp else ctx.LINEAR_MIPMAP_NEAREST, ctx.LINEAR)
+        if not (sharp or self._averaged or frame.budget):
+            self._relief.build_mipmaps()
+            self._averaged = True
+        self._relief.filter = (ctx.LINEAR if sharp or not self._averaged else ctx.LINEAR_MIPMAP_NEAREST, ctx.LINEAR)
         field["stride"], field["last"] = stride, (last_column, last_row)
         band = max(1, BAND_QUADS // max(across, 1))
         for begin in range(0, along, band):

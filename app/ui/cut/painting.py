@@ -10,6 +10,8 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.ui.cut.colouring import Colouring
 from app.ui.cut.frame import Frame
+from app.ui.cut.patch import Patch
+from app.ui.cut.playing import Playing
 from app.ui.cut.relief import Bytes
 from app.ui.cut.scene import CutScene
 from app.ui.cut.stage import CutLook
@@ -35,6 +37,7 @@ class Painting(QObject):
         budget: squares that a picture of the moving cut is painted with; it follows the time that painting takes.
         frame_ms: how long the last coarse picture took, ms.
         fine: whether the fine picture is shown. due: whether the coarse one is still to be painted.
+        playing: what lies over the cut while it is played.
     """
 
     stirred = Signal()
@@ -48,6 +51,8 @@ class Painting(QObject):
         self._detail_values: Bytes | None = None
         self._look = CutLook((0.0,) * 3, (0.5,) * 3, (0.5,) * 3, ((0.5, 0.5, 0.5, 1.0),) * 4)
         self._picture_due = self._colours_due = self._detail_due = self.due = False
+        self._patches: list[Patch] = []
+        self.playing = Playing(view, self)
         self._steps: Iterator[None] | None = None
         self._rest = QTimer(self, singleShot=True, interval=REST_MS)
         self._rest.timeout.connect(self._on_rest)
@@ -62,7 +67,13 @@ class Painting(QObject):
     def new_picture(self) -> None:
         """The view shows another cut; it is painted once its colours are known."""
         self._picture_due = True
-        self._begin_anew()
+        self.playing.tool_due = True
+        self.stir()
+
+    def patch(self, patch: Patch) -> None:
+        """Cells of the cut have changed, in the view's picture too: only they are handed over."""
+        self._patches.append(patch)
+        self.stir()
 
     def new_colours(self, colours: Colouring, detail: Bytes | None, look: CutLook) -> None:
         """The cut has other colours.
@@ -73,7 +84,7 @@ class Painting(QObject):
         """
         self._colours, self._detail_values, self._look = colours, detail, look
         self._colours_due = self._detail_due = True
-        self._begin_anew()
+        self.stir()
 
     def new_detail(self, values: Bytes | None) -> None:
         """The view shows another finer look at a part of the cut, or none: the fine picture is painted anew at once."""
@@ -81,19 +92,20 @@ class Painting(QObject):
         if self.resting and not self.due:
             self._begin_fine()
         else:
-            self._begin_anew()
+            self.stir()
 
     def renew(self) -> None:
         """The scene is a new one."""
-        self._picture_due = self._colours_due = True
-        self._begin_anew()
+        self._picture_due = self._colours_due = self.playing.tool_due = self.playing.wedges_due = True
+        self.stir()
 
     def moved(self) -> None:
         """What is seen changes: paint it coarse at once, and fine when nothing moves any more."""
-        self._begin_anew()
+        self.stir()
         self.stirred.emit()
 
-    def _begin_anew(self) -> None:
+    def stir(self) -> None:
+        """Paint coarse at once, however often it is asked for only one picture at a time, and fine when nothing more is asked for."""
         self._steps, self.due, self.fine = None, True, False
         self._next.stop()
         self._rest.start()
@@ -120,16 +132,23 @@ class Painting(QObject):
     def _upload(self, scene: CutScene) -> bool:
         """Hand over what is new; return whether something was. Heights wait for their colours."""
         picture, colours = self._view.picture, self._colours
+        self.playing.hand_over(scene)
         if picture is None or colours is None or colours.values.shape != picture.heights.shape:
             return False
+        if self._colours_due and self._patches:  # these tell what the colours told before
+            self._picture_due = True
         new = self._picture_due or self._colours_due or self._detail_due
         if self._picture_due:
             scene.show_picture(picture)
             scene.show_paths(picture.paths)
+            self._patches.clear()
         if self._colours_due:
             scene.show_colours(colours)
         if self._detail_due or self._picture_due:
             scene.show_detail(self._view.detail, self._detail_values)
+        for patch in self._patches:
+            scene.patch(patch)
+        self._patches.clear()
         self._picture_due = self._colours_due = self._detail_due = False
         return new
 

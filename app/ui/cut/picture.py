@@ -152,6 +152,11 @@ class CutPicture:
         """The greatest height, mm."""
         return float(self.heights.max())
 
+    def forget_extent(self) -> None:
+        """Find the lowest and the greatest height anew: heights were changed in place."""
+        for name in ("lowest", "highest"):
+            vars(self).pop(name, None)
+
     @cached_property
     def span(self) -> Span:
         """What the scales of its colours run over."""

@@ -22,6 +22,12 @@ _SPANS = (3, 7, 15)
 
 _DARKEST = 0.45
 
+_NEAR = _WIDE // 2 + 1
+"""A normal is told by cells at most this far away."""
+
+REACH = (max(_SPANS) // 2 + 3) * _COARSE
+"""A height changes the relief of cells at most this far away."""
+
 
 def relief(heights: NDArray[np.float32], pitch: float) -> Bytes:
     """Return (rows, columns, 4) bytes: x and y of each cell's normal, the light that reaches it, 255.
@@ -30,15 +36,35 @@ def relief(heights: NDArray[np.float32], pitch: float) -> Bytes:
         heights: (rows, columns) mm.
         pitch: mm.
     """
+    heights = np.ascontiguousarray(heights)
+    return _relief(heights, corner_light(heights, pitch), pitch)
+
+
+def relief_part(heights: NDArray[np.float32], pitch: float, rows: slice, columns: slice) -> Bytes:
+    """Return what `relief` has for a rectangle of cells, to the bit, in the time that the rectangle takes.
+
+    Only the light of corners is worked out for all cells, as their squares of four by four lie across the whole.
+
+    Args:
+        heights: all of them, (rows, columns) mm. pitch: mm.
+        rows, columns: the rectangle, within the heights.
+    """
+    light = corner_light(heights, pitch)
+    wide = tuple(slice(max(part.start - _NEAR, 0), part.stop + _NEAR) for part in (rows, columns))
+    inner = tuple(slice(part.start - outer.start, part.stop - outer.start) for part, outer in zip((rows, columns), wide, strict=True))
+    return np.ascontiguousarray(_relief(np.ascontiguousarray(heights[wide]), np.ascontiguousarray(light[wide]), pitch)[inner])
+
+
+def _relief(heights: NDArray[np.float32], light: Bytes, pitch: float) -> Bytes:
     import cv2
 
     from app.ui.cut.relief_kernels import relief_map
 
-    out, heights = np.empty(heights.shape, "<u4"), np.ascontiguousarray(heights)
+    out = np.empty(heights.shape, "<u4")
     smooth = np.asarray(cv2.GaussianBlur(heights, (_WIDE, _WIDE), 0.0, borderType=cv2.BORDER_REPLICATE))
     spread = np.asarray(cv2.morphologyEx(heights, cv2.MORPH_GRADIENT, np.ones((3, 3), np.uint8)))
     steep = np.where(spread > np.float32(2 * WALL * pitch), spread / np.float32(2 * pitch), np.float32(0.0))
-    relief_map(heights, smooth, steep, corner_light(heights, pitch), np.float32(pitch), np.float32(GAIN), np.float32(LIMIT), out)
+    relief_map(heights, smooth, steep, light, np.float32(pitch), np.float32(GAIN), np.float32(LIMIT), out)
     return out.view(np.uint8).reshape(*heights.shape, 4)
 
 

@@ -10,11 +10,16 @@ from numpy.typing import NDArray
 
 from app.graphics import compiled
 from app.ui.cut.colouring import Colouring
+from app.ui.cut.facets import Facets
 from app.ui.cut.frame import CLIP_PLANES, Frame
 from app.ui.cut.metal import Metal, MetalPrograms
+from app.ui.cut.patch import Patch
 from app.ui.cut.path_ribbons import PathRibbons, Sight
 from app.ui.cut.picture import CutPaths, CutPicture
 from app.ui.cut.stage import Stage
+from app.ui.cut.tool_body import Place, ToolBody
+from app.ui.cut.tool_outline import DrawnTool
+from app.workflow.wedges_picture import WedgesPicture
 
 if TYPE_CHECKING:
     import moderngl
@@ -42,6 +47,7 @@ class CutScene:
         self._palette = ctx.texture((256, 1), 4)
         self._whole, self._part = (Metal(ctx, self._programs, self._palette) for _ in range(2))
         self._paths = PathRibbons(ctx, compiled(ctx, "path.vert", "path.frag", "PATH"))
+        self._tool, self._facets = ToolBody(ctx), Facets(ctx)
         self._stage: Stage | None = None
 
     def show_picture(self, picture: CutPicture | None) -> None:
@@ -62,9 +68,29 @@ class CutScene:
             self._part.fill(detail)
             self._part.colour(values)
 
+    def patch(self, patch: Patch) -> None:
+        """Take over a rectangle of cells of the whole that has changed; only that is handed to the graphics system.
+
+        A finer look at a part stays as it was: whoever patches the whole shows none.
+        """
+        if self.picture is not None:
+            self._whole.patch(patch)
+
     def show_paths(self, paths: CutPaths | None) -> None:
         """Take over the way of the tool."""
         self._paths.fill(paths)
+
+    def show_tool(self, tool: DrawnTool | None) -> None:
+        """Show a tool at its place, or none."""
+        self._tool.fill(tool)
+
+    def place_tool(self, tip: Place) -> None:
+        """Put the tool elsewhere: its tip, mm."""
+        self._tool.tip = tip
+
+    def show_wedges(self, wedges: WedgesPicture | None) -> None:
+        """Show the facets of a sweep, or none."""
+        self._facets.fill(wedges)
 
     def draw(self, frame: Frame) -> None:
         """Paint a picture at once."""
@@ -88,6 +114,8 @@ class CutScene:
             self._paths.draw(frame.look, frame.shown, Sight(frame.camera, frame.size, frame.clip, reach, bool(frame.budget)))
             for plane in CLIP_PLANES:
                 self.ctx.disable_direct(plane)
+            for body in (self._facets, self._tool):
+                body.draw(frame, reach, back)
         self.ctx.copy_framebuffer(stage.front, back)
         yield None
 
@@ -108,7 +136,7 @@ class CutScene:
         """Give everything back to the graphics system."""
         if self._stage is not None:
             self._stage.release()
-        for held in (self._whole, self._part, self._palette, self._paths, self._programs):
+        for held in (self._whole, self._part, self._palette, self._paths, self._tool, self._facets, self._programs):
             held.release()
 
     def _draw_metal(self, frame: Frame, reach: float) -> Iterator[None]:
@@ -123,8 +151,9 @@ class CutScene:
     def _reach(self, frame: Frame, picture: CutPicture) -> float:
         """Return how far from the camera's target there may be something, mm."""
         low, high = picture.low, picture.high
-        if self._paths.box is not None:
-            low, high = np.minimum(low, self._paths.box[0]), np.maximum(high, self._paths.box[1])
+        for box in (self._paths.box, self._tool.box, self._facets.box):
+            if box is not None:
+                low, high = np.minimum(low, box[0]), np.maximum(high, box[1])
         far = np.maximum(np.abs(low - frame.camera.target), np.abs(high - frame.camera.target))
         return 1.01 * float(np.linalg.norm(far)) + 1.0
 

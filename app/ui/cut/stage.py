@@ -21,6 +21,8 @@ class CutLook:
         paths: colours of paths by look. widths: px. dashes: period and drawn part, px; (0, 0) = solid.
         light: towards the light, as (right, up, towards the eye).
         strength: of the ambient light, of the light, of its mirror image.
+        tools: colours of cutting parts, a cycle. steel, holder: of shanks and holders. edge: of what turns away from the eye.
+        facets: of cylinders and of wedges.
     """
 
     canvas: Rgb
@@ -31,6 +33,11 @@ class CutLook:
     dashes: tuple[tuple[float, float], ...] = ((5.0, 2.0), (0.0, 0.0), (0.0, 0.0), (9.0, 5.5))
     light: Rgb = (-0.45, 0.62, 0.64)
     strength: Rgb = (0.36, 0.70, 0.10)
+    tools: tuple[Rgb, ...] = ((0.0, 0.62, 0.45),)
+    steel: Rgb = (0.74, 0.76, 0.79)
+    holder: Rgb = (0.30, 0.32, 0.36)
+    edge: Rgb = (0.12, 0.13, 0.15)
+    facets: tuple[Rgb, Rgb] = ((0.34, 0.71, 0.91), (0.90, 0.62, 0.0))
 
 
 @dataclass(frozen=True, slots=True)

@@ -224,7 +224,7 @@ def test_only_cells_in_sight_are_painted_and_none_of_them_is_missing(context):
     with context:
         scene = CutScene(context)
         scene.show_picture(picture)
-        first, last = Frame(camera, SIZE, LOOK).seen_cells(picture)
+        first, last = Frame(camera, SIZE, LOOK).seen_cells(picture, picture.highest)
         scene.release()
     assert (last[0] - first[0]) * (last[1] - first[1]) < 0.6 * 256**2
     image = painted(context, picture, camera)
