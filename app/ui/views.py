@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QLabel, QPushButton, QStackedWidget, QVBoxLayout, 
 from app.ui.canvas.canvas import Canvas
 from app.ui.canvas.modes import CanvasMode
 from app.ui.curves.curves_view import CurvesView
+from app.ui.cut.cut_page import CutPage
 from app.ui.cut.cut_view import CutView
 from app.ui.fade import Fade
 from app.ui.legend import Legend
@@ -82,13 +83,13 @@ class Views(QStackedWidget):
     def __init__(self, canvas: Canvas) -> None:
         super().__init__()
         self.canvas, self.stages, self.cut, self.curves, self.nc = canvas, StagesView(), CutView(), CurvesView(), NcView()
-        self.surfaces = SurfacesView()
-        self._own: dict[View, QWidget] = {View.STAGES: self.stages, View.CUT: self.cut, View.CURVES: self.curves,
+        self.surfaces, self.cut_page = SurfacesView(), CutPage(self.cut)
+        self._own: dict[View, QWidget] = {View.STAGES: self.stages, View.CUT: self.cut_page, View.CURVES: self.curves,
                                           View.SURFACES: self.surfaces, View.NC: self.nc}  # fmt: skip
         self.view, self.plot = View.DRAW, PlotPreview()
         self.addWidget(canvas)
         self.addWidget(self.stages)
-        self.addWidget(self.cut)
+        self.addWidget(self.cut_page)
         self.addWidget(self.curves)
         self.addWidget(self.surfaces)
         self.addWidget(self.nc)

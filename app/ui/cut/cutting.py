@@ -68,6 +68,7 @@ class Cutting(QObject):
         self._made: object = None
         self.worker, self.foreign_worker = Worker(self), Worker(self)
         self.zooming = Zooming(self._view, self)
+        self.player = window.views.cut_page.player
         self._connect()
 
     def _connect(self) -> None:
@@ -78,9 +79,11 @@ class Cutting(QObject):
             window.status.cancelled.connect(worker.cancel)
         self.foreign_worker.progress.connect(window.status.show_progress)
         self.foreign_worker.busy_changed.connect(self._on_busy)
-        for worker in (self.worker, self.foreign_worker, self.zooming.worker, self._view.colours.worker):
+        for worker in (self.worker, self.foreign_worker, self.zooming.worker, self._view.colours.worker, self.player.worker):
             window.closed.connect(worker.finish)
         self.zooming.failed.connect(self.failed)
+        self.player.failed.connect(self.failed)
+        self.player.moved.connect(self._on_played)
         self._computation.changed.connect(self._follow)
         self._computation.changed.connect(self._tell)
         self._view.colours.known.connect(self._show_key)
@@ -155,6 +158,7 @@ class Cutting(QObject):
         self._view.show_cut(cut.picture if cut is not None else None)
         self.zooming.follow(cut.cut if cut is not None else None)
         self._panel.show_cut(cut)
+        self.player.follow(cut, self._panel.entries)
         self._tell()
         self._show_key()
         self.shown.emit()
@@ -200,6 +204,10 @@ class Cutting(QObject):
         self.failed.emit(answer.error or "")
         if self._form.asked is None:
             self._foreign = self._shown_foreign
+
+    def _on_played(self) -> None:
+        """A finer look shows the end alone."""
+        self.zooming.follow(self.cut.cut if self.cut is not None and self.player.at_end else None)
 
     def _on_busy(self, busy: bool) -> None:
         if busy or not self._window.worker.busy:
