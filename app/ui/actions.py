@@ -81,6 +81,7 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         Spec("zoom_in", "Zoom &in", "Ctrl++", "zoom-in"),
         Spec("zoom_out", "Zoom &out", "Ctrl+-", "zoom-out"),
         Spec("cut_picture", "Save &picture of the cut…"),
+        Spec("record", "Record the cut…"),
         SEPARATOR,
         Spec("snap", "&Snap to points", "F3", checkable=True),
         Spec("ortho", "Ort&ho", "F8", checkable=True),

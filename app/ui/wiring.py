@@ -17,6 +17,7 @@ from app.ui.cleaning import Cleaning
 from app.ui.context_menu import ContextMenu
 from app.ui.curves.smoothing import Smoothing
 from app.ui.cut.cutting import Cutting
+from app.ui.cut.recorder import Recorder
 from app.ui.cut.saving import CutSaving
 from app.ui.drawing_export import DrawingExport
 from app.ui.engaging import Engaging
@@ -94,7 +95,7 @@ class Wiring(QObject):
         self.inspecting = Inspecting(window, self.showing)
         self.engaging, self.entering = Engaging(window), Entering(window)
         self.cleaning = Cleaning(window)
-        self.cut_saving = CutSaving(window, self.log)
+        self.cut_saving, self.recorder = CutSaving(window, self.log), Recorder(window, self.log)
         self.shortcuts, self.palette = Shortcuts(window), Palette(window, self.files.open_file)
         self.plotting = Plotting(window, self.showing, self.log)
         self.plotting.failed.connect(self._say_error)
@@ -195,7 +196,9 @@ class Wiring(QObject):
     def _connect_view(self) -> None:
         canvas, actions = self.window_.canvas, self.window_.actions_
         self._on("cut_picture", self.cut_saving.choose)
-        self.cut_saving.failed.connect(self._say_error)
+        for part in (self.cut_saving, self.recorder):
+            part.failed.connect(self._say_error)
+        self._on("record", self.recorder.ask)
         for view in View:
             self._on(view.value, partial(self.showing.show_view, view))
         self._on("fit", lambda: self.window_.views.viewport.fit())

@@ -27,6 +27,9 @@ Owners = NDArray[np.int32]
 
 USUAL = HistoryOptions()
 
+ONCE = HistoryOptions(blocks=1, budget=0)
+"""To go through it once, from the start to the end: nothing need be kept."""
+
 
 @dataclass(frozen=True, eq=False)
 class PlayFrame:

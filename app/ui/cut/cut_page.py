@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtGui import QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from app.ui.cut.cut_view import CutView
 from app.ui.cut.player import Player
+from app.ui.cut.record_sheet import RecordSheet
+from app.ui.cut.surface import pixel_size
 from app.ui.cut.transport import Transport
 
 
@@ -15,13 +17,15 @@ class CutPage(QWidget):
     """Puts view and bar together; keys that the view does not take play.
 
     Attributes:
-        view: the cut. player: plays it. transport: the bar; hidden while there is no cut.
+        view: the cut. player: plays it. transport: the bar; hidden while there is no cut. sheet: asks how it shall be recorded.
     """
 
     def __init__(self, view: CutView) -> None:
         super().__init__()
         self.view, self.player = view, Player(view, view)
         self.transport = Transport(self.player)
+        self.sheet = RecordSheet(self)
+        self.sheet.closed.connect(self.close_sheet)
         self._keys = self.transport.keys()
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -48,6 +52,31 @@ class CutPage(QWidget):
                     act()
                 return True
         return super().eventFilter(watched, event)
+
+    def open_sheet(self) -> None:
+        """Ask how the cut shall be recorded."""
+        self.sheet.open_for(pixel_size(self.view))
+        self._place_sheet()
+
+    def close_sheet(self) -> None:
+        """Ask no more."""
+        self.sheet.hide()
+        self.view.setFocus()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Keep the sheet above the bar's right end."""
+        self._place_sheet()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
+        """Escape closes the sheet."""
+        if event.key() == Qt.Key.Key_Escape and self.sheet.isVisible():
+            self.close_sheet()
+        else:
+            super().keyPressEvent(event)
+
+    def _place_sheet(self) -> None:
+        below = self.transport.sizeHint().height()
+        self.sheet.move(self.width() - self.sheet.width() - 12, self.height() - below - self.sheet.height() - 8)
 
     def _prepare(self) -> None:
         if self.isVisible() and self.view.picture is not None:

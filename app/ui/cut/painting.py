@@ -60,6 +60,11 @@ class Painting(QObject):
         self._next.timeout.connect(self._go_on)
 
     @property
+    def look(self) -> CutLook:
+        """Colours and light."""
+        return self._look
+
+    @property
     def resting(self) -> bool:
         """Whether nothing has moved for a while."""
         return not self._rest.isActive()

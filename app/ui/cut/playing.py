@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from app.model.tool import Tool
 from app.ui.cut.patch import Patch
+from app.ui.cut.picture import CutPicture
 from app.ui.cut.scene import CutScene
 from app.ui.cut.tool_body import Place
 from app.ui.cut.tool_outline import DrawnTool, outline_of
@@ -65,7 +66,7 @@ class Playing:
     def hand_over(self, scene: CutScene) -> None:
         """Hand over what is new, with the scene's context current."""
         if self.tool_due:
-            scene.show_tool(self._drawn())
+            scene.show_tool(drawn_tool(self.tool, self._view.picture))
         if self.wedges_due:
             scene.show_wedges(self.wedges if self.wedges_on else None)
         scene.place_tool(self.tip)
@@ -75,10 +76,10 @@ class Playing:
         self.wedges_due = True
         self._painting.stir()
 
-    def _drawn(self) -> DrawnTool | None:
-        """Return the tool as it is painted, in the colour that its cuts have."""
-        if self.tool is None:
-            return None
-        picture, number = self._view.picture, self.tool.number
-        known = picture.moves.tools[0].tolist() if picture is not None and picture.moves is not None else []
-        return DrawnTool(outline_of(self.tool), self.tool.flutes, known.index(number) if number in known else number - 1)
+
+def drawn_tool(tool: Tool | None, picture: CutPicture | None) -> DrawnTool | None:
+    """Return a tool as it is painted, in the colour that its cuts have in a picture."""
+    if tool is None:
+        return None
+    known = picture.moves.tools[0].tolist() if picture is not None and picture.moves is not None else []
+    return DrawnTool(outline_of(tool), tool.flutes, known.index(tool.number) if tool.number in known else tool.number - 1)

@@ -17,7 +17,7 @@ from app.ui.labels import Elided, muted
 
 _NOTCHES = 100
 _SPEED_PX, _BUTTON_PX = 96, 28
-_WORDS = {Pace.TIME: f"{TIMES} {{}}", Pace.MOVES: "{} moves/s", Pace.TOOLS: "{} tools/s"}
+_WORDS = {Pace.TIME: f"{TIMES} {{}}", Pace.MOVES: "{} a second", Pace.TOOLS: "{} a second"}
 
 Stepped = tuple[str, str, Step, int]
 _BEFORE: tuple[Stepped, ...] = (
@@ -76,7 +76,7 @@ class Transport(QWidget):
             row.addWidget(widget)
             row.addSpacing(6)
         self.clock.setMinimumWidth(self.clock.fontMetrics().horizontalAdvance("0:00:00.0 / 0:00:00"))
-        self.rate.setMinimumWidth(self.rate.fontMetrics().horizontalAdvance("10 000 moves/s"))
+        self.rate.setMinimumWidth(self.rate.fontMetrics().horizontalAdvance("10 000 a second"))
         for pace in Pace:
             self.pace.addItem(pace.value, pace)
         self.pace.setFixedHeight(24)
@@ -152,7 +152,7 @@ class Transport(QWidget):
         shown = player.shown
         tool = shown.cut.setup.tools.get(int(timeline.tool[row])) if shown is not None else None
         parts = [f"line {timeline.line[row]}", f"T{timeline.tool[row]}{f' {tool.label}' if tool is not None else ''}",
-                 f"{grouped(timeline.removed_at(player.at), 0)} mm³ removed"]  # fmt: skip
+                 f"{grouped(timeline.removed_at(player.at), 0)} mm³"]  # fmt: skip
         self.place.setText(" · ".join(parts) if len(timeline) else "")
 
     def _to_end(self) -> None:
