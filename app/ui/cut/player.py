@@ -90,7 +90,7 @@ class Player(QObject):
         self._wanted: Wish | None = None
         self._running: Wish | None = None
         self._way, self._last_tick, self._pending = 0, 0.0, 0
-        self._place = 0.0
+        self._place = self._now = 0.0
         self.worker = Worker(self, head_start_s=0.0)
         self.worker.done.connect(self._on_done)
         self.worker.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
@@ -118,8 +118,8 @@ class Player(QObject):
 
     @property
     def time(self) -> float:
-        """When the moment that is shown is, s."""
-        return self._place if self.pace is Pace.TIME and self.playing else self._time_of(self.at)
+        """When it is, s; while the control waits it goes on, though nothing else does."""
+        return self._now
 
     def follow(self, shown: ShownCut | None, entries: tuple[Entry, ...]) -> None:
         """Play another cut from now on, or none; it stands at its end."""
@@ -153,7 +153,7 @@ class Player(QObject):
         elif way < 0 and self.at.motion == 0 and self.at.fraction == 0:
             self.go(len(self.timeline))
         self._way, self._last_tick = way, time.perf_counter()
-        self._start_from(self._goal())
+        self._start_from()
         self._timer.start()
         self.state_changed.emit()
 
@@ -166,22 +166,26 @@ class Player(QObject):
     def set_pace(self, pace: Pace, speed: float) -> None:
         """Let something else go on evenly, and so fast."""
         self.pace, self.speed = pace, speed
-        self._start_from(self._goal())
+        self._start_from()
         self.state_changed.emit()
 
     def seek(self, seconds: float) -> None:
         """Go to a time; playing goes on from there."""
         if self.timeline is not None:
-            self._ask(self.timeline.at(seconds))
-            self._start_from(self._goal())
+            self._now = min(max(seconds, 0.0), self.timeline.total)
+            self._ask(self.timeline.at(self._now))
+            self._start_from()
+            self.moved.emit()
 
     def go(self, motion: int) -> None:
         """Go to where so many motions are done; playing goes on from there."""
         from app.workflow.timeline import Moment
 
         if self.timeline is not None:
-            self._ask(Moment(min(max(motion, 0), len(self.timeline))))
-            self._start_from(self._goal())
+            moment = Moment(min(max(motion, 0), len(self.timeline)))
+            self._now = self.timeline.time(moment)
+            self._ask(moment)
+            self._start_from()
 
     def step(self, what: Step, way: int) -> None:
         """Go to the next such place (1) or the one before (-1), and stay there; where there is none, to the end of the way."""
@@ -216,13 +220,11 @@ class Player(QObject):
         """Return the moment that is on its way, or is shown."""
         return self._wanted.moment if self._wanted is not None else self.at
 
-    def _time_of(self, moment: Moment | None) -> float:
-        return self.timeline.time(moment) if self.timeline is not None and moment is not None else 0.0
-
-    def _start_from(self, moment: Moment | None) -> None:
-        """Go on from a moment: its time, or how many moves are done."""
-        if moment is not None:
-            self._place = self._time_of(moment) if self.pace is Pace.TIME else moment.motion + moment.fraction
+    def _start_from(self) -> None:
+        """Go on from where it is: the time, or how many moves are done."""
+        goal = self._goal()
+        if goal is not None:
+            self._place = self._now if self.pace is Pace.TIME else goal.motion + goal.fraction
 
     def _tick(self) -> None:
         """Go where the clock says one should be; what cannot be shown in time is left out."""
@@ -234,7 +236,9 @@ class Player(QObject):
         end = timeline.total if self.pace is Pace.TIME else float(len(timeline))
         over = self._place >= end if self._way > 0 else self._place <= 0
         self._place = min(max(self._place, 0.0), end)
-        self._ask(self._moment(timeline))
+        moment = self._moment(timeline)
+        self._now = self._place if self.pace is Pace.TIME else timeline.time(moment)
+        self._ask(moment)
         if over:
             self.pause()
 
@@ -277,7 +281,7 @@ class Player(QObject):
         value = answer.value
         if isinstance(value, LiveCells) and self.shown is not None:
             self._cells, self.timeline = value, value.playback.timeline
-            self.at = self.timeline.last
+            self.at, self._now = self.timeline.last, self.timeline.total
             self.state_changed.emit()
             self.moved.emit()
         elif isinstance(value, LiveFrame):

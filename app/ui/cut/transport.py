@@ -146,7 +146,7 @@ class Transport(QWidget):
             self.place.setText("Preparing playback…" if player.preparing else "")
             return
         seconds = player.time
-        self.plot.show_time(seconds if not player.at_end else timeline.total)
+        self.plot.show_time(seconds)
         self.clock.setText(f"{exact_clock(seconds)} / {exact_clock(timeline.total)}")
         row = timeline.current(player.at)
         shown = player.shown
