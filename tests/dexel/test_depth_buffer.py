@@ -114,10 +114,10 @@ def test_the_error_of_a_level_pass_is_two_thirds_of_the_sagitta_on_average(conte
     motions, ball = polyline([(-30, 0.0013, -3), (30, 0.0013, -3)]), CUTTERS["ball"]
     for facet in (0.2, 0.4):
         over = drawn(context, piece, motions, ball, Tessellation(facet)) - cut(piece, motions, ball).heights.astype(float)
-        middle = over[:, 100:300]
+        middle = over[150:250]
         sagitta = facet_error(ball, facet) / 2
         assert middle.min() > -2e-5
-        assert middle.mean() == pytest.approx(2 / 3 * sagitta, rel=0.1)
+        assert middle.mean() == pytest.approx(2 / 3 * sagitta, rel=0.15)
         assert middle.max() <= 1.05 * sagitta
 
 
