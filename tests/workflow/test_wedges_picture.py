@@ -1,5 +1,8 @@
 """The sweep of a few moves in facets, for a picture of the method."""
 
+
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -15,7 +18,7 @@ def distances(points, tips, radius):
     """How far points are from the chain of the ball's centres."""
     centres = tips + (0.0, 0.0, radius)
     found = np.full(len(points), np.inf)
-    for a, b in zip(centres[:-1], centres[1:], strict=True):
+    for a, b in pairwise(centres):
         share = np.clip((points - a) @ (b - a) / max(np.dot(b - a, b - a), 1e-300), 0.0, 1.0)
         found = np.minimum(found, np.linalg.norm(points - a - share[:, None] * (b - a), axis=1))
     return found

@@ -97,7 +97,8 @@ def test_a_patched_scene_at_rest_is_a_freshly_filled_one_pixel_for_pixel(context
     after = cut_deeper(before, floor)
     fresh = of(after)
     patch = patch_of(after, values_of(fresh, CutColour.DEPTH, of(before).span), fresh.pitch, CHANGED)
-    patched, filled, old = painted(context, frames(), of(before), [patch]), painted(context, frames(), fresh), painted(context, frames(), of(before))
+    patched = painted(context, frames(), of(before), [patch])
+    filled, old = (painted(context, frames(), picture) for picture in (fresh, of(before)))
     for got, expected, was in zip(patched, filled, old, strict=True):
         assert np.array_equal(got, expected) and not np.array_equal(got, was)
 

@@ -1,6 +1,7 @@
 """A tool from the side: what is told is drawn where it is, what is not told is made up so that it looks like a tool."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -83,7 +84,7 @@ def test_every_tool_is_one_closed_outline(kind, flutes, overall, stick_out, shan
     outline = outline_of(tool)
     points = [stretch.points for stretch in outline.stretches]
     assert points[0][0].tolist() == [0.0, 0.0] and points[-1][-1, 1] == 0.0
-    for below, above in zip(points[:-1], points[1:], strict=True):
+    for below, above in pairwise(points):
         assert below[-1].tolist() == above[0].tolist()
     together = np.vstack(points)
     assert np.all(np.diff(together[:, 0]) >= -1e-9) and np.all(together[:, 1] >= 0.0)
