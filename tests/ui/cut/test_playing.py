@@ -115,7 +115,7 @@ def test_wedges_have_a_row_for_a_ball_and_are_off_at_first(qtbot, view):
     bare = rest(qtbot, view)
     tips = np.array([[20.0, 30.0, -6.0], [30.0, 32.0, -7.0], [34.0, 44.0, -8.0], TIP])
     view.playing.show_wedges(wedges_picture(tips, BALL))
-    assert row.label.text() == "Wedges, facets d = 0.38 mm"
+    assert row.label.text() == "Wedges  d = 0.38 mm" and "facets of d = 0.38 mm" in row.toolTip()
     assert np.array_equal(rest(qtbot, view)[:, :600], bare[:, :600])
     view.playing.show_tool(BALL, TIP)
     assert row.isVisible() and view.legend.geometry().contains(row.mapTo(view, row.rect().bottomRight()))
