@@ -23,12 +23,12 @@ class WedgesPicture:
     """The facets of a sweep.
 
     Attributes:
-        quads: (m, 4, 3) corners, one after the other round each facet, mm.
-        kind: (m,) uint8, 0 = of a cylinder, 1 = of a wedge.
+        quads: (m, 4, 3) float32 corners, one after the other round each facet, mm.
+        kind: (m,) uint8, 0 = of a cylinder, 1 = of a wedge, or of a half sphere at an end.
         facet: size asked for, mm.
     """
 
-    quads: Floats
+    quads: NDArray[np.float32]
     kind: NDArray[np.uint8]
     facet: float
 
@@ -42,18 +42,19 @@ def wedges_picture(tips: Floats, tool: Tool, facet: float = 0.0) -> WedgesPictur
     """Return the facets of the sweep of a ball.
 
     Args:
-        tips: (n + 1, 3) places of the tip, mm; straight moves between them.
+        tips: (n + 1, 3) places of the tip, mm; straight moves between them; one place is a ball that stands.
         tool: a ball cutter.
         facet: size of a facet, mm; 0 = one that can be seen.
 
     Raises:
         ParameterError: the tool is no ball.
     """
-    from app.dexel.wedges import sweep_facets
+    from app.dexel.wedges import FacetKind, Tessellation, sweep_facets
 
     if not has_wedges(tool):
         raise ParameterError(f"T{tool.number} is a {tool.kind.value} tool; cylinders and wedges are the sweep of a ball. "
                              "Choose a move of a ball cutter.")
     facet = facet or tool.radius / FINENESS
-    found = sweep_facets(np.asarray(tips) + (0.0, 0.0, tool.radius), tool.radius, facet)
-    return WedgesPicture(found.quads, found.kind.astype(np.uint8), facet)
+    places = np.asarray(tips, float) + (0.0, 0.0, tool.radius)
+    found = sweep_facets(places if len(places) > 1 else np.repeat(places, 2, axis=0), tool.radius, Tessellation(facet))
+    return WedgesPicture(found.quads, (found.kind != FacetKind.CYLINDER).astype(np.uint8), facet)

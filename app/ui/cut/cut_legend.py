@@ -178,7 +178,8 @@ class CutLegend(QFrame):
 
     def tell_facet(self, facet: float) -> None:
         """Tell how large these facets are, mm."""
-        self.wedges.label.setText(f"{Sample.WEDGES.value}, facets d = {facet:.2g} mm")
+        self.wedges.label.setText(f"{Sample.WEDGES.value}  d = {facet:.2g} mm")
+        self.wedges.setToolTip(f"Show or hide what the last moves sweep: cylinders and wedges, in facets of d = {facet:.2g} mm")
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""

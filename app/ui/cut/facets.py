@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _ROW = np.dtype([("a", "3f4"), ("b", "3f4"), ("c", "3f4"), ("d", "3f4"), ("kind", "u4")])
 
-_LIFT_PX = 2.0
+_LIFT_PX = 3.0
 """They lie in the metal's own surface: they are painted this much nearer to the eye."""
 
 _HIDDEN = 0.10

@@ -8,6 +8,7 @@ from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QApplication, QMainWindow, QStackedWidget, QWidget
 
+from app.model.tool import Tool, ToolKind
 from app.ui.cut.cut_view import CutView
 from app.ui.cut.surface import GlSurface
 from app.ui.cut.zooming import Zooming
@@ -59,6 +60,26 @@ def look_closer(window, view):
     zooming.worker.finish()
 
 
+def settled(window, view):
+    """What the screen shows once the fine picture has reached it."""
+    wait(lambda: view.painting.fine)
+    until = time.monotonic() + 0.5
+    wait(lambda: time.monotonic() > until)
+    return pixels(window)
+
+
+def play(window, view):
+    """Put a tool into the cut, let it move and take it out again."""
+    tool = Tool(1, 6.0, ToolKind.BALL, flute_length=12.0, stick_out=30.0)
+    bare = settled(window, view)
+    for k in range(20):
+        view.playing.show_tool(tool, (25.0 + k, 50.0, -8.0))
+        wait(lambda: not view.painting.due)
+    wait(lambda: view.painting.fine and (np.abs(pixels(window) - bare).max(axis=2) > 12).sum() > 500)
+    view.playing.show_tool(None, None)
+    wait(lambda: view.painting.fine and np.array_equal(pixels(window), bare))
+
+
 def main():
     """Show, resize, change the theme, leave the view and come back; print OK."""
     application = QApplication(sys.argv[:1])
@@ -76,6 +97,7 @@ def main():
     assert isinstance(view.surface, GlSurface), type(view.surface)
     assert len(window.findChildren(QOpenGLWidget)) == 1, "more than one surface"
     wait(lambda: 0.3 < metal_share(window, view) < 0.7)
+    play(window, view)
     window.resize(1100, 700)
     view.set_theme(DARK)
     wait(lambda: view.painting.fine and 0.3 < metal_share(window, view) < 0.7)

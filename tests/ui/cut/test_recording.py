@@ -1,0 +1,152 @@
+"""What is played is recorded: painted apart from the window, written whole or not at all."""
+
+import threading
+from itertools import pairwise
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from app.errors import Cancelled, InputError
+from app.model.tool import Tool
+from app.progress import Progress
+from app.ui.cut.camera import Camera
+from app.ui.cut.colouring import CutColour, colouring
+from app.ui.cut.frame import Frame
+from app.ui.cut.patch import patch_of
+from app.ui.cut.recording import Reel, Shot, Whole, record, rendered, write_gif, write_pictures
+from app.ui.cut.scene import CutScene
+from app.ui.cut.tool_outline import DrawnTool, outline_of
+from tests.ui.cut.pictures import INKS, LOOK, flat_picture, without_a_screen
+
+SIZE = (120, 90)
+COUNT = 5
+
+
+def frame():
+    picture = flat_picture(np.zeros((64, 64)))
+    return Frame(Camera().fitted(picture.low, picture.high, SIZE), SIZE, LOOK)
+
+
+def shots():
+    """A tool that cuts a groove, a piece a picture, and a look from elsewhere at the end."""
+    heights, values = np.zeros((64, 64), np.float32), np.full((64, 64), 255, np.uint8)
+    picture = flat_picture(heights.copy())
+    tool = DrawnTool(outline_of(Tool(1, 2.0, stick_out=4.0)))
+    for k in range(COUNT):
+        place = (slice(28, 36), slice(10 * k, 10 * k + 10))
+        heights[place], values[place] = -3.0, 0
+        whole = Whole(picture, colouring(picture, CutColour.METAL, INKS)) if k == 0 else None
+        camera = Camera(target=(5.0, 5.0, 0.0), pitch=1.5, scale=8.0) if k == COUNT - 1 else None
+        yield Shot(whole, (patch_of(heights, values, picture.pitch, place),), tool, (10 * (k + 1) * 10 / 64, 5.0, -3.0), camera=camera)
+
+
+def directly():
+    """The same pictures by a scene that is shown everything anew each time."""
+    with without_a_screen() as context:
+        made = []
+        for shot in shots():
+            patch, scene = shot.patches[0], CutScene(context)
+            heights = made[-1][0].copy() if made else np.zeros((64, 64), np.float32)
+            heights[patch.rows, patch.columns] = patch.heights
+            picture = flat_picture(heights)
+            scene.show_picture(picture)
+            scene.show_colours(colouring(picture, CutColour.METAL, INKS))
+            scene.show_tool(shot.tool)
+            scene.place_tool(shot.tip)
+            scene.draw(Frame(shot.camera or frame().camera, SIZE, LOOK))
+            made.append((heights, scene.pixels().copy()))
+            scene.release()
+    return [pixels for _, pixels in made]
+
+
+@pytest.fixture(scope="module")
+def expected():
+    return directly()
+
+
+def test_pictures_are_those_that_a_scene_paints_shown_everything_anew(expected):
+    got = list(rendered(shots(), frame()))
+    assert len(got) == COUNT
+    assert all(np.array_equal(one, other) for one, other in zip(got, expected, strict=True))
+    assert all(np.any(one != other) for one, other in pairwise(got))
+
+
+def test_it_paints_on_another_thread_and_leaves_no_context_current_there_or_here(expected):
+    with without_a_screen() as mine:
+        scene, found = CutScene(mine), []
+
+        def work():
+            found.extend(rendered(shots(), frame()))
+
+        thread = threading.Thread(target=work)
+        thread.start()
+        thread.join()
+        scene.show_picture(flat_picture(np.zeros((8, 8))))
+        scene.draw(frame())
+        assert scene.pixels().shape == (90, 120, 3)
+        scene.release()
+    assert all(np.array_equal(one, other) for one, other in zip(found, expected, strict=True))
+
+
+def test_single_pictures_are_numbered_files(tmp_path: Path, expected):
+    told = []
+    record(shots(), frame(), tmp_path / "play", Reel(COUNT), Progress(lambda share, text: told.append((share, text))))
+    files = sorted((tmp_path / "play").iterdir())
+    assert [file.name for file in files] == [f"frame_{k:04d}.png" for k in range(1, COUNT + 1)]
+    for file, pixels in zip(files, expected, strict=True):
+        assert np.array_equal(cv2.imread(str(file))[..., ::-1], pixels)
+    assert [path.name for path in tmp_path.iterdir()] == ["play"]
+    assert told[0] == (0.0, "Recording picture 1 of 5") and told[-1][0] == 1.0
+    assert [share for share, _ in told] == sorted(share for share, _ in told)
+
+
+def test_a_name_that_ends_in_gif_is_a_moving_picture(tmp_path: Path, expected):
+    record(shots(), frame(), tmp_path / "play.GIF", Reel(COUNT, 20.0))
+    done, found = cv2.imreadanimation(str(tmp_path / "play.GIF"))
+    assert done and list(found.durations) == [50] * COUNT and len(found.frames) == COUNT
+    for got, pixels in zip(found.frames, expected, strict=True):
+        assert np.abs(got[..., 2::-1].astype(int) - pixels).mean() < 1.5
+
+
+def test_a_folder_with_something_in_it_is_refused_and_an_empty_one_taken(tmp_path: Path):
+    folder = tmp_path / "play"
+    folder.mkdir()
+    write_pictures(iter([np.zeros((4, 4, 3), np.uint8)]), folder, Reel(1))
+    with pytest.raises(InputError, match="play is not empty; name a new folder"):
+        write_pictures(iter([np.zeros((4, 4, 3), np.uint8)]), folder, Reel(1))
+    assert len(list(folder.iterdir())) == 1
+    (tmp_path / "file").write_text("x")
+    with pytest.raises(InputError, match="file is not empty"):
+        write_pictures(iter([]), tmp_path / "file", Reel(1))
+    with pytest.raises(InputError, match=r"Cannot write .*nowhere"):
+        write_pictures(iter([]), tmp_path / "nowhere" / "play", Reel(1))
+
+
+@pytest.mark.parametrize("name", ["play", "play.gif"])
+@pytest.mark.parametrize("fault", [Cancelled, RuntimeError])
+def test_what_ends_before_its_end_leaves_nothing_behind(tmp_path: Path, name, fault):
+    released = []
+
+    def frames():
+        try:
+            yield np.zeros((4, 4, 3), np.uint8)
+            if fault is Cancelled:
+                stop.set()
+                yield np.zeros((4, 4, 3), np.uint8)
+                yield np.zeros((4, 4, 3), np.uint8)
+            raise RuntimeError
+        finally:
+            released.append(True)
+
+    stop = threading.Event()
+    write = write_gif if name.endswith("gif") else write_pictures
+    with pytest.raises(fault):
+        write(frames(), tmp_path / name, Reel(9), Progress(cancelled=stop))
+    assert not list(tmp_path.iterdir()) and released == [True]
+
+
+def test_a_gif_that_would_be_too_fast_is_refused(tmp_path: Path):
+    with pytest.raises(InputError, match="cannot show 60 pictures a second; use more than 0 and not more than 50"):
+        write_gif(iter([]), tmp_path / "play.gif", Reel(1, 60.0))
