@@ -18,7 +18,7 @@ from app.ui.panels.section import heading
 from app.ui.theme import LIGHT, Theme
 
 LENGTH = Spec("Length", "s", 0.1, 600.0, 1, False, "How long the recording runs; all of the cut is in it.")
-RATE = Spec("Pictures a second", "", 1.0, MOST_PER_SECOND, 0, False, "More run smoother and make a larger file.")
+RATE = Spec("Pictures", "a second", 1.0, MOST_PER_SECOND, 0, False, "More run smoother and make a larger file.")
 WIDTH = Spec("Width", "px", 64.0, 4096.0, 0, False, "Of the pictures; their height follows from the view.")
 
 _SHEET_PX = 300
