@@ -30,6 +30,8 @@ FIXED = (
     ("Zoom at the mouse", "wheel"), ("Pan", "middle button, Space + drag"), ("Leave a tool, clear the selection", "Esc"),
     ("Repeat the last tool, end a chain", "Enter"), ("Straight up or across while drawing", "Shift"),
     ("Turn the cut; from above, front, right, isometric", "drag; 1, 2, 3, 4"), ("Profile along a line over the cut", "Ctrl + drag"),
+    ("Cut: play, play backward", "Space; Shift + Space"), ("Cut: NC line before, next; move before, next", ", . ; Shift + , ."),
+    ("Cut: tool before, next; next finding, the one before", "[ ]; N, Shift + N"), ("Cut: start, end", "Home, End"),
     ("Stages: play, step, first and last", "Space; Left, Right; Home, End"), ("Stages: another region or phase", "Page up, Page down"),
     ("Cut an operation earlier, later", "Alt+Up, Alt+Down"), ("Place by number", "x,y   @dx,dy   @length<angle"),
 )

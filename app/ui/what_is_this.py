@@ -15,6 +15,7 @@ from app.ui.curves.curves_panel import CurvesPanel
 from app.ui.curves.curves_view import CurvesView
 from app.ui.cut.cut_panel import CutPanel
 from app.ui.cut.cut_view import CutView
+from app.ui.cut.transport import Transport
 from app.ui.help_window import HelpWindow
 from app.ui.language.page import TextPage
 from app.ui.main_window import MainWindow
@@ -58,6 +59,8 @@ PLACES: dict[type[QWidget], tuple[str, str]] = {
     CutPanel: ("What was cut, with which tools, and what was found.", ""),
     CurvesView: (
         "The program's moves, and the proven curves in their stead. Below: how far they are apart; click there to see the place.", ""),
+    Transport: (
+        "The cut along time: play it forward and backward, step to lines, tools and findings, or click the plot to go there.", ""),
     CurvesPanel: ("How near curves must keep to the moves, and the certificate of what was written.", ""),
     SurfacesView: (
         "A scene's surfaces and the paths over them, each surface in its own colour; Section shows one cutting plane.", "scene"),
