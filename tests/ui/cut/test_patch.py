@@ -138,10 +138,11 @@ def test_the_picture_follows_in_place():
     assert np.array_equal(picture.values[colour], new) and CutColour.METAL not in picture.values
 
 
-def test_a_patch_keeps_what_the_heights_were():
-    heights = wavy()
-    patch = patch_of(heights, np.zeros(heights.shape, np.uint8), 0.1, CHANGED)
+def test_a_patch_keeps_what_the_cells_were():
+    heights, values = wavy(), np.zeros((240, 280), np.uint8)
+    patch = patch_of(heights, values, 0.1, CHANGED)
     kept = patch.heights.copy()
     heights -= 1.0
-    assert np.array_equal(patch.heights, kept)
+    values += 1
+    assert np.array_equal(patch.heights, kept) and not patch.values.any()
     assert (patch.rows, patch.columns) == (slice(90 - REACH, 150 + REACH), slice(0, 200 + REACH))

@@ -9,6 +9,7 @@ from app.model.tool import Tool, ToolKind
 from app.ui.cut.colouring import CutColour
 from app.ui.cut.cut_view import CutView
 from app.ui.cut.patch import patch_of
+from app.ui.cut.scene import CutScene
 from app.ui.theme import DARK, LIGHT
 from app.workflow.wedges_picture import wedges_picture
 from tests.ui.cut.made_up import made_up
@@ -61,6 +62,7 @@ def test_a_tool_that_moves_sixty_times_a_second_is_painted_coarsely_and_finely_o
     stirred, rested, painted = [], [], []
     view.painting.stirred.connect(lambda: stirred.append(True))
     view.painting.rested.connect(lambda: rested.append(True))
+    view.painting._rest.setInterval(60_000)  # however busy the machine is, it does not rest before it is told to
     paint = view.painting.paint
     view.surface._paint = lambda scene: (painted.append(view.painting.due), paint(scene))
     for k in range(40):
@@ -70,6 +72,7 @@ def test_a_tool_that_moves_sixty_times_a_second_is_painted_coarsely_and_finely_o
         assert not view.painting.fine
     assert 5 < sum(painted) <= 41, "one coarse picture a turn of the event loop, not one a call"
     assert not stirred and not rested, "the view was not moved: no finer look is given up or begun"
+    view.painting._rest.start(0)
     qtbot.waitUntil(lambda: view.painting.fine, timeout=20_000)
     assert len(rested) == 1
     count = len(painted)
@@ -130,3 +133,21 @@ def test_wedges_have_a_row_for_a_ball_and_are_off_at_first(qtbot, view):
     assert np.array_equal(rest(qtbot, view)[:, :600], without[:, :600])
     view.playing.show_tool(replace(BALL, kind=ToolKind.FLAT), TIP)
     assert not row.isVisible()
+
+
+def test_a_new_scene_shows_all_of_it_again(qtbot, view):
+    heights, colours = view.picture.heights.copy(), view.picture.values[CutColour.METAL].copy()
+    place = (slice(10, 30), slice(120, 190))
+    heights[place], colours[place] = -6.0, 0
+    tips = np.array([[20.0, 30.0, -6.0], [30.0, 32.0, -7.0], TIP])
+    view.playing.show_tool(BALL, TIP)
+    view.playing.show_wedges(wedges_picture(tips, BALL))
+    view.legend.wedges.click()
+    view.playing.patch(patch_of(heights, colours, view.picture.pitch, place))
+    before = rest(qtbot, view)
+    surface = view.surface
+    with surface._context:
+        surface._scene.release()
+        surface._scene = CutScene(surface._context)
+    view.painting.renew()
+    assert np.array_equal(rest(qtbot, view), before)

@@ -1,6 +1,7 @@
 """The tool in the picture, against the projection of its outline."""
 
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -97,6 +98,14 @@ def test_the_metal_under_it_can_be_judged_and_cutting_part_shank_and_holder_are_
     cutting, shank, holder = (image[round(y), round(x) - 3] for x, y, _ in places)
     assert cutting[1] > 1.5 * cutting[0], "the first tool's colour is green"
     assert np.ptp(shank[:2]) < 25 and shank.sum() > holder.sum() + 60
+
+
+def test_what_another_part_hides_does_not_shine_through(context):
+    picture, tool = flat_picture(np.full((32, 32), -5.0)), TOOLS[0]
+    camera = seen(picture, StandardView.TOP)
+    above, = painted(context, picture, camera, tool, [(5.0, 5.0, -5.0)])
+    other, = painted(context, picture, camera, replace(tool, diameter=1.0, shank_diameter=2.0, flute_length=1.0), [(5.0, 5.0, -5.0)])
+    assert np.array_equal(above, other)
 
 
 def test_another_place_needs_no_more_than_a_place(context):
