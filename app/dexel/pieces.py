@@ -70,22 +70,23 @@ class Window:
 class Splitter:
     """The pieces of motions, any part of them at a time."""
 
-    def __init__(self, motions: Motions, arcs_stay: bool = True, window: Window | None = None) -> None:
+    def __init__(self, motions: Motions, arcs_stay: bool = True, window: Window | None = None, chord: float = CHORD) -> None:
         """Prepare to split.
 
         Args:
             motions: n motions.
             arcs_stay: False: level arcs become chords too.
             window: of curves off it that fall into chords only the first and the last chord are made: neighbours need no more.
+            chord: how far chords may keep from their curves, mm.
         """
         self._motions = motions
         self._arcs = arc_paths(motions)
         self._level = _is_level(motions, self._arcs) & arcs_stay
         self._arc = np.full(len(motions), -1)
         self._arc[self._arcs.rows] = np.arange(len(self._arcs))
-        self._splines = dict(zip(motions.splines, flattened_all(list(motions.splines.values()), CHORD), strict=True))
+        self._splines = dict(zip(motions.splines, flattened_all(list(motions.splines.values()), chord), strict=True))
         self._whole = np.ones(len(motions), np.int64)
-        self._whole[self._arcs.rows] = _arc_counts(self._arcs, self._level)
+        self._whole[self._arcs.rows] = np.where(self._level, _level_counts(self._arcs), _chord_counts(self._arcs, chord))
         for row, points in self._splines.items():
             self._whole[row] = len(points) - 1
         self.counts = self._whole.copy()
@@ -151,15 +152,11 @@ def _level_counts(arcs: ArcPaths) -> NDArray[np.int64]:
     ).clip(1), dtype=np.int64)  # fmt: skip
 
 
-def _chord_counts(arcs: ArcPaths) -> NDArray[np.int64]:
+def _chord_counts(arcs: ArcPaths, chord: float = CHORD) -> NDArray[np.int64]:
     """Return in how many chords each falls."""
     turn, grow = np.abs(arcs.sweep), np.abs(arcs.end_radius - arcs.start_radius)
     bend = np.maximum(arcs.start_radius, arcs.end_radius) * turn**2 + 2 * grow * turn
-    return np.asarray(np.ceil(np.sqrt(bend / (8 * CHORD))).clip(1), dtype=np.int64)
-
-
-def _arc_counts(arcs: ArcPaths, level: NDArray[np.bool_]) -> NDArray[np.int64]:
-    return np.where(level, _level_counts(arcs), _chord_counts(arcs))
+    return np.asarray(np.ceil(np.sqrt(bend / (8 * chord))).clip(1), dtype=np.int64)
 
 
 def _places(arcs: ArcPaths, k: NDArray[np.int64], fractions: Floats) -> Floats:
