@@ -1,0 +1,222 @@
+"""How deep what of a tool does not cut goes into metal: its bodies are led along its motions as rapids that are only asked.
+
+A body follows the cutter, so it meets a motion's metal before or after the cutter has cut there:
+
+- A rapid, or a motion that nowhere descends, is asked before it cuts. Flutes reach no metal above themselves, so what stands in the
+  way of a body then is what it meets, exactly.
+- A motion straight down is asked after it: what it cuts away, it cuts before the body gets there; what is beside, stays.
+- Of any other that descends both are asked. What is met after it was met; before it metal may be met that the motion cuts away
+  first. Where the two differ by more than `STEP` the motion is cut and asked in pieces that descend no more than that, each asked
+  higher by what it descends: so nothing is told that is not met, and a contact at most `STEP` too little deep.
+
+Curves are asked by chords within `CHORD` of them, and bodies are taken slimmer, and contacts told deeper, than `TOUCH`. A contact
+that is deeper than TOUCH + STEP upwards, and wider than TOUCH + CHORD sideways at a cell's centre, is always told.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.dexel.cutter import Cutter
+from app.dexel.holder import Body
+from app.dexel.pieces import Splitter
+from app.dexel.trim import Course, Rapids, TrimOptions, trim
+from app.dexel.workpiece import Workpiece
+from app.model.motion import Floats, MotionKind
+from app.progress import NO_PROGRESS, Progress
+from app.workflow.course import inserted, picked, straight
+
+CHORD = 0.004
+"""mm that chords may keep from a curve; less than TOUCH, so that a wall which a curve has cut does not count as met."""
+
+TOUCH = 0.01
+"""mm; what goes no deeper into metal, upwards or sideways, is no contact."""
+
+STEP = 0.01
+"""mm that a piece may descend which is asked alone."""
+
+MOST_STEPS = 4000
+"""Pieces of one motion, at most; one that descends more than these steps is asked in higher ones."""
+
+Rows = NDArray[np.intp]
+
+
+@dataclass(frozen=True, slots=True)
+class Touch:
+    """A body in metal.
+
+    Attributes:
+        row: of the motion. body: which of its tool's bodies. x, y: where it is deepest, mm. z: of the body there, mm; the metal stands
+            `depth` higher.
+    """
+
+    row: int
+    body: int
+    x: float
+    y: float
+    z: float
+    depth: float
+
+
+@dataclass(frozen=True, eq=False)
+class Chords:
+    """Straight ways, (n,) in the order of motions: start and end (n, 3) mm, and the row of the motion that each is of."""
+
+    start: Floats
+    end: Floats
+    row: Rows
+
+    def __len__(self) -> int:
+        return len(self.row)
+
+    def of(self, mask: NDArray[np.bool_]) -> Chords:
+        """Return some of them."""
+        return Chords(self.start[mask], self.end[mask], self.row[mask])
+
+
+def chords_of(course: Course, rows: Rows) -> Chords:
+    """Return the ways of some motions; `rows` rise."""
+    splitter = Splitter(picked(course, rows).motions, arcs_stay=False, chord=CHORD)
+    pieces = splitter.pieces(0, len(rows))
+    return Chords(pieces.start, pieces.end, rows[pieces.motion])
+
+
+@dataclass(frozen=True, eq=False)
+class Asking:
+    """What is asked: a program, the metal before it, the cutters and the bodies by T number."""
+
+    workpiece: Workpiece
+    course: Course
+    cutters: Mapping[int, Cutter]
+    bodies: Mapping[int, Sequence[Body]]
+
+    def touches(self, chords: Chords, progress: Progress = NO_PROGRESS) -> list[Touch]:
+        """Return where bodies are deepest in metal, for each motion and body that meets some, in the order of motions.
+
+        Args:
+            chords: of the motions that are asked (`chords_of`).
+
+        Raises:
+            Cancelled: the job was asked to stop.
+        """
+        if not len(chords):
+            return []
+        upright, slanted = self._sorts(chords)
+        asked = _joined(chords.of(~upright), chords.of(upright | slanted))
+        late = np.repeat([False, True], [int(np.sum(~upright)), int(np.sum(upright | slanted))])
+        early, after = self._asked(asked, late, progress.part(0.0, 0.7))
+        both = set(chords.row[slanted].tolist())
+        doubtful = {key for key, touch in early.items() if key[0] in both and (key not in after or touch.depth - after[key].depth > STEP)}
+        found = {key: touch for key, touch in {**early, **after}.items() if key not in doubtful}
+        closer = self._stepwise(chords.of(np.isin(chords.row, [row for row, _ in doubtful])), progress.part(0.7, 1.0))
+        for key in doubtful & (closer.keys() | after.keys()):
+            found[key] = max((each[key] for each in (closer, after) if key in each), key=lambda touch: touch.depth)
+        return [found[key] for key in sorted(found)]
+
+    def _sorts(self, chords: Chords) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Return which chords are of motions at feed rate straight down, and of other ones that descend."""
+        way = chords.end - chords.start
+        cuts = self.course.motions.kind[chords.row] != MotionKind.RAPID
+        upright = cuts & (self.course.motions.kind[chords.row] == MotionKind.LINE) & np.all(way[:, :2] == 0, axis=1) & (way[:, 2] < 0)
+        descends = np.isin(chords.row, chords.row[cuts & (way[:, 2] < 0)])
+        return upright, descends & ~upright
+
+    def _asked(self, chords: Chords, late: NDArray[np.bool_], progress: Progress) -> tuple[dict[tuple[int, int], Touch], ...]:
+        """Return what chords meet that are asked before their motion, and those that are asked after it: the deepest by row and body."""
+        body, chord = self._by_body(chords)
+        tools = self._first() + self._offset(chords.row[chord]) + body
+        at = chords.row[chord] + late[chord]
+        order = np.lexsort((~late[chord], at))  # after one motion comes before the next
+        chord, body, tools, at = chord[order], body[order], tools[order], at[order]
+        hits = self._trimmed(at, Chords(chords.start[chord], chords.end[chord], chords.row[chord]), tools, np.zeros(0, np.intp), progress)
+        found: tuple[dict[tuple[int, int], Touch], ...] = ({}, {})
+        for k, touch in hits:
+            _keep(found[int(late[chord[k]])], replace(touch, body=int(body[k])))
+        return found
+
+    def _stepwise(self, chords: Chords, progress: Progress) -> dict[tuple[int, int], Touch]:
+        """Return what motions meet that are cut and asked by turns."""
+        if not len(chords):
+            return {}
+        descent = np.maximum(chords.start[:, 2] - chords.end[:, 2], 0.0)
+        count = np.clip(np.ceil(descent / STEP), 1, MOST_STEPS).astype(int)
+        chord, step = np.repeat(np.arange(len(count)), count), np.concatenate([np.arange(n) for n in count])
+        ways = [chords.start[chord] + (chords.end - chords.start)[chord] * ((step + k) / count[chord])[:, None] for k in (0, 1)]
+        level = np.column_stack([ways[1][:, :2], np.maximum(ways[0], ways[1])[:, 2]])
+        asked = Chords(ways[0], level, chords.row[chord])
+        body, piece = self._by_body(asked)
+        tools = np.concatenate([self._first() + self._offset(asked.row[piece]) + body, self.course.tool[asked.row]])
+        order = np.lexsort((np.repeat([0, 1], [len(piece), len(asked)]), np.concatenate([piece, np.arange(len(asked))])))
+        start, end = (np.concatenate([one[piece], way]) for one, way in zip((asked.start, asked.end), ways, strict=True))
+        row = np.concatenate([asked.row[piece], asked.row])
+        cuts = np.flatnonzero(order >= len(piece))
+        found: dict[tuple[int, int], Touch] = {}
+        for k, touch in self._trimmed(row[order], Chords(start[order], end[order], row[order]), tools[order], cuts, progress):
+            _keep(found, replace(touch, body=int(body[order[k]])))
+        return found
+
+    def _trimmed(self, at: Rows, chords: Chords, tools: NDArray[np.intp], cuts: Rows, progress: Progress) -> list[tuple[int, Touch]]:
+        """Return which chords meet metal, as k and touch; `cuts` are those that cut, the others are asked."""
+        more = straight(chords.start, chords.end)
+        kind = more.kind.copy()
+        kind[cuts] = MotionKind.LINE
+        last = int(at.max())
+        course = picked(self.course, np.arange(last))
+        rapids = np.flatnonzero(course.motions.kind == MotionKind.RAPID)
+        course = replace(course, left_out=tuple(sorted({*course.left_out, *rapids.tolist()})))
+        made, owner = inserted(course, at, replace(more, kind=kind), tools.astype(np.int32))
+        shapes = [each.shape for bodies in self.bodies.values() for each in bodies]
+        cutters = {**self.cutters, **dict(enumerate(shapes, self._first()))}
+        hits = trim(self.workpiece, made, cutters, TrimOptions(Rapids.ASKED, TOUCH), progress).rapids
+        return [(k := int(owner[hit.motion]), Touch(int(chords.row[k]), 0, hit.x, hit.y, hit.z, hit.depth)) for hit in hits]
+
+    def _by_body(self, chords: Chords) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Return every body of every chord: which body, and which chord."""
+        counts = np.zeros(int(self.course.tool.max(initial=0)) + 1, np.intp)
+        for number, bodies in self.bodies.items():
+            if number < len(counts):
+                counts[number] = len(bodies)
+        each = counts[self.course.tool[chords.row]]
+        chord = np.repeat(np.arange(len(chords)), each)
+        return np.arange(len(chord)) - np.repeat(np.cumsum(each) - each, each), chord
+
+    def _first(self) -> int:
+        """Return the first T number that stands for a body."""
+        return int(max([*self.cutters, self.course.tool.max(initial=0)])) + 1
+
+    def _offset(self, rows: Rows) -> NDArray[np.intp]:
+        """Return the number, among all bodies, of the first one of each motion's tool."""
+        first = np.zeros(self._first(), np.intp)
+        done = 0
+        for number, bodies in self.bodies.items():
+            first[number] = done
+            done += len(bodies)
+        return first[self.course.tool[rows]]
+
+
+def cells_asked(chords: Chords, bodies: Mapping[int, Sequence[Body]], course: Course, workpiece: Workpiece) -> Floats:
+    """Return (n,) about how many cells are looked at for each chord."""
+    grid, tool = workpiece.grid, course.tool[chords.row]
+    long = np.hypot(*(chords.end - chords.start)[:, :2].T)
+    cells = np.zeros(len(chords))
+    for number, each in bodies.items():
+        radius = np.array([body.shape.radius for body in each])
+        mine = tool == number
+        cells[mine] = math.pi * float(np.sum(radius**2)) + 2 * float(np.sum(radius)) * long[mine]
+    return np.minimum(cells / grid.pitch**2, grid.rows * grid.cols * max(map(len, bodies.values()), default=1))
+
+
+def _joined(first: Chords, then: Chords) -> Chords:
+    return Chords(*(np.concatenate([getattr(first, name), getattr(then, name)]) for name in ("start", "end", "row")))
+
+
+def _keep(found: dict[tuple[int, int], Touch], touch: Touch) -> None:
+    """Keep the deepest touch of a motion and body."""
+    key = (touch.row, touch.body)
+    if key not in found or touch.depth > found[key].depth:
+        found[key] = touch
