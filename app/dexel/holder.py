@@ -53,10 +53,11 @@ def holder_of(tool: Tool) -> tuple[Body, ...]:
     made: list[Cutter] = []
     widest = 0.0
     for (height, radius), (above, wider) in pairwise(tool.holder):
-        if radius > widest:
+        widens = wider > max(widest, radius)
+        if radius > widest and not (widens and above > height):
             made.append(Cutter(radius, radius, lift=height))
             widest = radius
-        if wider > max(widest, radius):
+        if widens:
             made.append(Cutter(wider, radius, slope=(above - height) / (wider - radius), lift=height) if above > height
                         else Cutter(wider, wider, lift=height))  # fmt: skip
             widest = wider

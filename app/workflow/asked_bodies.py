@@ -6,11 +6,11 @@ A body follows the cutter, so it meets a motion's metal before or after the cutt
   way of a body then is what it meets, exactly.
 - A motion straight down is asked after it: what it cuts away, it cuts before the body gets there; what is beside, stays.
 - Of any other that descends both are asked. What is met after it was met; before it metal may be met that the motion cuts away
-  first. Where the two differ by more than `STEP` the motion is cut and asked in pieces that descend no more than that, each asked
-  higher by what it descends: so nothing is told that is not met, and a contact at most `STEP` too little deep.
+  first. Where the two differ by more than `STEP` the motion is cut and asked in pieces that descend no more than that.
 
-Curves are asked by chords within `CHORD` of them, and bodies are taken slimmer, and contacts told deeper, than `TOUCH`. A contact
-that is deeper than TOUCH + STEP upwards, and wider than TOUCH + CHORD sideways at a cell's centre, is always told.
+So a contact is told at most STEP too deep, never too little, and what is no contact is not told, as STEP is no more than `TOUCH`.
+Curves are asked by chords within `CHORD` of them, and bodies are taken slimmer by TOUCH: what is met at a cell's centre by more than
+TOUCH upwards and TOUCH + CHORD sideways is always told.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ STEP = 0.01
 """mm that a piece may descend which is asked alone."""
 
 MOST_STEPS = 4000
-"""Pieces of one motion, at most; one that descends more than these steps is asked in higher ones."""
+"""Pieces of one chord, at most; one that descends more than these steps is asked in higher ones."""
 
 Rows = NDArray[np.intp]
 
@@ -112,7 +112,7 @@ class Asking:
         early, after = self._asked(asked, late, progress.part(0.0, 0.7))
         both = set(chords.row[slanted].tolist())
         doubtful = {key for key, touch in early.items() if key[0] in both and (key not in after or touch.depth - after[key].depth > STEP)}
-        found = {key: touch for key, touch in {**early, **after}.items() if key not in doubtful}
+        found = {key: touch for key, touch in {**after, **early}.items() if key not in doubtful}
         closer = self._stepwise(chords.of(np.isin(chords.row, [row for row, _ in doubtful])), progress.part(0.7, 1.0))
         for key in doubtful & (closer.keys() | after.keys()):
             found[key] = max((each[key] for each in (closer, after) if key in each), key=lambda touch: touch.depth)
@@ -147,12 +147,11 @@ class Asking:
         count = np.clip(np.ceil(descent / STEP), 1, MOST_STEPS).astype(int)
         chord, step = np.repeat(np.arange(len(count)), count), np.concatenate([np.arange(n) for n in count])
         ways = [chords.start[chord] + (chords.end - chords.start)[chord] * ((step + k) / count[chord])[:, None] for k in (0, 1)]
-        level = np.column_stack([ways[1][:, :2], np.maximum(ways[0], ways[1])[:, 2]])
-        asked = Chords(ways[0], level, chords.row[chord])
+        asked = Chords(*ways, chords.row[chord])
         body, piece = self._by_body(asked)
         tools = np.concatenate([self._first() + self._offset(asked.row[piece]) + body, self.course.tool[asked.row]])
         order = np.lexsort((np.repeat([0, 1], [len(piece), len(asked)]), np.concatenate([piece, np.arange(len(asked))])))
-        start, end = (np.concatenate([one[piece], way]) for one, way in zip((asked.start, asked.end), ways, strict=True))
+        start, end = (np.concatenate([way[piece], way]) for way in ways)
         row = np.concatenate([asked.row[piece], asked.row])
         cuts = np.flatnonzero(order >= len(piece))
         found: dict[tuple[int, int], Touch] = {}
