@@ -147,7 +147,7 @@ class Asking:
         count = np.clip(np.ceil(descent / STEP), 1, MOST_STEPS).astype(int)
         chord, step = np.repeat(np.arange(len(count)), count), np.concatenate([np.arange(n) for n in count])
         ways = [chords.start[chord] + (chords.end - chords.start)[chord] * ((step + k) / count[chord])[:, None] for k in (0, 1)]
-        asked = Chords(*ways, chords.row[chord])
+        asked = Chords(ways[0], ways[1], chords.row[chord])
         body, piece = self._by_body(asked)
         tools = np.concatenate([self._first() + self._offset(asked.row[piece]) + body, self.course.tool[asked.row]])
         order = np.lexsort((np.repeat([0, 1], [len(piece), len(asked)]), np.concatenate([piece, np.arange(len(asked))])))

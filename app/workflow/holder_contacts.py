@@ -44,10 +44,10 @@ Key = tuple[int, int]
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """A shank or a holder in metal, through motions that follow one another.
+    """A shank or a holder in metal, through motions that follow one another or are in metal near each other.
 
     Attributes:
-        tool: T number. part: what of it. first: row of the first motion. count: of motions.
+        tool: T number. part: what of it. first: row of the first motion. count: of motions in metal.
         motion: row of the motion that goes deepest. x, y: where, mm. z: of the part there, mm; the metal stands `depth` higher.
     """
 
@@ -75,6 +75,12 @@ class HolderLook:
     contacts: tuple[Contact, ...] = ()
     least: Mapping[int, float] = field(default_factory=dict)
     unseen: int = 0
+
+    def followed(self, then: HolderLook, motions: int) -> HolderLook:
+        """Return this and the look at the next program as one; `motions` came before that."""
+        moved = (replace(each, first=each.first + motions, motion=each.motion + motions) for each in then.contacts)
+        least = {number: max(look.least.get(number, 0.0) for look in (self, then)) for number in {**self.least, **then.least}}
+        return HolderLook((*self.contacts, *moved), least, self.unseen + then.unseen)
 
 
 def holder_contacts(course: Course, before: Workpiece, cutters: Mapping[int, Cutter], tools: Mapping[int, Tool],
@@ -248,20 +254,26 @@ class _Look:
         return sorted((row for row in self._may if over(row) > TOUCH), key=over, reverse=True)
 
     def _contacts(self) -> tuple[Contact, ...]:
-        """Return what was met, motions that follow one another as one."""
+        """Return what was met, each contact with all of its motions."""
         deepest: dict[tuple[int, Part], Touch] = {}
         for touch in self._touched.values():
             part = self._bodies[int(self._course.tool[touch.row])][touch.body].part
             if (touch.row, part) not in deepest or touch.depth > deepest[touch.row, part].depth:
                 deepest[touch.row, part] = touch
         made: dict[Part, list[Contact]] = {part: [] for part in Part}
+        before: dict[Part, Touch] = {}
         for row, part in sorted(deepest, key=lambda key: key[0]):
             touch, number = deepest[row, part], int(self._course.tool[row])
             one = Contact(number, part, row, 1, row, touch.x, touch.y, touch.z, touch.depth)
-            last = made[part][-1] if made[part] else None
-            if last is not None and last.tool == number and row == last.first + last.count:
-                worse = one if one.depth > last.depth else last
-                made[part][-1] = replace(worse, first=last.first, count=last.count + 1)
+            if part in before and made[part][-1].tool == number and self._goes_on(before[part], touch, number):
+                last = made[part][-1]
+                made[part][-1] = replace(one if one.depth > last.depth else last, first=last.first, count=last.count + 1)
             else:
                 made[part].append(one)
+            before[part] = touch
         return tuple(sorted((contact for each in made.values() for contact in each), key=lambda each: (each.first, each.part.value)))
+
+    def _goes_on(self, one: Touch, then: Touch, number: int) -> bool:
+        """Return whether two touches of a part are of one contact: of motions that follow each other, or near each other."""
+        wide = max(body.shape.radius for body in self._bodies[number])
+        return then.row == one.row + 1 or math.hypot(then.x - one.x, then.y - one.y) <= wide

@@ -179,7 +179,7 @@ def _with_ways(course: Course, cutters: Mapping[int, Cutter], ways: Sequence[Way
     all_cutters = {**cutters, **{first + k: Cutter(radius, radius) for k, radius in enumerate(radii)}}
     parts = [way.course().motions for way in ways]
     sizes = [len(part) for part in parts]
-    more = straight(*(np.concatenate([getattr(part, name) for part in parts]) for name in ("start", "end")))
+    more = straight(np.concatenate([part.start for part in parts]), np.concatenate([part.end for part in parts]))
     tool = np.repeat([first + radii.index(way.cutter.radius) for way in ways], sizes).astype(np.int32)
     made, owner = inserted(course, np.repeat([way.row for way in ways], sizes), more, tool)
     way_of = np.append(np.repeat(np.arange(len(ways)), sizes), -1)
