@@ -16,7 +16,7 @@ TOUCH upwards and TOUCH + CHORD sideways is always told.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from app.dexel.cutter import Cutter
 from app.dexel.holder import Body
 from app.dexel.pieces import Splitter
-from app.dexel.trim import Course, Rapids, TrimOptions, trim
+from app.dexel.trim import Course, RapidHit, Rapids, TrimOptions, trim
 from app.dexel.workpiece import Workpiece
 from app.model.motion import Floats, MotionKind
 from app.progress import NO_PROGRESS, Progress
@@ -44,6 +44,12 @@ MOST_STEPS = 4000
 """Pieces of one chord, at most; one that descends more than these steps is asked in higher ones."""
 
 Rows = NDArray[np.intp]
+Mask = NDArray[np.bool_]
+Items = tuple[NDArray[np.intp], NDArray[np.intp]]
+"""Which body, and which chord."""
+
+Key = tuple[int, int]
+"""A motion's row, and which of its tool's bodies."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +92,19 @@ def chords_of(course: Course, rows: Rows) -> Chords:
     return Chords(pieces.start, pieces.end, rows[pieces.motion])
 
 
+@dataclass(frozen=True)
+class Asked:
+    """What was found.
+
+    Attributes:
+        touches: where bodies are deepest in metal, by motion and body.
+        open: touches that may be as deep as this or less, or none, by motion and body: there were too many to ask step by step.
+    """
+
+    touches: dict[Key, Touch]
+    open: dict[Key, Touch]
+
+
 @dataclass(frozen=True, eq=False)
 class Asking:
     """What is asked: a program, the metal before it, the cutters and the bodies by T number."""
@@ -95,28 +114,29 @@ class Asking:
     cutters: Mapping[int, Cutter]
     bodies: Mapping[int, Sequence[Body]]
 
-    def touches(self, chords: Chords, progress: Progress = NO_PROGRESS) -> list[Touch]:
-        """Return where bodies are deepest in metal, for each motion and body that meets some, in the order of motions.
+    def touches(self, chords: Chords, keys: Collection[Key], cells: float = math.inf, progress: Progress = NO_PROGRESS) -> Asked:
+        """Return where bodies are in metal.
 
         Args:
-            chords: of the motions that are asked (`chords_of`).
+            chords: of motions (`chords_of`), of all that are asked at least.
+            keys: the motions and bodies that are asked.
+            cells: that are looked at step by step, at most.
 
         Raises:
             Cancelled: the job was asked to stop.
         """
-        if not len(chords):
-            return []
+        items = self.items(chords, keys)
+        if not len(items[0]):
+            return Asked({}, {})
         upright, slanted = self._sorts(chords)
-        asked = _joined(chords.of(~upright), chords.of(upright | slanted))
-        late = np.repeat([False, True], [int(np.sum(~upright)), int(np.sum(upright | slanted))])
-        early, after = self._asked(asked, late, progress.part(0.0, 0.7))
+        early, after = self._asked(chords, items, (~upright, upright | slanted), progress.part(0.0, 0.7))
         both = set(chords.row[slanted].tolist())
         doubtful = {key for key, touch in early.items() if key[0] in both and (key not in after or touch.depth - after[key].depth > STEP)}
+        closer, asked = self._stepwise(chords, doubtful, cells, progress.part(0.7, 1.0))
         found = {key: touch for key, touch in {**after, **early}.items() if key not in doubtful}
-        closer = self._stepwise(chords.of(np.isin(chords.row, [row for row, _ in doubtful])), progress.part(0.7, 1.0))
         for key in doubtful & (closer.keys() | after.keys()):
             found[key] = max((each[key] for each in (closer, after) if key in each), key=lambda touch: touch.depth)
-        return [found[key] for key in sorted(found)]
+        return Asked(found, {key: early[key] for key in doubtful - asked})
 
     def _sorts(self, chords: Chords) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Return which chords are of motions at feed rate straight down, and of other ones that descend."""
@@ -126,41 +146,45 @@ class Asking:
         descends = np.isin(chords.row, chords.row[cuts & (way[:, 2] < 0)])
         return upright, descends & ~upright
 
-    def _asked(self, chords: Chords, late: NDArray[np.bool_], progress: Progress) -> tuple[dict[tuple[int, int], Touch], ...]:
-        """Return what chords meet that are asked before their motion, and those that are asked after it: the deepest by row and body."""
-        body, chord = self._by_body(chords)
+    def _asked(self, chords: Chords, items: Items, when: tuple[Mask, Mask], progress: Progress) -> tuple[dict[Key, Touch], ...]:
+        """Return what items meet before their motion, and after it: the deepest by row and body; `when`: which chords are asked then."""
+        body, chord = (np.concatenate([each[mask[items[1]]] for mask in when]) for each in items)
+        late = np.repeat([False, True], [int(np.sum(mask[items[1]])) for mask in when])
         tools = self._first() + self._offset(chords.row[chord]) + body
-        at = chords.row[chord] + late[chord]
-        order = np.lexsort((~late[chord], at))  # after one motion comes before the next
-        chord, body, tools, at = chord[order], body[order], tools[order], at[order]
-        hits = self._trimmed(at, Chords(chords.start[chord], chords.end[chord], chords.row[chord]), tools, np.zeros(0, np.intp), progress)
-        found: tuple[dict[tuple[int, int], Touch], ...] = ({}, {})
-        for k, touch in hits:
-            _keep(found[int(late[chord[k]])], replace(touch, body=int(body[k])))
+        at = chords.row[chord] + late
+        order = np.lexsort((~late, at))  # after one motion comes before the next
+        chord, body, tools, at, late = chord[order], body[order], tools[order], at[order], late[order]
+        led = Chords(chords.start[chord], chords.end[chord], chords.row[chord])
+        found: tuple[dict[Key, Touch], ...] = ({}, {})
+        for k, hit in self._trimmed(at, led, tools, np.zeros(0, np.intp), progress):
+            _keep(found[int(late[k])], int(led.row[k]), int(body[k]), hit)
         return found
 
-    def _stepwise(self, chords: Chords, progress: Progress) -> dict[tuple[int, int], Touch]:
-        """Return what motions meet that are cut and asked by turns."""
+    def _stepwise(self, chords: Chords, keys: set[Key], cells: float, progress: Progress) -> tuple[dict[Key, Touch], set[Key]]:
+        """Return what motions meet that are cut and asked by turns, and which of the keys could be afforded."""
+        steps = np.clip(np.ceil((chords.start[:, 2] - chords.end[:, 2]) / STEP), 1, MOST_STEPS)
+        keys = self.affordable(chords, keys, cells, steps)
+        chords = chords.of(np.isin(chords.row, [row for row, _ in keys]))
         if not len(chords):
-            return {}
+            return {}, keys
         descent = np.maximum(chords.start[:, 2] - chords.end[:, 2], 0.0)
         count = np.clip(np.ceil(descent / STEP), 1, MOST_STEPS).astype(int)
         chord, step = np.repeat(np.arange(len(count)), count), np.concatenate([np.arange(n) for n in count])
         ways = [chords.start[chord] + (chords.end - chords.start)[chord] * ((step + k) / count[chord])[:, None] for k in (0, 1)]
         asked = Chords(ways[0], ways[1], chords.row[chord])
-        body, piece = self._by_body(asked)
+        body, piece = self.items(asked, keys)
         tools = np.concatenate([self._first() + self._offset(asked.row[piece]) + body, self.course.tool[asked.row]])
         order = np.lexsort((np.repeat([0, 1], [len(piece), len(asked)]), np.concatenate([piece, np.arange(len(asked))])))
         start, end = (np.concatenate([way[piece], way]) for way in ways)
         row = np.concatenate([asked.row[piece], asked.row])
         cuts = np.flatnonzero(order >= len(piece))
-        found: dict[tuple[int, int], Touch] = {}
-        for k, touch in self._trimmed(row[order], Chords(start[order], end[order], row[order]), tools[order], cuts, progress):
-            _keep(found, replace(touch, body=int(body[order[k]])))
-        return found
+        found: dict[Key, Touch] = {}
+        for k, hit in self._trimmed(row[order], Chords(start[order], end[order], row[order]), tools[order], cuts, progress):
+            _keep(found, int(row[order[k]]), int(body[order[k]]), hit)
+        return found, keys
 
-    def _trimmed(self, at: Rows, chords: Chords, tools: NDArray[np.intp], cuts: Rows, progress: Progress) -> list[tuple[int, Touch]]:
-        """Return which chords meet metal, as k and touch; `cuts` are those that cut, the others are asked."""
+    def _trimmed(self, at: Rows, chords: Chords, tools: NDArray[np.intp], cuts: Rows, progress: Progress) -> list[tuple[int, RapidHit]]:
+        """Return which chords meet metal, and where; `cuts` are those that cut, the others are asked."""
         more = straight(chords.start, chords.end)
         kind = more.kind.copy()
         kind[cuts] = MotionKind.LINE
@@ -172,9 +196,40 @@ class Asking:
         shapes = [each.shape for bodies in self.bodies.values() for each in bodies]
         cutters = {**self.cutters, **dict(enumerate(shapes, self._first()))}
         hits = trim(self.workpiece, made, cutters, TrimOptions(Rapids.ASKED, TOUCH), progress).rapids
-        return [(k := int(owner[hit.motion]), Touch(int(chords.row[k]), 0, hit.x, hit.y, hit.z, hit.depth)) for hit in hits]
+        return list(zip(owner[[hit.motion for hit in hits]].tolist(), hits, strict=True)) if hits else []
 
-    def _by_body(self, chords: Chords) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def affordable(self, chords: Chords, keys: Collection[Key], cells: float, times: Floats | None = None) -> set[Key]:
+        """Return as many of some keys as can be asked, those of narrow bodies first, others evenly spread over the motions.
+
+        Args:
+            cells: that may be looked at. times: (n,) that each chord is asked; None: twice.
+        """
+        body, chord = self.items(chords, keys)
+        tool = self.course.tool[chords.row[chord]]
+        radius = np.array([self.bodies[number][each].shape.radius for number, each in zip(tool.tolist(), body.tolist(), strict=True)])
+        long = np.hypot(*(chords.end - chords.start)[chord, :2].T)
+        grid = self.workpiece.grid
+        cost = np.minimum((math.pi * radius + 2 * long) * radius / grid.pitch**2, grid.rows * grid.cols)
+        cost = cost * (2.0 if times is None else times[chord])
+        done: set[Key] = set()
+        sorts = [np.flatnonzero((tool == number) & (body == each)) for number, bodies in self.bodies.items() for each in range(len(bodies))]
+        for k, mine in enumerate(sorted(sorts, key=lambda mine: float(np.sum(cost[mine])))):
+            needed, share = float(np.sum(cost[mine])), cells / (len(sorts) - k)
+            rows = np.unique(chords.row[chord[mine]])
+            rows = rows[:: max(1, math.ceil(needed / share))] if needed else rows
+            cells -= float(np.sum(cost[mine[np.isin(chords.row[chord[mine]], rows)]]))
+            done |= {(row, int(body[mine[0]])) for row in rows.tolist()}
+        return done
+
+    def items(self, chords: Chords, keys: Collection[Key]) -> Items:
+        """Return which body, and which chord, for the chords of some motions and bodies."""
+        body, chord = self._by_body(chords)
+        most = max(map(len, self.bodies.values()), default=1)
+        wanted = np.array([row * most + each for row, each in keys], np.int64)
+        mine = np.isin(chords.row[chord] * most + body, wanted)
+        return body[mine], chord[mine]
+
+    def _by_body(self, chords: Chords) -> Items:
         """Return every body of every chord: which body, and which chord."""
         counts = np.zeros(int(self.course.tool.max(initial=0)) + 1, np.intp)
         for number, bodies in self.bodies.items():
@@ -198,24 +253,8 @@ class Asking:
         return first[self.course.tool[rows]]
 
 
-def cells_asked(chords: Chords, bodies: Mapping[int, Sequence[Body]], course: Course, workpiece: Workpiece) -> Floats:
-    """Return (n,) about how many cells are looked at for each chord."""
-    grid, tool = workpiece.grid, course.tool[chords.row]
-    long = np.hypot(*(chords.end - chords.start)[:, :2].T)
-    cells = np.zeros(len(chords))
-    for number, each in bodies.items():
-        radius = np.array([body.shape.radius for body in each])
-        mine = tool == number
-        cells[mine] = math.pi * float(np.sum(radius**2)) + 2 * float(np.sum(radius)) * long[mine]
-    return np.minimum(cells / grid.pitch**2, grid.rows * grid.cols * max(map(len, bodies.values()), default=1))
-
-
-def _joined(first: Chords, then: Chords) -> Chords:
-    return Chords(*(np.concatenate([getattr(first, name), getattr(then, name)]) for name in ("start", "end", "row")))
-
-
-def _keep(found: dict[tuple[int, int], Touch], touch: Touch) -> None:
+def _keep(found: dict[Key, Touch], row: int, body: int, hit: RapidHit) -> None:
     """Keep the deepest touch of a motion and body."""
-    key = (touch.row, touch.body)
-    if key not in found or touch.depth > found[key].depth:
-        found[key] = touch
+    old = found.get((row, body))
+    if old is None or hit.depth > old.depth:
+        found[row, body] = Touch(row, body, hit.x, hit.y, hit.z, hit.depth)

@@ -23,13 +23,13 @@ from app.dexel.workpiece import Workpiece
 from app.model.motion_path import reach
 from app.model.tool import Tool
 from app.progress import NO_PROGRESS, Progress
-from app.workflow.asked_bodies import STEP, TOUCH, Asking, Chords, Rows, Touch, cells_asked, chords_of
+from app.workflow.asked_bodies import STEP, TOUCH, Asking, Chords, Key, Rows, Touch, chords_of
 from app.workflow.course import picked
 
 BLOCKS = 32
 """Blocks of time, at most."""
 
-CELLS = 1e9
+CELLS = 3e9
 """Cells that are looked at for what the blocks leave open, at most: some seconds."""
 
 ROUNDS = (16, 64, 256, 1024)
@@ -37,9 +37,6 @@ ROUNDS = (16, 64, 256, 1024)
 
 DIGIT = 10
 """Parts of a mm that a stick-out is rounded up to."""
-
-Key = tuple[int, int]
-"""A motion's row, and which of its tool's bodies."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +66,7 @@ class HolderLook:
     Attributes:
         contacts: in the order of motions.
         least: by T number, of tools whose holder is known, the stick-out from which on it meets no metal, mm, rounded up to 0.1.
-        unseen: motions that could not be looked at.
+        unseen: motions of which it is not known whether a shank or holder meets metal: there are too many to ask each.
     """
 
     contacts: tuple[Contact, ...] = ()
@@ -210,39 +207,37 @@ class _Look:
             self._touched[key] = touch
 
     def _close(self, chords: Chords, progress: Progress) -> int:
-        """Ask the motions that the blocks leave open, and return how many there were too many of."""
-        shape_first = self._first
-        keys = {(row, shape - shape_first[int(self._owner[shape])]) for row, shape in self._open}
-        asked, left = self._affordable(chords, np.unique([row for row, _ in keys]).astype(np.intp), self._bodies)
-        for touch in Asking(self._before, self._course, self._cutters, self._bodies).touches(asked, progress):
-            if (touch.row, touch.body) in keys:
+        """Ask the motions that the blocks leave open, those first that may meet nothing; return how many of these are left."""
+        asking = Asking(self._before, self._course, self._cutters, self._bodies)
+        keys = {(row, shape - self._first[int(self._owner[shape])]) for row, shape in self._open}
+        unsure, left = keys - self._touched.keys(), set[Key]()
+        for k, some in enumerate((unsure, keys - unsure)):
+            part = progress.part(k / 2, (k + 1) / 2)
+            afforded = asking.affordable(chords, some, CELLS / 2)
+            asked = asking.touches(chords.of(np.isin(chords.row, [row for row, _ in afforded])), afforded, CELLS / 2, part)
+            for touch in asked.touches.values():
                 self._keep(touch)
-        return left
-
-    def _affordable(self, chords: Chords, rows: Rows, bodies: Mapping[int, tuple[Body, ...]]) -> tuple[Chords, int]:
-        """Return the chords of as many of some motions, evenly spread, as can be asked, and of how many not."""
-        some = chords.of(np.isin(chords.row, rows))
-        cells = float(np.sum(cells_asked(some, bodies, self._course, self._before)))
-        step = max(1, math.ceil(cells / CELLS))
-        return some.of(np.isin(some.row, rows[::step])), len(rows) - len(rows[::step])
+            left |= (some - afforded) | asked.open.keys()
+        return len({row for row, _ in left - self._touched.keys()})
 
     def _settle_least(self, chords: Chords, progress: Progress) -> None:
         """Ask the motions for which tools may have to stick out farther than is sure, those first that may ask for most."""
         for k, count in enumerate(ROUNDS):
-            rows = self._doubtful()
+            rows = self._doubtful()[:count]
             if not rows:
                 return
             bodies = {number: tuple(body.lifted(least - self._tools[number].stick_out) for body in self._bodies[number]
                                     if body.part is Part.HOLDER) for number, least in self._least.items()}  # fmt: skip
-            asked, _ = self._affordable(chords, np.sort(np.array(rows[:count], np.intp)), bodies)
-            part = progress.part(k / len(ROUNDS), (k + 1) / len(ROUNDS))
-            found = dict.fromkeys(self._least, 0.0)
-            for touch in Asking(self._before, self._course, self._cutters, bodies).touches(asked, part):
+            asking = Asking(self._before, self._course, self._cutters, bodies)
+            some = chords.of(np.isin(chords.row, rows))
+            keys = {(row, each) for row in rows for each in range(len(bodies[int(self._course.tool[row])]))}
+            afforded = asking.affordable(some, keys, CELLS / len(ROUNDS))
+            asked = asking.touches(some, afforded, CELLS / len(ROUNDS), progress.part(k / len(ROUNDS), (k + 1) / len(ROUNDS)))
+            sure = self._least.copy()
+            for touch in (*asked.touches.values(), *asked.open.values()):
                 number = int(self._course.tool[touch.row])
-                found[number] = max(found[number], touch.depth)
-            for number, depth in found.items():
-                self._least[number] += depth
-            for row in np.unique(asked.row).tolist():
+                self._least[number] = max(self._least[number], sure[number] + touch.depth)
+            for row in {row for row, _ in keys} - {row for row, _ in keys - afforded}:
                 del self._may[row]
         for row in self._doubtful():
             number = int(self._course.tool[row])
@@ -255,25 +250,33 @@ class _Look:
 
     def _contacts(self) -> tuple[Contact, ...]:
         """Return what was met, each contact with all of its motions."""
-        deepest: dict[tuple[int, Part], Touch] = {}
-        for touch in self._touched.values():
-            part = self._bodies[int(self._course.tool[touch.row])][touch.body].part
-            if (touch.row, part) not in deepest or touch.depth > deepest[touch.row, part].depth:
-                deepest[touch.row, part] = touch
-        made: dict[Part, list[Contact]] = {part: [] for part in Part}
-        before: dict[Part, Touch] = {}
-        for row, part in sorted(deepest, key=lambda key: key[0]):
-            touch, number = deepest[row, part], int(self._course.tool[row])
-            one = Contact(number, part, row, 1, row, touch.x, touch.y, touch.z, touch.depth)
-            if part in before and made[part][-1].tool == number and self._goes_on(before[part], touch, number):
-                last = made[part][-1]
-                made[part][-1] = replace(one if one.depth > last.depth else last, first=last.first, count=last.count + 1)
-            else:
-                made[part].append(one)
-            before[part] = touch
-        return tuple(sorted((contact for each in made.values() for contact in each), key=lambda each: (each.first, each.part.value)))
+        found: list[Contact] = []
+        for part in Part:
+            runs: list[list[Touch]] = []
+            for touch in self._deepest(part):
+                if runs and self._goes_on(runs[-1][-1], touch):
+                    runs[-1].append(touch)
+                else:
+                    runs.append([touch])
+            for run in runs:
+                worst = max(run, key=lambda touch: touch.depth)
+                number = int(self._course.tool[worst.row])
+                found.append(Contact(number, part, run[0].row, len(run), worst.row, worst.x, worst.y, worst.z, worst.depth))
+        return tuple(sorted(found, key=lambda each: each.first))
 
-    def _goes_on(self, one: Touch, then: Touch, number: int) -> bool:
-        """Return whether two touches of a part are of one contact: of motions that follow each other, or near each other."""
+    def _deepest(self, part: Part) -> list[Touch]:
+        """Return the deepest touch of a part in each motion."""
+        bodies = {(number, k) for number, each in self._bodies.items() for k, body in enumerate(each) if body.part is part}
+        tool, deepest = self._course.tool.tolist(), dict[int, Touch]()
+        for (row, body), touch in self._touched.items():
+            if (tool[row], body) in bodies and (row not in deepest or touch.depth > deepest[row].depth):
+                deepest[row] = touch
+        return [deepest[row] for row in sorted(deepest)]
+
+    def _goes_on(self, one: Touch, then: Touch) -> bool:
+        """Return whether two touches of a part are of one contact: of one tool, and of motions that follow, or near each other."""
+        number = int(self._course.tool[one.row])
+        if number != self._course.tool[then.row]:
+            return False
         wide = max(body.shape.radius for body in self._bodies[number])
         return then.row == one.row + 1 or math.hypot(then.x - one.x, then.y - one.y) <= wide
