@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Sequence
 
 import numpy as np
@@ -11,9 +12,11 @@ from app.dexel.cutter import Cutter, cutter_of
 from app.dexel.holder import Part, bodies_of
 from app.dexel.trim import Course
 from app.dexel.workpiece import BoxStock, Grid, Workpiece
+from app.errors import Cancelled
 from app.model.motion import Floats, MotionKind, Motions, Plane
 from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
+from app.progress import Progress
 from app.workflow import holder_contacts as module
 from app.workflow.asked_bodies import STEP, TOUCH, chords_of
 from app.workflow.holder_contacts import HolderLook, holder_contacts
@@ -246,6 +249,20 @@ def test_what_cannot_be_afforded_is_counted_and_the_stick_out_stays_enough(monke
     monkeypatch.setattr(module, "CELLS", 1.0)
     monkeypatch.setattr(module, "ROUNDS", ())
     assert (beside_a_rib(False).unseen, beside_a_rib(False).least) == (5, {1: 23.0})
+
+
+def test_a_look_tells_how_far_it_is_and_can_be_cancelled() -> None:
+    motions, steps, stop = random_program(3), list[float](), threading.Event()
+
+    def listen(fraction: float, text: str) -> None:
+        steps.append(fraction)
+        if fraction > 0.3:
+            stop.set()
+
+    course = Course(motions, np.ones(len(motions), np.int32))
+    with pytest.raises(Cancelled):
+        holder_contacts(course, block(15.0, 48, 20.0), {1: cutter_of(TOOLS["nut"])}, {1: TOOLS["nut"]}, Progress(listen, stop))
+    assert steps == sorted(steps) and 0.3 < steps[-1] < 0.5
 
 
 def test_programs_follow_each_other() -> None:
