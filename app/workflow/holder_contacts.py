@@ -20,14 +20,15 @@ from app.dexel.holder import Body, Part, bodies_of
 from app.dexel.pyramid import Led, Pyramid, shape_rows
 from app.dexel.trim import Course, Rapids, TrimOptions, trim
 from app.dexel.workpiece import Workpiece
+from app.model.motion import Floats
 from app.model.motion_path import reach
 from app.model.tool import Tool
 from app.progress import NO_PROGRESS, Progress
 from app.workflow.asked_bodies import STEP, TOUCH, Asking, Chords, Key, Rows, Touch, chords_of
 from app.workflow.course import picked
 
-BLOCKS = 32
-"""Blocks of time, at most."""
+BLOCKS, FEW = 32, 6
+"""Blocks of time, at most; and where no body, as it stands, comes as low as the stock's top."""
 
 CELLS = 3e9
 """Cells that are looked at for what the blocks leave open, at most: some seconds."""
@@ -113,6 +114,7 @@ class _Look:
         self._shapes = shape_rows([body.shape for each in bodies.values() for body in each], TOUCH)
         self._owner = np.repeat(list(bodies), [len(each) for each in bodies.values()])
         self._is_holder = np.array([body.part is Part.HOLDER for each in bodies.values() for body in each])
+        self._stands = np.array([float(tools[number].stick_out) for number in self._owner.tolist()])
         self._least = {number: 0.0 for number, each in bodies.items() if any(body.part is Part.HOLDER for body in each)}
         self._touched: dict[Key, Touch] = {}
         self._open: set[Key] = set()
@@ -146,8 +148,11 @@ class _Look:
 
     def _through_blocks(self, chords: Chords, progress: Progress) -> None:
         """Look at all motions on the metal before and after blocks of them."""
-        rows = np.unique(chords.row)
-        edges = [0, *(int(part[0]) for part in np.array_split(rows, min(BLOCKS, len(rows)))[1:]), int(rows[-1]) + 1]
+        rows, top = np.unique(chords.row), float(self._before.heights.max())
+        lifts = [min((self._shapes[self._owner == number, 3]), default=0.0) for number in range(int(self._owner.max()) + 1)]
+        touches = np.minimum(chords.start, chords.end)[:, 2] + np.array(lifts)[self._course.tool[chords.row]] < top - TOUCH
+        count = min(BLOCKS if touches.any() else FEW, len(rows))
+        edges = [0, *(int(part[0]) for part in np.array_split(rows, count)[1:]), int(rows[-1]) + 1]
         edge = np.searchsorted(chords.row, edges)
         metal, before = self._before, Pyramid.of(self._before)
         for k, (first, last) in enumerate(pairwise(edges)):
@@ -161,30 +166,33 @@ class _Look:
     def _look(self, before: Pyramid, after: Pyramid, chords: Chords, mine: NDArray[np.intp]) -> None:
         """Look at a block's chords."""
         body, chord = self._items(chords.row[mine])
-        led = Led(np.column_stack([chords.start[mine], chords.end[mine]]), self._shapes, chord, body, np.zeros(len(body)))
-        row = chords.row[mine][chord]
+        every = Led(np.column_stack([chords.start[mine], chords.end[mine]]), self._shapes, chord, body, np.zeros(len(body)))
+        low, top = np.minimum(chords.start[mine], chords.end[mine])[chord, 2], float(before.heights[-1])
+        near = np.flatnonzero(low + self._shapes[body, 3] < top - TOUCH)
+        led, row, body = every.of(near), chords.row[mine][chord[near]], body[near]
         surely, cell = after.deeper(led, np.full(len(led), TOUCH))
         for k in np.flatnonzero(cell >= 0).tolist():
             self._keep(self._touch(after, int(row[k]), int(body[k]), int(cell[k]), float(surely[k])))
         _, cell = before.deeper(led, np.where(cell >= 0, surely + STEP, TOUCH))
         self._open |= {(int(row[k]), int(body[k])) for k in np.flatnonzero(cell >= 0).tolist()}
-        items = np.flatnonzero(self._is_holder[body])
-        items = items[np.argsort(np.minimum(chords.start[mine], chords.end[mine])[chord[items], 2], kind="stable")]
+        items = np.flatnonzero(top - low - self._shapes[every.shape, 3] + self._stands[every.shape] > self._needed()[every.shape])
+        items = items[np.argsort(low[items], kind="stable")]
         if len(items):
-            self._look_for_least(before, after, led.of(items), row[items])
+            self._look_for_least(before, after, every.of(items), chords.row[mine][chord[items]])
 
     def _look_for_least(self, before: Pyramid, after: Pyramid, led: Led, row: Rows) -> None:
         """Note how far tools must stick out for a block's chords, surely and at most; items go from low to high."""
-        stands = np.array([self._tools[number].stick_out for number in self._owner.tolist()], float)
-        low = replace(led, low=-stands[led.shape])
-        least = np.array([self._least.get(number, math.inf) for number in self._owner.tolist()])
+        low, least = replace(led, low=-self._stands[led.shape]), self._needed()
         after.deepest(low, least)
         for number in self._least:
             self._least[number] = float(least[(self._owner == number) & self._is_holder].max())
-        need = np.array([self._least.get(number, math.inf) for number in self._owner.tolist()])
-        depth, cell = before.deeper(low, need[led.shape])
+        depth, cell = before.deeper(low, self._needed()[led.shape])
         for k in np.flatnonzero(cell >= 0).tolist():
             self._may[int(row[k])] = max(float(depth[k]), self._may.get(int(row[k]), -math.inf))
+
+    def _needed(self) -> Floats:
+        """Return, by body, how far its tool must surely stick out, mm; infinite of shanks."""
+        return np.array([self._least[number] if holds else math.inf for number, holds in zip(self._owner, self._is_holder, strict=True)])
 
     def _items(self, rows: Rows) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Return every body of every chord: its number among all bodies, and the chord."""
