@@ -146,6 +146,20 @@ def test_a_boss_that_a_plunge_cuts_away_is_not_met() -> None:
     assert contact.depth == pytest.approx(10.0, abs=1e-5), "a rapid cuts nothing away"
 
 
+@pytest.mark.parametrize("blocks", [1, 32])
+def test_a_fin_that_a_ramp_cuts_away_is_met_as_long_as_it_stands(monkeypatch: pytest.MonkeyPatch, blocks: int) -> None:
+    """The holder sinks 10 mm over 24; each cell of the fin stands until the cutter's front comes to it."""
+    monkeypatch.setattr(module, "BLOCKS", blocks)
+    piece = block()
+    x, y = np.meshgrid(piece.grid.xs(), piece.grid.ys())
+    fin = (x > 5) & (x < 6) & (np.abs(y) < 2.5)
+    metal = Workpiece(piece.grid, np.where(fin, 0.0, -39.0).astype(np.float32), piece.floor)
+    (contact,) = look(polyline([(-12, 0, -15), (12, 0, -25)]), piece=metal).contacts
+    cut_at = x[fin] - np.sqrt(9 - y[fin] ** 2)
+    truly = (cut_at + 12) * 10 / 24 - 5
+    assert truly.max() - 0.001 <= contact.depth <= truly.max() + STEP + 0.001
+
+
 def samples(motions: Motions, row: int) -> Floats:
     """Places along a motion, 0.02 mm apart."""
     chords = chords_of(Course(motions, np.ones(len(motions), np.int32)), np.array([row]))
