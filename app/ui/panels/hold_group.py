@@ -26,7 +26,7 @@ class HoldGroup:
     def __init__(self, form: Form, edit: EditTool) -> None:
         """Add the group to a form; `edit(job, change)` gives the job with the form's tool changed."""
         self.group = form.begin_group("Shank and holder")
-        flutes, shank, out = ((f"{name}", f"{tip} Empty: not known, and not looked at.") for name, tip in (
+        flutes, shank, out = ((name, f"{tip} Empty: not known, and not looked at.") for name, tip in (
             ("Flute length", "From the tip to where the tool no longer cuts."), ("Shank", "Diameter above the flutes."),
             ("Stick-out", "From the tip to the holder's lower face.")))  # fmt: skip
         self.flutes = form.add_number(
