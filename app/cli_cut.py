@@ -103,7 +103,7 @@ def _wishes(arguments: argparse.Namespace) -> Wishes:
     beside = None if against is None else lambda name: read_input(arguments.against.parent / name)
     return _with_stock(Wishes(
         tuple(told), job, None, against, beside, arguments.depth, arguments.stock_to_leave, tuple(arguments.layer),
-        arguments.units, arguments.origin, arguments.join_tolerance, arguments.tolerance,
+        arguments.units, arguments.origin, arguments.join_tolerance, arguments.tolerance, dict(arguments.holder),
     ), arguments.stock)  # fmt: skip
 
 

@@ -13,12 +13,14 @@ from app.cli_options import OptionParser, join_tolerance, number, typed, with_eq
 from app.edit.errors import CommandError
 from app.edit.numbers import angle, length
 from app.errors import HitofudeError, InputError
+from app.files.holders import outline_of
 from app.files.job_toml import ORIGIN_HELP, parse_origin, read_units
 from app.model.operation import LEAST_LENGTH
-from app.model.tool import Tool, ToolKind
+from app.model.tool import HolderPoint, Tool, ToolKind
 from app.workflow.cut import CELLS
 from app.workflow.examine import CONTROLS
 from app.workflow.setup_stock import FINEST, box_stock
+from app.workflow.setup_tools import Held
 
 EPILOG = """\
 Tools that are not given with --tool are looked for in the job file, in the tool table, in the program's comments; the stock in
@@ -26,10 +28,11 @@ the job file (with --against DRAWING), in the comments, or else it is a box roun
 written tells everything. Coordinates are those of the program, tool lengths taken off. Several programs are cut one after the other.
 D is a diameter: 6, 6mm, 0.25in, 1/4in. Lengths are mm unless a unit is written. Mills given by --tool have two flutes and cut at
 their centre; a job file tells of others. Exit status 0: done and clean; 1: with findings
-(gouge, metal left within reach, rapid in material, a start in the stock, …); 2: something cannot be used; 130: cancelled.
+(gouge, metal left within reach, rapid, shank or holder in material, a start in the stock, …); 2: something cannot be used; 130: cancelled.
 """
 
 SHAPES = "flat:D, ball:D, bull:D:CORNER, v:D:ANGLE, drill:D or drill:D:ANGLE, taper:TIP:ANGLE:D"
+HELD = "NUMBER=HOLDER:STICKOUT"
 Corners = list[float]
 """x0, y0, z0, x1, y1, z1, mm."""
 
@@ -78,6 +81,35 @@ def _shaped(tool: int, kind: ToolKind, values: list[str]) -> Tool:
     if kind in (ToolKind.V, ToolKind.DRILL):
         return Tool(tool, diameter, kind, tip_angle=math.radians(angle(values[1])) if len(values) > 1 else 0.0)
     return Tool(tool, diameter, kind)
+
+
+def holder_given(text: str) -> tuple[int, Held]:
+    """Return how a tool is held by a text such as `1=ER20:35`, holder and stick-out, or `1=0,10;25,15:35` by its outline.
+
+    Raises:
+        InputError: it is not of that form, there is no such holder, or its numbers make none.
+    """
+    match = re.fullmatch(r"\s*(\d{1,4})\s*=\s*([^:]+):([^:]+)", text)
+    if match is None:
+        raise InputError(f"'{text}' is no holder; write {HELD}, such as 1=ER20:35")
+    try:
+        stick_out = length(match[3])
+        outline = tuple(_point(point, text) for point in match[2].split(";")) if "," in match[2] else outline_of(match[2].strip())
+        tool = Tool(max(int(match[1]), 1), 1.0, stick_out=stick_out, holder=outline)
+    except CommandError as error:
+        raise InputError(f"'{text}': {error.reason}") from error
+    except HitofudeError as error:
+        raise InputError(f"'{text}': {error}") from error
+    if not tool.stick_out:
+        raise InputError(f"'{text}' has a stick-out of 0; tell how far the tool sticks out of the holder: {HELD}")
+    return int(match[1]), Held(tool.stick_out, tool.holder)
+
+
+def _point(text: str, whole: str) -> HolderPoint:
+    values = text.split(",")
+    if len(values) != 2:
+        raise InputError(f"'{whole}' has {_counted(values)} in '{text}'; write height and radius of each point: 1=0,10;25,15:35")
+    return length(values[0]), length(values[1])
 
 
 def stock_given(text: str) -> Corners | Path:
@@ -148,6 +180,8 @@ def _program_options(group: argparse._ArgumentGroup) -> None:
                        help="X0,Y0,Z0,X1,Y1,Z1, or a closed SOLID.stl in mm, or HEIGHTS.npy with its .json beside it")
     group.add_argument("--tool", metavar="N=SHAPE", type=typed(tool_given), action="append", default=[],
                        help=f"a tool by its T number (0: that of a program that names none): {SHAPES}; full angles in degrees; repeat")
+    group.add_argument("--holder", metavar="N=HOLDER:STICKOUT", type=typed(holder_given), action="append", default=[],
+                       help="how a tool is held: a holder by name, such as ER20, or H,R;H,R; heights over its lower face and radii; repeat")
     group.add_argument("--job", metavar="J.toml", type=Path, help="tools, operations, stock and origin, as for make")
     group.add_argument("--tools", metavar="FILE", type=Path, help="tools: LinuxCNC's .tbl, or a library .toml or .csv")
     group.add_argument("--tool-units", choices=["mm", "in"], default="mm", help="of the lengths in a .tbl (default mm)")
@@ -195,10 +229,11 @@ def read_arguments(argv: Sequence[str]) -> argparse.Namespace:
     if arguments.engine in LATER_ENGINES:
         raise InputError(f"--engine {arguments.engine}: {LATER_ENGINES[arguments.engine]} is not part of this version; "
                          "leave the option away, or say cpu, the engine of record")
-    numbers = [given for given, _ in arguments.tool]
-    twice = next((given for given in numbers if numbers.count(given) > 1), None)
-    if twice is not None:
-        raise InputError(f"--tool {twice}=…: tool {twice} is given twice; give each number once")
+    for option in ("tool", "holder"):
+        numbers = [given for given, _ in getattr(arguments, option)]
+        twice = next((given for given in numbers if numbers.count(given) > 1), None)
+        if twice is not None:
+            raise InputError(f"--{option} {twice}=…: {option} {twice} is given twice; give each number once")
     _ensure_part(arguments)
     return arguments
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from app.errors import HitofudeError, InputError
+from app.files.holders import outline_of
 from app.model.tool import FeedRow
 
 Value = TypeVar("Value")
@@ -183,6 +184,15 @@ def read_points(value: Any) -> tuple[tuple[float, float], ...]:
     if not isinstance(value, list) or not all(isinstance(each, list) and len(each) == 2 for each in value):
         raise InputError("it must be a list of points, such as [[10, 0], [50, 0]]")
     return tuple((read_number(x), read_number(y)) for x, y in value)
+
+
+def read_holder(value: Any) -> tuple[tuple[float, float], ...]:
+    """Return the outline of a holder: by its points, height and radius, or by its name.
+
+    Raises:
+        InputError: it is neither.
+    """
+    return outline_of(value) if isinstance(value, str) else read_points(value)
 
 
 def read_feeds(value: Any) -> tuple[FeedRow, ...]:

@@ -17,8 +17,8 @@ from app.files.job_tables import (
     read_angle,
     read_feeds,
     read_flag,
+    read_holder,
     read_number,
-    read_points,
     read_text,
     read_texts,
     read_whole,
@@ -39,7 +39,7 @@ TOOL_KEYS: dict[str, Callable[[Any], Any]] = {
     "number": read_whole, "diameter": read_number, "kind": word({kind.value: kind for kind in ToolKind}, "kind of tool"),
     "name": read_text, "flutes": read_whole,
     **dict.fromkeys(("spindle_speed", "feed_rate", "plunge_rate", "corner_radius", "tip_diameter"), read_number),
-    "tip_angle": read_angle, **dict.fromkeys(_LENGTHS, read_number), "holder": read_points, "remark": read_text, "feeds": read_feeds,
+    "tip_angle": read_angle, **dict.fromkeys(_LENGTHS, read_number), "holder": read_holder, "remark": read_text, "feeds": read_feeds,
 }
 """Keys of a [[tool]], and how each is read."""
 

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.errors import HitofudeError, InputError
+from app.files.holders import outline_of
 from app.files.tool_library import ToolLibrary, check_numbers, shortest_degrees
 from app.model.tool import FeedRow, HolderPoint, Tool, ToolKind
 
@@ -195,7 +196,9 @@ def _kind(cell: str) -> ToolKind:
 
 
 def _holder(cell: str) -> tuple[HolderPoint, ...]:
-    """Return the outline that a text such as "0 x 10; 25 x 10" is."""
+    """Return the outline that a text such as "0 x 10; 25 x 10" is, or that a name such as "ER20" has."""
+    if re.search(r"[A-Za-z]{2}", cell):
+        return outline_of(cell)
     points = re.findall(r"\s*([\d.eE+-]+)\s*x\s*([\d.eE+-]+)\s*(?:;|$)", cell)
     try:
         made = tuple((float(height), float(radius)) for height, radius in points)

@@ -10,12 +10,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import Any
 
 from app.errors import HitofudeError, InputError
+from app.files.holders import outline_of
 from app.model.tool import FeedRow, HolderPoint, Tool, ToolKind
 from app.resources import resource
 from app.settings import config_folder
-from app.toml_tables import read_tables, write_tables
+from app.toml_tables import read_tree, tables_of, write_tables
 
 FORMAT = 1
 HEADER = """\
@@ -29,7 +31,7 @@ HEADER = """\
 #   tip_angle        v, drill, taper: full angle of the point or cone
 #   tip_diameter     v: of the flat at the point; taper: of the ball at the tip
 #   flute_length, overall_length, stick_out (tip to holder), shank_diameter
-#   holder           outline above its lower face: [[height, radius], ...], heights from 0 on
+#   holder           outline above its lower face: [[height, radius], ...], heights from 0 on; or a name, such as "ER20"
 #   length_offset    what the control's tool table takes off (G43)
 # Each [[tool.feeds]] below a tool is one material:
 #   material, surface_speed (m/min, at the full diameter), feed_per_tooth (mm), plunge_share (of the feed, straight down)
@@ -125,10 +127,23 @@ def read_library(name: str, data: bytes) -> ToolLibrary:
     Raises:
         InputError: file, line and key, what is wrong and what is expected.
     """
-    read = read_tables(_File, name, data, RANGES)
+    tree = read_tree(name, data)
+    _draw_holders(name, tree)
+    read = tables_of(_File, tree, (name, data), RANGES)
     tools = tuple(entry.tool() for entry in read.tool)
     check_numbers(name, tools)
     return ToolLibrary(read.name, tools, read.remark)
+
+
+def _draw_holders(file: str, tree: dict[str, Any]) -> None:
+    """Put outlines in the place of holders' names."""
+    tools = tree.get("tool")
+    for number, tool in enumerate(tools if isinstance(tools, list) else (), 1):
+        if isinstance(tool, dict) and isinstance(tool.get("holder"), str):
+            try:
+                tool["holder"] = [list(point) for point in outline_of(tool["holder"])]
+            except InputError as error:
+                raise InputError(f"{file}: tool[{number}].holder: {error}") from error
 
 
 def check_numbers(name: str, tools: tuple[Tool, ...]) -> None:

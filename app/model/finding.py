@@ -29,6 +29,8 @@ class FindingKind(Enum):
     TOOL_SHAPE = "tool_shape"
     START_IN_STOCK = "start_in_stock"
     PLUNGE = "plunge"
+    HOLDER_CONTACT = "holder_contact"
+    SHANK_CONTACT = "shank_contact"
     BELOW_TABLE = "below_table"
     ASSUMED = "assumed"
     HIDDEN = "hidden"

@@ -22,14 +22,15 @@ class Level(Enum):
 
 _WORST_FIRST = (
     FindingKind.GOUGE, FindingKind.CLAMP, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK, FindingKind.PLUNGE,
-    FindingKind.BELOW_TABLE, FindingKind.LEFT_REACHABLE, FindingKind.BEYOND_STOCK, FindingKind.TOLERANCE, FindingKind.MACHINE,
+    FindingKind.HOLDER_CONTACT, FindingKind.SHANK_CONTACT, FindingKind.BELOW_TABLE, FindingKind.LEFT_REACHABLE,
+    FindingKind.BEYOND_STOCK, FindingKind.TOLERANCE, FindingKind.MACHINE,
     FindingKind.TOOL_SHAPE, FindingKind.OPEN_CONTOUR, FindingKind.SELF_INTERSECTION, FindingKind.OVERLAP, FindingKind.REGION_TOO_SMALL,
     FindingKind.NECK_TOO_NARROW, FindingKind.ENGAGEMENT, FindingKind.AMBIGUOUS, FindingKind.UNITS_ASSUMED, FindingKind.GAP_CLOSED,
     FindingKind.TINY_ENTITY, FindingKind.LEFT_OUT, FindingKind.ASSUMED, FindingKind.HIDDEN, FindingKind.LEFT_UNREACHABLE,
     FindingKind.SKIN, FindingKind.ENTRY,
 )
 _RED = {FindingKind.GOUGE, FindingKind.CLAMP, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK, FindingKind.PLUNGE,
-        FindingKind.BELOW_TABLE, FindingKind.LEFT_REACHABLE}
+        FindingKind.HOLDER_CONTACT, FindingKind.SHANK_CONTACT, FindingKind.BELOW_TABLE, FindingKind.LEFT_REACHABLE}
 
 _NAMES = {
     FindingKind.GOUGE: "gouge", FindingKind.RAPID_IN_MATERIAL: "rapid in material", FindingKind.LEFT_REACHABLE: "material left",
@@ -40,6 +41,7 @@ _NAMES = {
     FindingKind.LEFT_UNREACHABLE: "corners out of reach", FindingKind.GAP_CLOSED: "gap closed",
     FindingKind.UNITS_ASSUMED: "units assumed", FindingKind.MACHINE: "beyond the machine",
     FindingKind.TOOL_SHAPE: "a tool of another shape", FindingKind.START_IN_STOCK: "start in the stock",
+    FindingKind.HOLDER_CONTACT: "holder in metal", FindingKind.SHANK_CONTACT: "shank in metal",
     FindingKind.PLUNGE: "plunge in metal", FindingKind.BELOW_TABLE: "cut into the table", FindingKind.ASSUMED: "assumed",
     FindingKind.HIDDEN: "metal below metal", FindingKind.BEYOND_STOCK: "part beyond the stock",
     FindingKind.AMBIGUOUS: "doubtful place in the picture", FindingKind.SKIN: "skin along the walls", FindingKind.ENTRY: "another entry",

@@ -1,4 +1,4 @@
-"""What goes wrong on the way, whatever the part is: rapids in metal, a start in it, plunges, places nobody knows, the table."""
+"""What goes wrong on the way, whatever the part is: rapids, holders and plunges in metal, a start in it, unknown places, the table."""
 
 from __future__ import annotations
 
@@ -8,15 +8,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.dexel.cutter import Cutter
+from app.dexel.holder import Part
 from app.dexel.trim import Cut, RapidHit
 from app.dexel.workpiece import Workpiece
 from app.model.finding import Finding, FindingKind
 from app.model.motion import MotionKind, Motions
 from app.model.motion_path import reach
+from app.model.tool import Tool
 from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
 from app.workflow.closer import Metal, Way
 from app.workflow.course import KnownCourse
+from app.workflow.holder_contacts import Contact, HolderLook, holder_contacts
 from app.workflow.narrow_rapids import Looked, narrow_rapids
 from app.workflow.plunges import plunges
 
@@ -32,7 +35,7 @@ class Stage:
     """One program of a setup: what it is cut along, out of what, with what, and what it leaves.
 
     Attributes:
-        metal: of the setup, as it is at any time of this program.
+        metal: of the setup, as it is at any time of this program. tools: by T number.
         where: words for the place of a motion in the text, such as "NC line 7", by its row.
     """
 
@@ -40,6 +43,7 @@ class Stage:
     before: Workpiece
     cut: Cut
     metal: Metal
+    tools: Mapping[int, Tool]
     where: Callable[[int], str]
 
     @property
@@ -70,10 +74,12 @@ class Accidents:
     Attributes:
         findings: in words; places in program coordinates.
         rapids: that go through metal, also those that no cell has seen.
+        holders: shanks and holders in metal, and how far tools must stick out.
     """
 
     findings: tuple[Finding, ...]
     rapids: tuple[RapidHit, ...]
+    holders: HolderLook
 
 
 def accidents(stage: Stage, progress: Progress = NO_PROGRESS) -> Accidents:
@@ -82,10 +88,11 @@ def accidents(stage: Stage, progress: Progress = NO_PROGRESS) -> Accidents:
     Raises:
         Cancelled: the job was asked to stop.
     """
-    looked = narrow_rapids(stage.known.course, stage.metal, stage.before, stage.cut.rapids, progress.part(0.0, 0.5))
+    looked = narrow_rapids(stage.known.course, stage.metal, stage.before, stage.cut.rapids, progress.part(0.0, 0.3))
+    holders = holder_contacts(stage.known.course, stage.before, stage.cutters, stage.tools, progress.part(0.3, 0.7))
     findings = (*_start(stage), *_rapids(stage, looked), *_sideways_out(stage), *_at_unknown_places(stage),
-                *_plunges(stage, progress.part(0.5, 1.0)), *_below_table(stage))  # fmt: skip
-    return Accidents(findings, looked.rapids)
+                *_plunges(stage, progress.part(0.7, 1.0)), *_holders(stage, holders), *_below_table(stage))  # fmt: skip
+    return Accidents(findings, looked.rapids, holders)
 
 
 def _start(stage: Stage) -> Iterator[Finding]:
@@ -183,6 +190,38 @@ def _plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
         yield Finding(FindingKind.PLUNGE, f"{len(found) - NAMED} more times a mill goes down into metal that does not cut at its centre.",
                       amount=float(len(found) - NAMED))  # fmt: skip
     yield from _unseen(stage, all_found.unseen, "ways down")
+
+
+def _holders(stage: Stage, looked: HolderLook) -> Iterator[Finding]:
+    """Yield the shanks and holders that meet metal, the first ones of each one by one."""
+    for part, kind in ((Part.HOLDER, FindingKind.HOLDER_CONTACT), (Part.SHANK, FindingKind.SHANK_CONTACT)):
+        contacts = [each for each in looked.contacts if each.part is part]
+        for contact in contacts[:NAMED]:
+            text = (f"The {part.value} of T{contact.tool} goes into metal, {contact.depth:.3f} mm deep at "
+                    f"({contact.x:.3f}, {contact.y:.3f}, {contact.z:.3f}), {stage.where(contact.motion)}{_through(contact)}; "
+                    f"{_remedy(stage, contact, looked)}")
+            yield stage.told(kind, text, contact.motion, (contact.x, contact.y), contact.depth)
+        if len(contacts) > NAMED:
+            more = len(contacts) - NAMED
+            text = f"{part.value.capitalize()}s go into metal at {more} more place{'' if more == 1 else 's'}; do not run this program."
+            yield Finding(kind, text, amount=float(more))
+    if looked.unseen:
+        text = (f"{looked.unseen} motions of which it is not sure whether shank or holder meets metal were not looked at one by one; "
+                "use fewer cells (--grid), or cut less deep.")
+        yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=float(looked.unseen))
+
+
+def _through(contact: Contact) -> str:
+    return f", the deepest of {contact.count} motions" if contact.count > 1 else ""
+
+
+def _remedy(stage: Stage, contact: Contact, looked: HolderLook) -> str:
+    """Return what to do against a contact."""
+    tool = stage.tools[contact.tool]
+    if contact.part is Part.HOLDER:
+        return f"stick it out {looked.least[contact.tool]:.1f} mm or more, it has {tool.stick_out:g}."
+    wider = f"the shank, {tool.shank_diameter:g} mm wide, begins" if tool.shank_diameter > tool.diameter else "its flutes end"
+    return f"{wider} {tool.flute_length:g} mm over the tip; use longer flutes, or clear the metal above first."
 
 
 def _below_table(stage: Stage) -> Iterator[Finding]:

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from app.dexel.cutter import Cutter
 from app.dexel.trim import Course, RapidHit, Rapids, TrimOptions, trim
 from app.dexel.workpiece import Grid, Stock, Workpiece
-from app.model.motion import Floats, MotionKind, Motions
+from app.model.motion import Floats, MotionKind
 from app.model.motion_path import reach
-from app.workflow.course import picked
+from app.workflow.course import picked, straight
 
 NARROW = 1.5
 """Cells of radius below which a cutter may go unseen between the cells' centres."""
@@ -55,11 +55,7 @@ class Way:
     def course(self) -> Course:
         """Return the way as rapids of T1."""
         points = self.points if len(self.points) > 1 else np.repeat(self.points, 2, axis=0)
-        count = len(points) - 1
-        small, whole = np.zeros(count, np.uint8), np.zeros(count, np.int32)
-        motions = Motions(points[:-1].copy(), points[1:].copy(), np.full((count, 3), np.nan), small, small, whole, np.zeros(count),
-                          whole, whole)  # fmt: skip
-        return Course(motions, np.ones(count, np.int32))
+        return Course(straight(points[:-1], points[1:]), np.ones(len(points) - 1, np.int32))
 
 
 @dataclass(frozen=True, eq=False)

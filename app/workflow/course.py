@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.dexel.trim import Course
-from app.model.motion import MotionKind
+from app.model.motion import Floats, MotionKind, Motions
 from app.nc.extent import at_home, nowhere_of
 from app.nc.read.program import NcProgram
 
@@ -57,3 +57,27 @@ def picked(course: Course, rows: NDArray[np.intp]) -> Course:
     splines = {int(np.searchsorted(rows, row)): motions.splines[row] for row in set(motions.splines).intersection(rows.tolist())}
     left_out = np.flatnonzero(np.isin(rows, course.left_out))
     return Course(replace(motions, splines=splines, **columns), course.tool[rows], tuple(left_out.tolist()))
+
+
+def straight(start: Floats, end: Floats, kind: MotionKind = MotionKind.RAPID) -> Motions:
+    """Return straight motions between (n, 3) places, mm."""
+    count = len(start)
+    small, whole = np.zeros(count, np.uint8), np.zeros(count, np.int32)
+    return Motions(start.copy(), end.copy(), np.full((count, 3), np.nan), np.full(count, kind, np.uint8), small, whole, np.zeros(count),
+                   whole, whole)  # fmt: skip
+
+
+def inserted(course: Course, at: NDArray[np.intp], more: Motions, tool: NDArray[np.int32]) -> tuple[Course, NDArray[np.intp]]:
+    """Return a course with more motions in it, and which of these each of its motions is, -1: none.
+
+    Args:
+        at: (n,) row of the course that each comes before, in any order; those before one row keep their order.
+        more: n straight motions. tool: (n,) T number of each.
+    """
+    columns = {name: np.insert(getattr(course.motions, name), at, getattr(more, name), axis=0) for name in COLUMNS}
+    owner = np.insert(np.full(len(course.motions), -1, np.intp), at, np.arange(len(more)))
+    place = np.flatnonzero(owner < 0)
+    splines = {int(place[row]): spline for row, spline in course.motions.splines.items()}
+    left_out = tuple(place[list(course.left_out)].tolist())
+    made = Course(replace(course.motions, splines=splines, **columns), np.insert(course.tool, at, tool).astype(np.int32), left_out)
+    return made, owner

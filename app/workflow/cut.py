@@ -24,6 +24,7 @@ from app.workflow.certify import certify
 from app.workflow.closer import Metal
 from app.workflow.course import KnownCourse, course_of
 from app.workflow.exact import Exact, exact_of
+from app.workflow.holder_contacts import HolderLook
 from app.workflow.judge import Judging, judge, wanted_over
 from app.workflow.judgement import Judgement, findings_of
 from app.workflow.parts import FlatPart, Part, SolidPart, beyond
@@ -100,6 +101,7 @@ class CutProgram:
         top, floor: of the stock, mm, program coordinates.
         judgement: against the part; None where there is none.
         findings: what went wrong on the way and what is wrong with the result, what counts first; places in program coordinates.
+        holders: shanks and holders in metal, their motions counted through all files; None where nobody has looked.
     """
 
     setup: CutSetup
@@ -109,6 +111,7 @@ class CutProgram:
     floor: float
     judgement: Judgement | None
     findings: tuple[Finding, ...]
+    holders: HolderLook | None = None
 
 
 def cut(setup: CutSetup, options: CutOptions = CutOptions(), progress: Progress = NO_PROGRESS, exact: Exact | None = None) -> CutProgram:
@@ -122,11 +125,11 @@ def cut(setup: CutSetup, options: CutOptions = CutOptions(), progress: Progress 
         Cancelled: the job was asked to stop.
     """
     run = _Run.of(setup, options)
-    result, accidents = run.cut(progress.part(0.0, 0.4))
+    result, accidents, holders = run.cut(progress.part(0.0, 0.4))
     judgement = run.judged(result, exact, progress.part(0.4, 1.0)) if setup.part is not None else None
     outside = beyond(setup.part, run.box()) if setup.part is not None and options.judge else ()
     findings = worst_first((*accidents, *outside, *(findings_of(judgement, setup.where) if judgement is not None else ())))
-    return CutProgram(setup, options, result, float(run.workpiece.heights.max()), run.workpiece.floor, judgement, findings)
+    return CutProgram(setup, options, result, float(run.workpiece.heights.max()), run.workpiece.floor, judgement, findings, holders)
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,17 +149,18 @@ class _Run:
         courses = tuple(course_of(program) for program in setup.programs)
         return _Run(setup, options, courses, {n: cutter_of(tool) for n, tool in setup.tools.items()}, setup.stock.over(grid))
 
-    def cut(self, progress: Progress) -> tuple[Cut, tuple[Finding, ...]]:
+    def cut(self, progress: Progress) -> tuple[Cut, tuple[Finding, ...], HolderLook | None]:
         """Cut all programs, and look for what goes wrong on the way: on the whole stock, whatever the window is."""
         if self.options.window is None or not self.options.judge:
             return self._cut(progress)
         setup, options = replace(self.setup, part=None), replace(self.options, window=None, trace=False)
-        whole, told = _Run.of(setup, replace(options, cells=min(options.cells, CELLS)))._cut(progress.part(0.0, 0.5))
-        seen, _ = replace(self, options=replace(self.options, judge=False))._cut(progress.part(0.5, 1.0))
-        return replace(seen, rapids=whole.rapids), told
+        whole, told, holders = _Run.of(setup, replace(options, cells=min(options.cells, CELLS)))._cut(progress.part(0.0, 0.5))
+        seen, _, _ = replace(self, options=replace(self.options, judge=False))._cut(progress.part(0.5, 1.0))
+        return replace(seen, rapids=whole.rapids), told, holders
 
-    def _cut(self, progress: Progress) -> tuple[Cut, tuple[Finding, ...]]:
+    def _cut(self, progress: Progress) -> tuple[Cut, tuple[Finding, ...], HolderLook | None]:
         told: list[Finding] = []
+        holders: HolderLook | None = None
         cut: Cut | None = None
         done, count = 0, len(self.courses)
         for k, known in enumerate(self.courses):
@@ -165,15 +169,16 @@ class _Run:
             if self.options.judge:
                 found = accidents(self._stage(k, before, after, done), part.part(0.8, 1.0))
                 told, after = [*told, *found.findings], replace(after, rapids=found.rapids)
+                holders = found.holders if holders is None else holders.followed(found.holders, done)
             cut = after if cut is None else _joined(cut, after, done)
             done += len(known.course.motions)
         assert cut is not None
-        return cut, tuple(told)
+        return cut, tuple(told), holders
 
     def _stage(self, k: int, before: Workpiece, after: Cut, done: int) -> Stage:
         """Return a program as it was cut; `done` motions were before it."""
         metal = Metal(self.setup.stock, tuple(known.course for known in self.courses[: k + 1]), self.cutters)
-        return Stage(self.courses[k], before, after, metal, lambda row: self.setup.where(done + row))
+        return Stage(self.courses[k], before, after, metal, self.setup.tools, lambda row: self.setup.where(done + row))
 
     def box(self) -> StockBox:
         """Return the box round all of the stock, program coordinates; of a window nobody knows how high the rest is."""

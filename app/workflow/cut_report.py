@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from app.model.finding import Finding, FindingKind, worst_first
 from app.model.motion import Floats, MotionKind
 from app.model.motion_path import lengths
+from app.model.tool import Tool
 from app.nc.read.program import Severity
 from app.workflow.cut import CutProgram
 from app.workflow.examine import COORDINATES, KINDS, Examined
@@ -150,7 +151,15 @@ def _judged(done: CutProgram, motions: _Motions) -> Json:
         }  # fmt: skip
     rapids = [{"x": hit.x, "y": hit.y, "z": hit.z, **motions.where(hit.motion),
                "depth_mm": hit.depth, "cells": hit.cells} for hit in done.cut.rapids]  # fmt: skip
-    return {"removed_mm3": done.cut.removed_volume, **told, "rapids_in_material": rapids}
+    return {"removed_mm3": done.cut.removed_volume, **told, "rapids_in_material": rapids, "holder_contacts": _contacts(done, motions)}
+
+
+def _contacts(done: CutProgram, motions: _Motions) -> list[Json] | None:
+    """Return where shanks and holders go into metal; null where nobody has looked."""
+    if done.holders is None:
+        return None
+    return [{"tool": each.tool, "part": each.part.value, "x": each.x, "y": each.y, "z": each.z, **motions.where(each.motion),
+             "depth_mm": each.depth, "motions": each.count} for each in done.holders.contacts]  # fmt: skip
 
 
 def _gouge(judged: Judgement, motions: _Motions) -> Json:
@@ -221,9 +230,23 @@ def _tool(number: int, known: KnownTool, done: CutProgram, motions: _Motions, re
     return {
         "number": number, "kind": tool.kind.value, "diameter_mm": tool.diameter, "corner_radius_mm": tool.corner_radius,
         "tip_diameter_mm": tool.tip_diameter, "tip_angle_deg": math.degrees(tool.tip_angle), "from": known.source,
+        "shank": _shank(tool), "holder": _holder(tool), "stick_out_mm": tool.stick_out or None,
+        "least_stick_out_mm": done.holders.least.get(number) if done.holders is not None else None,
         "removed_mm3": float(np.sum(done.cut.volume[mine])), "cut_mm": float(np.sum(motions.length[mine & motions.feed & motions.took])),
         "time_s": sum(each.time.by_tool.get(number, 0.0) for each in ready.programs),
     }  # fmt: skip
+
+
+def _shank(tool: Tool) -> str:
+    """Return what of a shank was looked at."""
+    return f"{tool.shank_diameter:g} mm from {tool.flute_length:g} mm up" if tool.shank_diameter and tool.flute_length else "not known"
+
+
+def _holder(tool: Tool) -> str:
+    """Return what of a holder was looked at."""
+    if not tool.holder:
+        return "not known"
+    return f"{2 * max(radius for _, radius in tool.holder):g} mm wide" if tool.stick_out else "known, its stick-out not"
 
 
 def _program(examined: Examined) -> Json:
@@ -239,8 +262,8 @@ def _summary(data: Json) -> Iterator[str]:
     if gouge is not None:
         part = (f"{gouge['max_mm']:.4f} mm gouge, {left['reachable_mm2']:.3f} mm2 left within reach, "
                 f"{left['unreachable_mm2']:.3f} mm2 out of reach")
-    path = ", ".join((_counted(len(data["rapids_in_material"]), "rapid") + " in material", _counted(data["strokes"], "stroke"),
-                      _counted(data["retracts"], "retract")))  # fmt: skip
+    path = ", ".join((_counted(len(data["rapids_in_material"]), "rapid") + " in material", *_touching(data),
+                      _counted(data["strokes"], "stroke"), _counted(data["retracts"], "retract")))  # fmt: skip
     yield (f"{names}: {data['removed_mm3']:.1f} mm3 removed; {part}; {path}, {sum(data['length_mm'].values()):.0f} mm, "
            f"{_clock(data['time_s'])} min")
     if certificate is not None and certificate["gouge_mm"] < _TELLING * certificate["pitch_mm"]:
@@ -250,7 +273,20 @@ def _summary(data: Json) -> Iterator[str]:
         yield f"  nothing was removed: the motions at feed rate reach {_words(data['extent_mm'])}, and the stock {_words(data['stock'])}"
     for tool in data["tools"]:
         yield (f"  T{tool['number']} {tool['kind']} {tool['diameter_mm']:g} mm ({tool['from']}): {tool['removed_mm3']:.1f} mm3, "
-               f"{_clock(tool['time_s'])} min")
+               f"{_clock(tool['time_s'])} min{_held(tool)}")
+
+
+def _touching(data: Json) -> Iterator[str]:
+    """Yield how many contacts of shanks and holders there are, if some are known to be looked for."""
+    if data["holder_contacts"]:
+        yield _counted(len(data["holder_contacts"]), "contact") + " of shank or holder"
+
+
+def _held(tool: Json) -> str:
+    """Return how far a tool must stick out, or that nobody knows its holder."""
+    if tool["least_stick_out_mm"] is None:
+        return f"; holder {tool['holder']}"
+    return f"; sticks out {tool['stick_out_mm']:g} mm, {tool['least_stick_out_mm']:.1f} mm are needed"
 
 
 def _words(box: Json) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from app.model.motion_path import arc_paths
 from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
 from app.workflow.closer import MOST, NARROW, Metal, Way
-from app.workflow.course import COLUMNS, picked
+from app.workflow.course import inserted, picked, straight
 
 PIN = 0.25
 """Part of a cutter's radius, round its axis, in which it does not cut if it does not cut at its centre."""
@@ -177,17 +177,13 @@ def _with_ways(course: Course, cutters: Mapping[int, Cutter], ways: Sequence[Way
     radii = sorted({way.cutter.radius for way in ways})
     first = int(max([*cutters, course.tool.max()])) + 1
     all_cutters = {**cutters, **{first + k: Cutter(radius, radius) for k, radius in enumerate(radii)}}
-    parts, count = [way.course().motions for way in ways], len(course.motions)
+    parts = [way.course().motions for way in ways]
     sizes = [len(part) for part in parts]
-    at = np.repeat([way.row for way in ways], sizes)
-    columns = {name: np.insert(getattr(course.motions, name), at, np.concatenate([getattr(part, name) for part in parts]), axis=0)
-               for name in COLUMNS}  # fmt: skip
-    tool = np.insert(course.tool, at, np.repeat([first + radii.index(way.cutter.radius) for way in ways], sizes))
-    owner = np.insert(np.full(count, -1), at, np.repeat(np.arange(len(ways)), sizes))
-    place = np.flatnonzero(owner < 0)
-    splines = {int(place[row]): spline for row, spline in course.motions.splines.items()}
-    left_out = tuple(place[list(course.left_out)].tolist())
-    return Course(replace(course.motions, splines=splines, **columns), tool.astype(np.int32), left_out), all_cutters, owner.tolist()
+    more = straight(np.concatenate([part.start for part in parts]), np.concatenate([part.end for part in parts]))
+    tool = np.repeat([first + radii.index(way.cutter.radius) for way in ways], sizes).astype(np.int32)
+    made, owner = inserted(course, np.repeat([way.row for way in ways], sizes), more, tool)
+    way_of = np.append(np.repeat(np.arange(len(ways)), sizes), -1)
+    return made, all_cutters, way_of[owner].tolist()
 
 
 def _plunge(run: _Run, height: float, tool: int) -> Plunge:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import PurePath
 
 import numpy as np
@@ -31,7 +31,7 @@ from app.workflow.examine import Examined
 from app.workflow.layers import layers_to_read, with_layers_spelled
 from app.workflow.parts import TOLERANCE, FlatPart, Part, SolidPart
 from app.workflow.setup_stock import KnownStock, told_stock
-from app.workflow.setup_tools import KnownTool, ToolsTold, other_tools, with_tools
+from app.workflow.setup_tools import Held, KnownTool, ToolsTold, other_tools, with_holders, with_tools
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +49,7 @@ class Wishes:
         units: of a drawing, or solid, that names none.
         origin: in the plane and along Z, each None where it is not said; None = as told, or the drawing's own zero.
         join_tolerance: mm.
+        held: how tools are held, by T number; the others as told.
         tolerance: metal within this of the part is neither gouged nor left, mm; None = as the path was proven, else TOLERANCE.
     """
 
@@ -64,6 +65,7 @@ class Wishes:
     origin: tuple[OriginXY | None, OriginZ | None] | None = None
     join_tolerance: float | None = None
     tolerance: float | None = None
+    held: Mapping[int, Held] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,6 +104,7 @@ def setup_of(programs: tuple[Examined, ...], wishes: Wishes = Wishes(), progress
     scene = _scene(wishes)
     told = () if scene is None else (ToolsTold("the scene", {tool.number: tool for tool in scene.tools}),)
     programs, tools, assumed = with_tools(programs, (*wishes.tools, *told))
+    tools = with_holders(tools, wishes.held)
     part: Part | None = None
     said: tuple[Finding, ...] = ()
     if scene is not None:

@@ -12,7 +12,7 @@ from app.dexel.cutter import DRILL_ANGLE
 from app.errors import HitofudeError, InputError
 from app.model.finding import Finding, FindingKind
 from app.model.motion import MotionKind
-from app.model.tool import Tool, ToolKind, shape_keys
+from app.model.tool import HolderPoint, Tool, ToolKind, shape_keys
 from app.nc.duration import duration
 from app.nc.read.program import NcProgram, ToolNote
 from app.workflow.examine import Examined
@@ -74,6 +74,36 @@ def with_tools(
                 known[number] = _known(examined, number, line, told, [each.program for each in named])
     findings = tuple(Finding(FindingKind.ASSUMED, each.assumed, counts=False) for each in known.values() if each.assumed)
     return tuple(named), dict(sorted(known.items())), findings
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """How a tool is held: how far it sticks out, mm, and the outline of its holder, as `Tool` has them."""
+
+    stick_out: float
+    holder: tuple[HolderPoint, ...]
+
+
+def with_holders(tools: Mapping[int, KnownTool], held: Mapping[int, Held]) -> dict[int, KnownTool]:
+    """Return tools held as was said, whoever tells of them.
+
+    Args:
+        held: by T number.
+
+    Raises:
+        InputError: a number is of no tool that cuts, or the tool cannot be held so.
+    """
+    made = dict(tools)
+    for number, each in held.items():
+        if number not in made:
+            raise InputError(f"T{number} does not cut, so its holder says nothing; the tools that do are "
+                             f"{', '.join(f'T{known}' for known in made)}.")
+        try:
+            tool = replace(made[number].tool, stick_out=each.stick_out, holder=each.holder)
+        except HitofudeError as error:
+            raise InputError(f"The holder of T{number} does not fit: {error}") from error
+        made[number] = replace(made[number], tool=tool)
+    return made
 
 
 def other_tools(numbers: Iterable[int], told: tuple[ToolsTold, ...], programs: tuple[Examined, ...]) -> Iterator[Tool]:

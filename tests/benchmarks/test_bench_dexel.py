@@ -12,8 +12,11 @@ from scipy.ndimage import gaussian_filter1d, map_coordinates
 from app.dexel.cutter import Cutter
 from app.dexel.trim import Course, TrimOptions, trim
 from app.dexel.workpiece import BoxStock, Grid
+from app.files.holders import outline_of
 from app.model.motion import Floats
 from app.model.stock_box import StockBox
+from app.model.tool import Tool, ToolKind
+from app.workflow.holder_contacts import holder_contacts
 from tests.benchmarks.conftest import OURS, record
 from tests.dexel.courses import course_of, polyline
 
@@ -129,6 +132,16 @@ def test_ours(benchmark: BenchmarkFixture, name: str) -> None:
     apart = np.abs(done.heights - plain(name))
     assert np.mean(apart > 1e-5) < 1e-5
     record(benchmark, f"cut {name}", OURS)
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_a_holder_that_touches_nothing(benchmark: BenchmarkFixture, name: str) -> None:
+    """And how far the tool must stick out, beside the cut alone."""
+    piece, radius, way = STOCK.over(Grid.over((0.0, 0.0, SIZE, SIZE), 1024)), PROGRAMS[name][1], course(name)
+    tool = Tool(1, 2 * radius, ToolKind.BALL, flute_length=50, shank_diameter=2 * radius, stick_out=60, holder=outline_of("Shrink fit 6"))
+    looked = benchmark.pedantic(holder_contacts, (way, piece, {1: Cutter(radius, 0.0, radius)}, {1: tool}), rounds=5, warmup_rounds=1)
+    assert looked.contacts == () and 10 < looked.least[1] < 25
+    record(benchmark, f"cut {name}", "holder")
 
 
 @pytest.mark.parametrize("name", PROGRAMS)

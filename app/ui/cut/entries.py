@@ -27,7 +27,7 @@ _NEAR = 4.0
 """Beside an upright wall cells alone cannot tell that nothing is left; a bound of more cells than these says no more than that."""
 
 _NAMES = {FindingKind.RAPID_IN_MATERIAL: "rapid", FindingKind.START_IN_STOCK: "start in stock", FindingKind.PLUNGE: "plunge",
-          FindingKind.BELOW_TABLE: "table"}
+          FindingKind.BELOW_TABLE: "table", FindingKind.HOLDER_CONTACT: "holder", FindingKind.SHANK_CONTACT: "shank"}
 _SPOTS = (FindingKind.GOUGE, FindingKind.LEFT_REACHABLE, FindingKind.LEFT_UNREACHABLE)
 
 

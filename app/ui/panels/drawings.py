@@ -1,4 +1,4 @@
-"""What the small pictures show: passes, entry, side, lead, tab, finish, dog-bone, peck, copies. Sizes in px of 150 x 70."""
+"""What the small pictures show: passes, entry, side, lead, tab, finish, dog-bone, peck, copies, holder. Sizes in px of 150 x 70."""
 
 from __future__ import annotations
 
@@ -164,3 +164,29 @@ def copies(sketch: Sketch, values: tuple[float, ...]) -> None:
                 sketch.metal(points)
                 continue
             sketch.guide([*points, points[0]])
+
+
+def assembly(sketch: Sketch, values: tuple[float, ...]) -> None:
+    """Draw a tool lying in its holder. Values: diameter, flute length, shank, stick-out, and height and radius of the outline, mm.
+
+    What is not known, 0, is drawn as is usual: such a shank dashed.
+    """
+    diameter, flutes, shank, out = values[:4]
+    outline = list(zip(values[4::2], values[5::2], strict=True))
+    flutes, shank = flutes or 3 * diameter, shank or diameter
+    out = max(out or flutes + 2 * shank, 1e-3)
+    tall = max(diameter, shank, *(2 * radius for _, radius in outline), 1e-3)
+    shown = out + (min(outline[-1][0], 1.5 * tall) if outline else 0.0)
+    scale, middle = min(140.0 / shown, 58.0 / tall), 38.0
+    stop = min(flutes, out) * scale
+    if outline:
+        points = [(min(4 + (out + height) * scale, 148.0), radius * scale) for height, radius in outline]
+        sketch.metal([*((x, middle - y) for x, y in points), *((x, middle + y) for x, y in reversed(points))])
+        if values[3]:
+            sketch.measure((4, 6), (4 + out * scale, 6))
+            sketch.guide([(4 + out * scale, 6), (4 + out * scale, middle - points[0][1])])
+    half, thick = diameter * scale / 2, shank * scale / 2
+    line = sketch.outline if values[1] and values[2] else sketch.guide
+    line([(4 + stop, middle - thick), (4 + out * scale, middle - thick), (4 + out * scale, middle + thick),
+                  (4 + stop, middle + thick), (4 + stop, middle - thick)])  # fmt: skip
+    sketch.path([(4, middle - half), (4 + stop, middle - half), (4 + stop, middle + half), (4, middle + half), (4, middle - half)], True)

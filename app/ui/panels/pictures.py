@@ -50,6 +50,11 @@ class Sketch:
         self._painter.setPen(pen)
         self._painter.drawPolyline([QPointF(*point) for point in points])
 
+    def outline(self, points: Sequence[Point]) -> None:
+        """Draw the edge of something that does not cut."""
+        self._painter.setPen(QPen(self._theme.ink, 1))
+        self._painter.drawPolyline([QPointF(*point) for point in points])
+
     def guide(self, points: Sequence[Point]) -> None:
         """Draw a thin dashed line."""
         pen = QPen(self._theme.muted, 1)

@@ -13,11 +13,12 @@ from app.model.tool import LEAST_RATE, Tool, ToolKind, shape_keys
 from app.ui.panels.changes import for_material, material_of, with_tool
 from app.ui.panels.fields import ListField, NumberField, Spec
 from app.ui.panels.form import Form
+from app.ui.panels.hold_group import HoldGroup
 from app.ui.panels.tool_kinds import KINDS, USUAL_ANGLES
 
 
 class ToolForm(Form):
-    """Number, kind, shape, speed and feeds of one tool."""
+    """Number, kind, shape, speed, feeds and holder of one tool."""
 
     def __init__(self) -> None:
         super().__init__("Tool", removable="tool")
@@ -42,6 +43,7 @@ class ToolForm(Form):
         self.chip.setContentsMargins(0, 4, 0, 0)
         self.chip.setProperty("role", "muted")
         self.add(self.chip)
+        self.hold = HoldGroup(self, self._edit)
 
     def _add(self, spec: Spec, edit: Callable[[Tool, float], Tool]) -> NumberField:
         return self.add_number(spec, lambda job, v: self._edit(job, lambda tool: edit(tool, v)))
@@ -66,6 +68,7 @@ class ToolForm(Form):
         self.feed.show_value(tool.feed_rate)
         self.plunge.show_value(tool.plunge_rate)
         self.chip.setText(chip_load_words(tool))
+        self.hold.show(tool)
 
     def _show_shape(self, tool: Tool) -> None:
         """Show the numbers that tools of its kind have beside the diameter."""

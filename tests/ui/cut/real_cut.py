@@ -51,15 +51,15 @@ def slot_part():
     return FlatPart(job, regions_of(job)[0])
 
 
-def real_cut(cells=256, part=True):
+def real_cut(cells=256, part=True, tool=TOOL):
     """The program, cut."""
-    setup = CutSetup((program(),), {1: TOOL}, BoxStock(STOCK), slot_part() if part else None)
+    setup = CutSetup((program(),), {1: tool}, BoxStock(STOCK), slot_part() if part else None)
     return cut(setup, CutOptions(cells))
 
 
-def real_shown(cells=256, part=True, colour=CutColour.METAL):
+def real_shown(cells=256, part=True, colour=CutColour.METAL, tool=TOOL):
     """The program, cut and prepared for the view."""
-    return shown_cut(real_cut(cells, part), (ProgramFile("slot.ngc", TEXT.encode()),), colour)
+    return shown_cut(real_cut(cells, part, tool), (ProgramFile("slot.ngc", TEXT.encode()),), colour)
 
 
 def detailed_heights(window, cells=256):

@@ -1,12 +1,14 @@
 """The places of a real cut in a list, the verdict in words, and how much of the area is how far from the part."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from app.ui.cut.entries import EntryColour, certified, entries_of, level_of, sentences_of, title_of
 from app.ui.verdict import Level, Verdict
 from app.workflow.judgement import Certificate
-from tests.ui.cut.real_cut import real_shown
+from tests.ui.cut.real_cut import TOOL, real_shown
 
 
 @pytest.fixture(scope="module")
@@ -26,6 +28,16 @@ def test_every_place_is_listed_what_counts_first_with_its_line(shown):
     assert hole.place == pytest.approx((33.0, 15.0, -2.05), abs=0.2)
     assert shown.texts[0].line(hole.line - 1).startswith("G1 Z-2.05")
     assert "line 13" in hole.words
+
+
+def test_a_shank_and_a_holder_in_metal_are_places_with_their_lines():
+    held = replace(TOOL, flute_length=1.0, shank_diameter=4.0, stick_out=1.5, holder=((0.0, 5.0), (20.0, 5.0)))
+    found = {entry.title.split(",")[0]: entry for entry in entries_of(real_shown(tool=held))}
+    assert found["Holder"].title == "Holder, 0.550 deep"
+    assert found["Shank"].title == "Shank, 1.000 deep"
+    assert all(found[name].counts and found[name].colour is EntryColour.ACCIDENT for name in ("Holder", "Shank"))
+    assert found["Shank"].line == 6 and found["Shank"].motion >= 0
+    assert np.hypot(found["Holder"].place[0] - 33.0, found["Holder"].place[1] - 15.0) <= 5.0
 
 
 def test_motions_know_their_file_and_lines_their_motion(shown):
