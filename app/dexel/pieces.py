@@ -1,9 +1,10 @@
 """A path in the pieces that the engine sweeps: straight ones, and level arcs of at most a quarter turn.
 
-Level arcs of the XY plane stay arcs. Helices and arcs of the other planes become chords that keep within `CHORD` of them, point
-by point: between its ends a curve leaves its chord, run at even parameter, by at most max |second derivative| / 8, which for an
-arc of radius A, turn w and change of radius g in n chords is (A w² + 2 g w) / (8 n²). Splines become chords within `CHORD` of
-the hulls of their Bézier pieces (`app.fit.nurbs`). A cut height is then off by at most CHORD (1 + slope of the surface).
+Level arcs of the XY plane stay arcs. Helices and arcs of the other planes become chords that keep within `CHORD` of them (or as
+near as the caller wants), point by point: between its ends a curve leaves its chord, run at even parameter, by at most
+max |second derivative| / 8, which for an arc of radius A, turn w and change of radius g in n chords is (A w² + 2 g w) / (8 n²).
+Splines become chords within `CHORD` of the hulls of their Bézier pieces (`app.fit.nurbs`). A cut height is then off by at most
+CHORD (1 + slope of the surface).
 """
 
 from __future__ import annotations
@@ -70,29 +71,30 @@ class Window:
 class Splitter:
     """The pieces of motions, any part of them at a time."""
 
-    def __init__(self, motions: Motions, arcs_stay: bool = True, window: Window | None = None) -> None:
+    def __init__(self, motions: Motions, arcs_stay: bool = True, window: Window | None = None, chord: float = CHORD) -> None:
         """Prepare to split.
 
         Args:
             motions: n motions.
             arcs_stay: False: level arcs become chords too.
             window: of curves off it that fall into chords only the first and the last chord are made: neighbours need no more.
+            chord: how far at most chords are from their curves, mm, > 0.
         """
         self._motions = motions
         self._arcs = arc_paths(motions)
-        self._level = _is_level(motions, self._arcs) & arcs_stay
+        self._level = _is_level(motions, self._arcs, chord) & arcs_stay
         self._arc = np.full(len(motions), -1)
         self._arc[self._arcs.rows] = np.arange(len(self._arcs))
-        self._splines = dict(zip(motions.splines, flattened_all(list(motions.splines.values()), CHORD), strict=True))
+        self._splines = dict(zip(motions.splines, flattened_all(list(motions.splines.values()), chord), strict=True))
         self._whole = np.ones(len(motions), np.int64)
-        self._whole[self._arcs.rows] = _arc_counts(self._arcs, self._level)
+        self._whole[self._arcs.rows] = _arc_counts(self._arcs, self._level, chord)
         for row, points in self._splines.items():
             self._whole[row] = len(points) - 1
         self.counts = self._whole.copy()
         """How many pieces each motion has."""
         if window is not None:
             for rows, low, high in (self._reach_of_chords(), self._reach_of_splines()):
-                off = rows[window.misses(rows, low, high)]
+                off = rows[window.misses(rows, low - (chord - CHORD), high + (chord - CHORD))]
                 self.counts[off] = np.minimum(self._whole[off], 2)
 
     def _reach_of_chords(self) -> tuple[NDArray[np.intp], Floats, Floats]:
@@ -138,10 +140,10 @@ def _counted(sizes: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.arange(sizes.sum()) - np.repeat(np.cumsum(sizes) - sizes, sizes)
 
 
-def _is_level(motions: Motions, arcs: ArcPaths) -> NDArray[np.bool_]:
+def _is_level(motions: Motions, arcs: ArcPaths, chord: float) -> NDArray[np.bool_]:
     """Return which arcs are better swept as level arcs of mean radii than by chords."""
     level = (arcs.axes[:, 2] == 2) & (motions.start[arcs.rows, 2] == motions.end[arcs.rows, 2])
-    return np.asarray(level & (_level_counts(arcs) <= _chord_counts(arcs)))
+    return np.asarray(level & (_level_counts(arcs) <= _chord_counts(arcs, chord)))
 
 
 def _level_counts(arcs: ArcPaths) -> NDArray[np.int64]:
@@ -151,15 +153,15 @@ def _level_counts(arcs: ArcPaths) -> NDArray[np.int64]:
     ).clip(1), dtype=np.int64)  # fmt: skip
 
 
-def _chord_counts(arcs: ArcPaths) -> NDArray[np.int64]:
-    """Return in how many chords each falls."""
+def _chord_counts(arcs: ArcPaths, chord: float) -> NDArray[np.int64]:
+    """Return in how many chords each falls that are nowhere farther from it than `chord`, mm."""
     turn, grow = np.abs(arcs.sweep), np.abs(arcs.end_radius - arcs.start_radius)
     bend = np.maximum(arcs.start_radius, arcs.end_radius) * turn**2 + 2 * grow * turn
-    return np.asarray(np.ceil(np.sqrt(bend / (8 * CHORD))).clip(1), dtype=np.int64)
+    return np.asarray(np.ceil(np.sqrt(bend / (8 * chord))).clip(1), dtype=np.int64)
 
 
-def _arc_counts(arcs: ArcPaths, level: NDArray[np.bool_]) -> NDArray[np.int64]:
-    return np.where(level, _level_counts(arcs), _chord_counts(arcs))
+def _arc_counts(arcs: ArcPaths, level: NDArray[np.bool_], chord: float) -> NDArray[np.int64]:
+    return np.where(level, _level_counts(arcs), _chord_counts(arcs, chord))
 
 
 def _places(arcs: ArcPaths, k: NDArray[np.int64], fractions: Floats) -> Floats:

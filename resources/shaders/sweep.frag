@@ -1,0 +1,4 @@
+#version 330
+// Only depths are wanted.
+void main() {
+}
