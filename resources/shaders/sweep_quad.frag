@@ -2,16 +2,18 @@
 // The height of a sweep over a cell, in closed form; the formulas are those of run_kernels.py, which derives them.
 uniform vec4 tool;     // radius, flat, fillet, slope of the cone (0 = none), mm
 uniform float span;    // radius that the fillet takes, mm
-flat in vec4 here;
+in vec2 cell;
 const float NEVER = 3e38;
 out float height;
 
 #ifdef ARC
+flat in vec2 normal;
 flat in vec4 bend;
 flat in vec4 from_ends;
 flat in vec4 tangents;
 #else
 flat in vec4 along;
+flat in vec2 steps;
 flat in vec4 more;
 #ifdef BULL
 flat in vec4 lines[3];
@@ -43,16 +45,16 @@ float contact(float c) {
 
 void main() {
 #ifdef ARC
-    vec2 cell = (gl_FragCoord.xy - here.xy) * bend.w;
-    vec2 d = here.zw * bend.x + cell, p = from_ends.xy + cell, e = from_ends.zw + cell;
-    float w = 2.0 * dot(here.zw, d) + dot(d, d) * bend.y;
+    vec2 off = round(cell) * bend.w;
+    vec2 d = normal * bend.x + off, p = from_ends.xy + off, e = from_ends.zw + off;
+    float w = 2.0 * dot(normal, d) + dot(d, d) * bend.y;
     float gap = w / (1.0 + sqrt(max(1.0 + w * bend.y, 0.0)));
     bool inside = min(dot(p, tangents.xy), -dot(e, tangents.zw)) >= 0.0;
     height = bend.z + profile(inside ? gap * gap : min(dot(p, p), dot(e, e)));
 #else
-    vec2 cell = gl_FragCoord.xy - here.xy;
-    float on = dot(along.yz, cell);
-    float a = here.z + on, b = along.x + on, c = here.w + along.y * cell.y - along.z * cell.x;
+    vec2 off = round(cell);
+    float on = dot(steps, off);
+    float a = along.x + on, b = along.y + on, c = along.z + steps.x * off.y - steps.y * off.x;
     float s = along.w;
     float q2 = tool.x * tool.x - c * c;
 #if defined(BALL)
