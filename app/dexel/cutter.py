@@ -86,7 +86,7 @@ class Cutter:
         if by >= self.radius:
             return None
         rest = max(by - self.flat, 0.0)
-        flat, radius = self.flat - (by - rest), self.radius - by
+        flat, radius = max(self.flat - by, 0.0), self.radius - by
         if not math.isinf(self.slope):
             whole = self.rim_of_fillet - self.flat + flat <= radius
             if not whole:

@@ -56,7 +56,8 @@ class Tessellation:
         facet: their size d, mm, > 0.
         wedges: False leaves the corners of chains open.
         side: which facets are kept. Cutters that are no balls have no upper side.
-        overlap: how far the cylinder of a level move reaches over its ends, mm, >= 0; it keeps within the spheres there.
+        overlap: how far the cylinder of a level move reaches over its ends, mm, >= 0, so that no crack is left where a drawing rounds
+            places; it keeps within the spheres there, and so is slimmer by overlap² / 2r. Of steep moves up to 16 times that.
     """
 
     facet: float
