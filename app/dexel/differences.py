@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.dexel.workpiece import Heights
+from app.model.motion import Floats
 
 TOLERANCE = 1e-4
 """mm; float32 sums of some hundred millimetres differ by less, whoever adds them."""
@@ -36,15 +37,21 @@ class Apart:
         """Whether nothing but walls tells them apart."""
         return self.astray == 0
 
+    def joined(self, other: Apart | None) -> Apart:
+        """Return both, of one job after another, as one."""
+        if other is None:
+            return self
+        return Apart(max(self.largest, other.largest), self.cells + other.cells, self.astray + other.astray, self.rims + other.rims)
 
-def apart(record: Heights, other: Heights, allowed: float = TOLERANCE) -> Apart:
+
+def apart(record: Heights, other: Heights, allowed: float | Floats = TOLERANCE) -> Apart:
     """Return how far heights are from those of the engine of record, (rows, cols) both.
 
     A cell whose centre is on a vertical wall falls to either side by rounding: it then has a height between the least and the greatest
     of its neighbours'. More than a share `RIMS` of such cells are no walls.
 
     Args:
-        allowed: difference that counts as none, mm.
+        allowed: difference that counts as none, mm; or (rows, cols) of them.
     """
     import cv2
 
