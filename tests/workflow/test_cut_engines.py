@@ -58,7 +58,8 @@ def no_graphics() -> moderngl.Context:
 def hardware() -> moderngl.Context:
     """A software context that says it is none; what it paints is true."""
     context = standalone_context()
-    context.info["GL_RENDERER"] = "a card"
+    with context:
+        context.info["GL_RENDERER"] = "a card"
     return context
 
 
@@ -86,8 +87,8 @@ def test_no_graphics_system_is_said_once_and_the_processor_takes_over() -> None:
     record, done = run(Engine.CPU), run(Engine.GPU, Graphics(no_graphics))
     assert np.array_equal(record.cut.heights, done.cut.heights)
     said = [finding for finding in done.findings if "processor" in finding.text]
-    assert [finding.text for finding in said] == ["The heights are the processor's, not those of the engine gpu: There is no OpenGL 3.3 here. "
-                                                  "Install a graphics driver."]  # fmt: skip
+    want = "The heights are the processor's, not those of the engine gpu: There is no OpenGL 3.3 here. Install a graphics driver."
+    assert [finding.text for finding in said] == [want]
     assert not said[0].counts
     data = cut_report(done, TWO).data
     assert data["engine"].startswith("cpu: ") and "There is no OpenGL 3.3 here" in data["engine"]
