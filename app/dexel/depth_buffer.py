@@ -141,8 +141,9 @@ def _facets(grid: Grid, low: float, sweeps: list[tuple[Cutter, Chains]], how: Te
 
 
 def _tiles(grid: Grid, most: int) -> Iterator[tuple[tuple[slice, slice], Grid]]:
-    """Yield the parts of a grid that are drawn at a time, and where they are in it."""
+    """Yield where in a grid the parts of at most so many cells along a side are, and those parts."""
     for row in range(0, grid.rows, most):
         for col in range(0, grid.cols, most):
-            part = Grid(grid.x0 + col * grid.pitch, grid.y0 + row * grid.pitch, grid.pitch, min(most, grid.rows - row), min(most, grid.cols - col))
-            yield (slice(row, row + part.rows), slice(col, col + part.cols)), part
+            rows, cols = min(most, grid.rows - row), min(most, grid.cols - col)
+            corner = grid.x0 + col * grid.pitch, grid.y0 + row * grid.pitch
+            yield (slice(row, row + rows), slice(col, col + cols)), Grid(*corner, grid.pitch, rows, cols)

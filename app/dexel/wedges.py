@@ -169,7 +169,8 @@ def polygon_counts(course: Course, cutters: Mapping[int, Cutter], facet: float) 
             for part, _ in facets_in(cutter, chains, Tessellation(facet, side=side)):
                 found += np.bincount(part.kind, minlength=len(FacetKind))
         both, down = kept[Side.BOTH], kept[Side.DOWN]
-        total += (both[FacetKind.CYLINDER] + chains.corners * whole, down[FacetKind.CYLINDER] + chains.corners * lower, both.sum(), down.sum())
+        cylinders = FacetKind.CYLINDER
+        total += both[cylinders] + chains.corners * whole, down[cylinders] + chains.corners * lower, both.sum(), down.sum()
     return PolygonCounts(*total.tolist())
 
 

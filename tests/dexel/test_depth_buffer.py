@@ -54,9 +54,10 @@ def drawn(context: moderngl.Context, piece: Workpiece, course: Course | Motions,
 
 
 def allowed(cutter: Cutter, pitch: float, facet: float) -> tuple[Cutter, Cutter]:
-    """The cutters between which the method lies."""
+    """The cutters between which the method lies; the facet of a wall seen on edge, which may give any of its heights, is as wide as
+    twice the error."""
     error = facet_error(cutter, facet)
-    more, less = error * (1 + CHORD_SHARE) + pitch**2 / (2 * cutter.radius) + pitch * SUBPIXEL, error + pitch * SUBPIXEL
+    more, less = error * (1 + CHORD_SHARE) + pitch**2 / (2 * cutter.radius) + pitch * SUBPIXEL, 2 * error + pitch * SUBPIXEL
     slim, wide = cutter.shrunk(more), cutter.grown(less)
     assert slim is not None
     deeper = error * CHORD_SHARE + pitch * SUBPIXEL
@@ -105,8 +106,10 @@ def test_nothing_stays_open_at_thousands_of_corners(context: moderngl.Context, s
         assert astray(drawn(context, piece, motions, CUTTERS[cutter]), piece, motions, CUTTERS[cutter]) == 0
 
 
-def rms(got: Heights, want: Heights) -> float:
-    return float(np.sqrt(np.mean((got.astype(float) - want) ** 2)))
+def test_overlaps_close_what_rounding_would_leave_open(context: moderngl.Context) -> None:
+    """A way as steep as 85 degrees on which, without them, one cell of 2 million stays as it was."""
+    piece, motions = box_piece(size=100, cells=1500), polyline(winding(105, 3000, 0.33, 0.006, 1.5))
+    assert astray(drawn(context, piece, motions, CUTTERS["ball"]), piece, motions, CUTTERS["ball"]) == 0
 
 
 def test_the_error_of_a_level_pass_is_two_thirds_of_the_sagitta_on_average(context: moderngl.Context) -> None:
@@ -114,10 +117,10 @@ def test_the_error_of_a_level_pass_is_two_thirds_of_the_sagitta_on_average(conte
     motions, ball = polyline([(-30, 0.0013, -3), (30, 0.0013, -3)]), CUTTERS["ball"]
     for facet in (0.2, 0.4):
         over = drawn(context, piece, motions, ball, Tessellation(facet)) - cut(piece, motions, ball).heights.astype(float)
-        middle = over[:, 100:300]
+        middle = over[150:250]
         sagitta = facet_error(ball, facet) / 2
         assert middle.min() > -2e-5
-        assert middle.mean() == pytest.approx(2 / 3 * sagitta, rel=0.1)
+        assert middle.mean() == pytest.approx(2 / 3 * sagitta, rel=0.15)
         assert middle.max() <= 1.05 * sagitta
 
 
