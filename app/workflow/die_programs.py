@@ -1,4 +1,4 @@
-"""Finishing programs to measure by: zigzags over a curved die, 100 mm square, by ball cutters, as many moves as in the published figures."""
+"""Finishing programs to measure by: zigzags over a curved die, 100 mm square, by ball cutters, moves as published."""
 
 from __future__ import annotations
 

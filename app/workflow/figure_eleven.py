@@ -17,10 +17,11 @@ from app.dexel.engines import Graphics, published_error
 from app.dexel.quads import quad_heights
 from app.dexel.trim import WORKERS, trim
 from app.dexel.wedges import PolygonCounts, polygon_counts
-from app.dexel.workpiece import Heights
+from app.dexel.workpiece import Heights, Workpiece
 from app.errors import HitofudeError
 from app.graphics import is_software, renderer_of
 from app.progress import NO_PROGRESS, Progress
+from app.workflow.cut import GRAPHICS
 from app.workflow.die_programs import PROGRAMS, SIZE, DieProgram, block
 
 if TYPE_CHECKING:
@@ -29,8 +30,8 @@ if TYPE_CHECKING:
 PORTIONS = 16
 """Parts in which the plain way is done, so that it can be stopped."""
 
-PRINTED = ("As printed, 1024 x 1024 cells on a workstation of 195 MHz: 9,542 moves, radius 5 mm, 16.83 s by software, 0.99 s by depth buffer; "
-           "35,391 moves, radius 3 mm, 15.93 s and 1.65 s.")  # fmt: skip
+PRINTED = ("As printed, 1024 x 1024 cells on a workstation of 195 MHz: 9,542 moves, radius 5 mm, 16.83 s by software, 0.99 s by depth "
+           "buffer; 35,391 moves, radius 3 mm, 15.93 s and 1.65 s.")  # fmt: skip
 
 
 class Way(Enum):
@@ -106,7 +107,8 @@ class FigureEleven:
         """Return everything as plain values, units in the names."""
         return {
             "cells": self.options.cells, "pitch_mm": SIZE / self.options.cells, "repeat": self.options.repeat, "threads": WORKERS,
-            "renderer": self.renderer or None, "software": is_software(self.renderer) if self.renderer else None, "fault": self.fault or None,
+            "renderer": self.renderer or None, "software": is_software(self.renderer) if self.renderer else None,
+            "fault": self.fault or None,
             "ways": {way.value: text for way, text in WAYS.items()}, "programs": [_plain(row) for row in self.rows], "printed": PRINTED,
         }  # fmt: skip
 
@@ -115,7 +117,8 @@ class FigureEleven:
         return "\n".join(_lines(self))
 
 
-def figure_eleven(options: FigureOptions = FigureOptions(), progress: Progress = NO_PROGRESS, graphics: Graphics = Graphics()) -> FigureEleven:
+def figure_eleven(options: FigureOptions = FigureOptions(), progress: Progress = NO_PROGRESS,
+                  graphics: Graphics = GRAPHICS) -> FigureEleven:  # fmt: skip
     """Measure every way on every program that is asked for.
 
     Raises:
@@ -143,22 +146,28 @@ def _row(name: str, options: FigureOptions, context: moderngl.Context | None, pr
     program, piece = PROGRAMS[name], block(options.cells)
     progress.step(0.0, f"Making program {name}")
     course, cutters = program.course(), program.cutters
-    ways: dict[Way, Run] = {
-        Way.RECORD: lambda told: trim(piece, course, cutters, progress=told).heights, Way.PLAIN: lambda told: plain_heights(program, options.cells, told),
-    }  # fmt: skip
-    if context is not None:
-        engine = DepthBuffer(context)
-        ways |= {Way.QUADS: lambda told: quad_heights(context, piece, course, cutters, told),
-                 Way.PUBLISHED: lambda told: engine.heights(piece, course, cutters, told)}  # fmt: skip
-    seconds, heights = {}, {}
-    for k, (way, run) in enumerate(ways.items()):
-        share = 0.05 + 0.9 * k / len(ways), 0.05 + 0.9 * (k + 1) / len(ways)
-        seconds[way], heights[way] = _best(run, options.repeat, progress.part(*share))
-    if context is not None:
-        engine.release()
-    found = {way: apart(heights[Way.RECORD], other) for way, other in heights.items() if way is not Way.RECORD}
+    with ExitStack() as stack:
+        seconds, heights = {}, {}
+        ways = _ways(program, piece, context, stack)
+        for k, (way, run) in enumerate(ways.items()):
+            share = 0.05 + 0.9 * k / len(ways), 0.05 + 0.9 * (k + 1) / len(ways)
+            seconds[way], heights[way] = _best(run, options.repeat, progress.part(*share))
+    found: dict[Way, Apart] = {way: apart(heights[Way.RECORD], other) for way, other in heights.items() if way is not Way.RECORD}
     counts = polygon_counts(course, cutters, FACET_PITCHES * piece.grid.pitch)
     return FigureRow(name, program, seconds, found, counts, published_error(piece, course, cutters))
+
+
+def _ways(program: DieProgram, piece: Workpiece, context: moderngl.Context | None, stack: ExitStack) -> dict[Way, Run]:
+    """Return what computes heights, by way; the stack gives back what they hold."""
+    course, cutters, cells = program.course(), program.cutters, piece.grid.cols
+    ways: dict[Way, Run] = {Way.RECORD: lambda told: trim(piece, course, cutters, progress=told).heights,
+                            Way.PLAIN: lambda told: plain_heights(program, cells, told)}  # fmt: skip
+    if context is None:
+        return ways
+    engine = DepthBuffer(context)
+    stack.callback(engine.release)
+    return ways | {Way.QUADS: lambda told: quad_heights(context, piece, course, cutters, told),
+                   Way.PUBLISHED: lambda told: engine.heights(piece, course, cutters, told)}  # fmt: skip
 
 
 def _best(run: Run, repeat: int, progress: Progress) -> tuple[float, Heights]:
@@ -209,8 +218,10 @@ def _lines(figure: FigureEleven) -> Iterator[str]:
     """Yield the lines of the table."""
     options, renderer = figure.options, figure.renderer
     drawn = f"drawn by {renderer} ({'software' if is_software(renderer) else 'hardware'})" if renderer else "nothing drawn"
-    yield (f"Figure 11: {options.cells} x {options.cells} cells of {SIZE / options.cells:.4g} mm, best of {options.repeat}, {WORKERS} threads; {drawn}")
-    yield f"{'':2}{'moves':>8}{'radius':>8}" + "".join(f"{way.value:>12}" for way in Way) + "".join(f"{_ratio_name(pair):>18}" for pair in _RATIOS)
+    yield (f"Figure 11: {options.cells} x {options.cells} cells of {SIZE / options.cells:.4g} mm, best of {options.repeat}, "
+           f"{WORKERS} threads; {drawn}")
+    columns = [f"{way.value:>12}" for way in Way] + [f"{slower.value + '/' + faster.value:>18}" for slower, faster in _RATIOS]
+    yield f"{'':2}{'moves':>8}{'radius':>8}" + "".join(columns)
     for row in figure.rows:
         times = "".join(f"{row.seconds[way]:>10.3f} s" if way in row.seconds else f"{'-':>12}" for way in Way)
         ratios = "".join(f"{ratio:>17.1f}x" if (ratio := row.ratio(*pair)) is not None else f"{'-':>18}" for pair in _RATIOS)
@@ -225,6 +236,3 @@ def _lines(figure: FigureEleven) -> Iterator[str]:
         yield figure.fault
     yield PRINTED
 
-
-def _ratio_name(pair: tuple[Way, Way]) -> str:
-    return f"{pair[0].value}/{pair[1].value}"
