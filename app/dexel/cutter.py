@@ -92,7 +92,7 @@ class Cutter:
             if not whole:
                 return Cutter(radius, lift=self.lift + by * self.slope, slope=self.slope)
             return replace(self, radius=radius, flat=flat, lift=self.lift + rest * self.slope)
-        return replace(self, radius=radius, flat=flat, fillet=self.fillet - rest, lift=self.lift + rest)
+        return replace(self, radius=radius, flat=flat, fillet=min(self.fillet - rest, radius - flat), lift=self.lift + rest)
 
     def heights(self, radii: Floats) -> Floats:
         """Return the profile over the tip, mm; infinite beyond the radius.
