@@ -25,6 +25,7 @@ Hitofude: from a line drawing to tool paths that can be trusted on a real machin
   hitofude smooth PROGRAM.ngc -o OUT  any NC program's chords into lines, arcs or splines, proven to a tolerance (smooth --help)
   hitofude surface SCENE.toml -o OUT  tool paths over compound surfaces, told apart by surface, each move proven (surface --help)
   hitofude stages DRAWING -o DIR      the bitmap way of 1986, step by step, as pictures and codes (stages --help)
+  hitofude figure11                   how long software and depth buffer take for the same cuts, as published in 1999 (figure11 --help)
   hitofude --version                  this version
   hitofude --help                     this text
 
@@ -92,7 +93,11 @@ def _command(argv: list[str], stopped: threading.Event) -> int:
         from app.cli_surface import surface_command
 
         return surface_command(rest, stopped)
-    _say(f"there is no command '{name}'; use 'make', 'tools', 'cut', 'check', 'smooth', 'surface', 'stages' or 'open', "
+    if name == "figure11":
+        from app.cli_figure11 import figure11_command
+
+        return figure11_command(rest, stopped)
+    _say(f"there is no command '{name}'; use 'make', 'tools', 'cut', 'check', 'smooth', 'surface', 'stages', 'figure11' or 'open', "
          "see hitofude --help")
     return BAD_INPUT
 

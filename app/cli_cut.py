@@ -21,7 +21,7 @@ from app.model.tool_table import TableRow, ToolTable
 from app.nc.read.dialect import Dialect
 from app.nc.tool_offsets import tool_offsets
 from app.progress import Progress
-from app.workflow.cut import CutOptions, CutProgram, cut
+from app.workflow.cut import CutOptions, CutProgram, Engine, cut
 from app.workflow.cut_files import heights_of, picture_of
 from app.workflow.cut_report import CutReport, cut_report
 from app.workflow.examine import Examined, ExamineOptions, examine
@@ -49,7 +49,7 @@ def cut_command(argv: Sequence[str], stopped: threading.Event) -> int:
     wishes = _wishes(arguments)
     ready = setup_of(_programs(arguments, progress.part(0.0, 0.2)), wishes, progress.part(0.2, 0.25))
     _ensure_window(arguments.window, ready)
-    done = cut(ready.setup, CutOptions(arguments.grid, arguments.window), progress.part(0.25, 0.95))
+    done = cut(ready.setup, CutOptions(arguments.grid, arguments.window, engine=Engine(arguments.engine)), progress.part(0.25, 0.95))
     report = cut_report(done, ready)
     texts = dict(_texts(outputs, ready, done, report))
     progress.step(1.0)

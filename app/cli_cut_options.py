@@ -17,7 +17,7 @@ from app.files.holders import outline_of
 from app.files.job_toml import ORIGIN_HELP, parse_origin, read_units
 from app.model.operation import LEAST_LENGTH
 from app.model.tool import HolderPoint, Tool, ToolKind
-from app.workflow.cut import CELLS
+from app.workflow.cut import CELLS, Engine
 from app.workflow.examine import CONTROLS
 from app.workflow.setup_stock import FINEST, box_stock
 from app.workflow.setup_tools import Held
@@ -36,7 +36,8 @@ HELD = "NUMBER=HOLDER:STICKOUT"
 Corners = list[float]
 """x0, y0, z0, x1, y1, z1, mm."""
 
-LATER_ENGINES = {"gpu": "the engine on the graphics card", "patent": "the engine of the patent, by depth buffer,"}
+ENGINE_HELP = ("what computes the heights: cpu, the engine of record; gpu, as exactly by the graphics system; patent, by facets in the "
+               "depth buffer, as published in 1999; where the graphics system fails, cpu (default auto: cpu)")  # fmt: skip
 _COUNT = {ToolKind.FLAT: (1,), ToolKind.BALL: (1,), ToolKind.BULL: (2,), ToolKind.V: (2,), ToolKind.DRILL: (1, 2), ToolKind.TAPER: (3,)}
 
 
@@ -195,7 +196,7 @@ def _look_options(group: argparse._ArgumentGroup) -> None:
                        help=f"square cells along the longer side (default {CELLS})")
     group.add_argument("--window", metavar="X0,Y0,X1,Y1", type=typed(window_given),
                        help="only this part of the stock, as finely; what goes wrong on the way is told of all of it")
-    group.add_argument("--engine", choices=["auto", "cpu", *LATER_ENGINES], default="auto", help="what computes (default auto: cpu)")
+    group.add_argument("--engine", choices=[engine.value for engine in Engine], default=Engine.AUTO.value, help=ENGINE_HELP)
 
 
 def _part_options(group: argparse._ArgumentGroup) -> None:
@@ -226,9 +227,6 @@ def read_arguments(argv: Sequence[str]) -> argparse.Namespace:
         InputError: one line that names the option, its value and what it must be.
     """
     arguments = cut_parser().parse_intermixed_args(with_equals(argv))
-    if arguments.engine in LATER_ENGINES:
-        raise InputError(f"--engine {arguments.engine}: {LATER_ENGINES[arguments.engine]} is not part of this version; "
-                         "leave the option away, or say cpu, the engine of record")
     for option in ("tool", "holder"):
         numbers = [given for given, _ in getattr(arguments, option)]
         twice = next((given for given in numbers if numbers.count(given) > 1), None)

@@ -234,7 +234,34 @@ def test_the_control_and_slashed_blocks_are_as_asked(slot: Path, tmp_path: Path)
 
 @pytest.mark.parametrize("engine", ["auto", "cpu"])
 def test_the_engine_of_record(engine: str, slot: Path, tmp_path: Path) -> None:
-    assert report_of(tmp_path, slot, STOCK, "--tool=1=flat:6", "--engine", engine)["engine"].startswith("cpu: ")
+    data = report_of(tmp_path, slot, STOCK, "--tool=1=flat:6", "--engine", engine)
+    assert data["engine"].startswith("cpu: ") and data["apart_from_cpu"] is None
+    assert data["tolerance"]["heights_mm"] == 5e-6
+
+
+def test_the_graphics_system_computes_the_heights_that_are_written(slot: Path, tmp_path: Path) -> None:
+    """On whatever OpenGL there is, software as well, as it was asked for."""
+    common = (slot, STOCK, "--tool=1=ball:6", "--quiet", "--grid=500")
+    assert cut(*common, "--engine=cpu", "--heights", tmp_path / "cpu.npy") == 0
+    assert cut(*common, "--engine=gpu", "--heights", tmp_path / "gpu.npy", "--report", tmp_path / "gpu.json2") == 0
+    data, where = json.loads((tmp_path / "gpu.json2").read_text()), json.loads((tmp_path / "gpu.json").read_text())
+    assert data["engine"].startswith("gpu: ") and "by the cpu: which motion cut each cell" in data["engine"]
+    assert where["engine"] == "gpu"
+    assert data["apart_from_cpu"]["largest_mm"] < 1e-4 and data["apart_from_cpu"]["cells"] == 0
+    assert data["tolerance"]["heights_mm"] == 1e-4
+    assert data["findings"] == [] and data["assumed"] == []
+    heights = [np.load(tmp_path / f"{name}.npy") for name in ("cpu", "gpu")]
+    assert np.abs(np.subtract(*heights)).max() < 1e-4
+    assert data["tools"][0]["removed_mm3"] == pytest.approx(data["removed_mm3"], rel=1e-5)
+
+
+def test_the_published_method_states_its_error(slot: Path, tmp_path: Path) -> None:
+    data = report_of(tmp_path, slot, STOCK, "--tool=1=ball:6", "--engine=patent", "--grid=500")
+    assert data["engine"].startswith("patent: ")
+    facet = 2 * 0.1
+    assert facet**2 / 24 <= data["tolerance"]["heights_mm"] < facet**2 / 11
+    assert data["apart_from_cpu"]["largest_mm"] > 1e-4 and data["apart_from_cpu"]["cells"] > 1000
+    assert data["removed_mm3"] == pytest.approx(data["tools"][0]["removed_mm3"], rel=0.01)
 
 
 def test_more_cells_than_memory_holds_are_told_before(slot: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

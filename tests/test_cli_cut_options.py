@@ -31,8 +31,6 @@ def refused(capsys: pytest.CaptureFixture[str], *arguments: object) -> str:
 
 
 @pytest.mark.parametrize(("arguments", "words"), [
-    ("--engine gpu", "--engine gpu: the engine on the graphics card is not part of this version; leave the option away, or say cpu"),
-    ("--engine patent", "--engine patent: the engine of the patent, by depth buffer, is not part of this version"),
     ("--engine fast", "--engine is 'fast'; choose one of"),
     ("--grid 0", "--grid is wrong: '0' is no number of cells; write a whole number from 1 to 30000"),
     ("--grid 30001", "'30001' is no number of cells"),

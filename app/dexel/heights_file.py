@@ -7,17 +7,16 @@ import json
 
 import numpy as np
 
+from app.dexel.engines import Engine
 from app.dexel.workpiece import Grid, HeightStock, Workpiece
 from app.errors import InputError, ParameterError
 
-ENGINE = "cpu"
 
-
-def heights_files(workpiece: Workpiece) -> tuple[bytes, bytes]:
+def heights_files(workpiece: Workpiece, engine: Engine = Engine.CPU) -> tuple[bytes, bytes]:
     """Return the NPY file, float32 (rows, cols) with row 0 at the lowest Y, and its JSON file, lengths in mm."""
     out, grid = io.BytesIO(), workpiece.grid
     np.save(out, workpiece.heights)
-    where = {"x0": grid.x0, "y0": grid.y0, "pitch": grid.pitch, "floor": workpiece.floor, "engine": ENGINE}
+    where = {"x0": grid.x0, "y0": grid.y0, "pitch": grid.pitch, "floor": workpiece.floor, "engine": engine.value}
     return out.getvalue(), (json.dumps(where, indent=1) + "\n").encode()
 
 

@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.dexel.cutter import Cutter, cutter_of
+from app.dexel.engines import Engine, Graphics, HeightEngine, Job, Told, trial_of
 from app.dexel.probe import lowest
 from app.dexel.trim import Cut, TrimOptions, trim
 from app.dexel.workpiece import Grid, Heights, Stock, Workpiece, ensure_memory
-from app.model.finding import Finding, worst_first
+from app.model.finding import Finding, FindingKind, worst_first
 from app.model.motion import Floats
 from app.model.stock_box import StockBox
 from app.model.tool import Tool
@@ -30,11 +31,15 @@ from app.workflow.judgement import Judgement, findings_of
 from app.workflow.parts import FlatPart, Part, SolidPart, beyond
 from app.workflow.wall_probe import WallProbe
 
+__all__ = ["CELLS", "CutOptions", "CutProgram", "CutSetup", "Engine", "cut"]
+
 CELLS = 1024
 """Along the stock's longer side, as on the text's screen."""
 
 TRIM_BYTES_A_CELL, BYTES_A_CELL = 16, 64
 """What cutting alone takes, and with judging: heights, owners, bounds, wanted heights, masks, labels."""
+
+GRAPHICS = Graphics()
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,12 +88,17 @@ class CutOptions:
         trace: note who cut each cell last, and what each motion took.
         judge: measure on the motions and certify, and look on the whole stock for what goes wrong on the way; else the cells alone are
             compared with the part, which is quick.
+        engine: whose heights are shown, judged and written; what only the engine of record can tell it tells beside them. A look that is
+            neither traced nor judged may be graphics hardware's alone (AUTO); then nobody tells of rapids in metal.
+        stop: motions from this one on, counted through all files, are not done; None = all are. The engine of record tells alone then.
     """
 
     cells: int = CELLS
     window: tuple[float, float, float, float] | None = None
     trace: bool = True
     judge: bool = True
+    engine: Engine = Engine.AUTO
+    stop: int | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,6 +111,7 @@ class CutProgram:
         top, floor: of the stock, mm, program coordinates.
         judgement: against the part; None where there is none.
         findings: what went wrong on the way and what is wrong with the result, what counts first; places in program coordinates.
+        told: what has computed the heights.
         holders: shanks and holders in metal, their motions counted through all files; None where nobody has looked.
     """
 
@@ -111,25 +122,48 @@ class CutProgram:
     floor: float
     judgement: Judgement | None
     findings: tuple[Finding, ...]
+    told: Told
     holders: HolderLook | None = None
 
 
-def cut(setup: CutSetup, options: CutOptions = CutOptions(), progress: Progress = NO_PROGRESS, exact: Exact | None = None) -> CutProgram:
+def cut(setup: CutSetup, options: CutOptions = CutOptions(), progress: Progress = NO_PROGRESS, exact: Exact | None = None,
+        graphics: Graphics = GRAPHICS) -> CutProgram:  # fmt: skip
     """Cut programs out of their stock, and judge what is left.
 
     Args:
         exact: what closed forms say against a drawing, where the caller knows it; else it is measured.
+        graphics: what computes heights where the options ask for it.
 
     Raises:
         HitofudeError: a tool makes no shape, or is not among the tools; or there are more cells than memory holds.
         Cancelled: the job was asked to stop.
     """
-    run = _Run.of(setup, options)
-    result, accidents, holders = run.cut(progress.part(0.0, 0.4))
-    judgement = run.judged(result, exact, progress.part(0.4, 1.0)) if setup.part is not None else None
+    run = _Run.of(setup, options, graphics)
+    done = run.cut(progress.part(0.0, 0.4))
+    judgement = run.judged(done.cut, exact, progress.part(0.4, 1.0)) if setup.part is not None else None
     outside = beyond(setup.part, run.box()) if setup.part is not None and options.judge else ()
-    findings = worst_first((*accidents, *outside, *(findings_of(judgement, setup.where) if judgement is not None else ())))
-    return CutProgram(setup, options, result, float(run.workpiece.heights.max()), run.workpiece.floor, judgement, findings, holders)
+    judged = findings_of(judgement, setup.where) if judgement is not None else ()
+    findings = worst_first((*done.accidents, *outside, *judged, *_fallen_back(done.told, options.engine)))
+    return CutProgram(setup, options, done.cut, float(run.workpiece.heights.max()), run.workpiece.floor, judgement, findings, done.told,
+                      done.holders)  # fmt: skip
+
+
+def _fallen_back(told: Told, asked: Engine) -> tuple[Finding, ...]:
+    """Return the remark that another engine has computed the heights than the one that was asked for."""
+    if not told.fault or asked is Engine.AUTO:
+        return ()
+    text = f"The heights are the processor's, not those of the engine {asked.value}: {told.fault}."
+    return (Finding(FindingKind.ASSUMED, text, counts=False),)
+
+
+@dataclass(frozen=True, eq=False)
+class _Done:
+    """What all programs left, what went wrong on the way, what has computed the heights, and what is known of holders."""
+
+    cut: Cut
+    accidents: tuple[Finding, ...]
+    told: Told
+    holders: HolderLook | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,39 +175,62 @@ class _Run:
     courses: tuple[KnownCourse, ...]
     cutters: Mapping[int, Cutter]
     workpiece: Workpiece
+    graphics: Graphics
 
     @staticmethod
-    def of(setup: CutSetup, options: CutOptions) -> _Run:
+    def of(setup: CutSetup, options: CutOptions, graphics: Graphics) -> _Run:
         grid = Grid.over(options.window or setup.stock.box, options.cells)
         ensure_memory(grid, BYTES_A_CELL if setup.part is not None and options.judge else TRIM_BYTES_A_CELL)
         courses = tuple(course_of(program) for program in setup.programs)
-        return _Run(setup, options, courses, {n: cutter_of(tool) for n, tool in setup.tools.items()}, setup.stock.over(grid))
+        return _Run(setup, options, courses, {n: cutter_of(tool) for n, tool in setup.tools.items()}, setup.stock.over(grid), graphics)
 
-    def cut(self, progress: Progress) -> tuple[Cut, tuple[Finding, ...], HolderLook | None]:
+    def cut(self, progress: Progress) -> _Done:
         """Cut all programs, and look for what goes wrong on the way: on the whole stock, whatever the window is."""
         if self.options.window is None or not self.options.judge:
             return self._cut(progress)
-        setup, options = replace(self.setup, part=None), replace(self.options, window=None, trace=False)
-        whole, told, holders = _Run.of(setup, replace(options, cells=min(options.cells, CELLS)))._cut(progress.part(0.0, 0.5))
-        seen, _, _ = replace(self, options=replace(self.options, judge=False))._cut(progress.part(0.5, 1.0))
-        return replace(seen, rapids=whole.rapids), told, holders
+        setup, options = replace(self.setup, part=None), replace(self.options, window=None, trace=False, engine=Engine.CPU)
+        whole = _Run.of(setup, replace(options, cells=min(options.cells, CELLS)), self.graphics)._cut(progress.part(0.0, 0.5))
+        seen = replace(self, options=replace(self.options, judge=False))._cut(progress.part(0.5, 1.0))
+        return replace(whole, cut=replace(seen.cut, rapids=whole.cut.rapids), told=seen.told)
 
-    def _cut(self, progress: Progress) -> tuple[Cut, tuple[Finding, ...], HolderLook | None]:
-        told: list[Finding] = []
+    def _cut(self, progress: Progress) -> _Done:
+        accident: list[Finding] = []
         holders: HolderLook | None = None
+        engine = HeightEngine(self._engine(), self.graphics)
         cut: Cut | None = None
         done, count = 0, len(self.courses)
         for k, known in enumerate(self.courses):
             part, before = progress.part(k / count, (k + 1) / count), self.workpiece if cut is None else cut.workpiece
-            after = trim(before, known.course, self.cutters, TrimOptions(trace=self.options.trace), part.part(0.0, 0.8))
+            stop = None if self.options.stop is None else self.options.stop - done
+            after, heights = self._heights(engine, (before, known.course, self.cutters), stop, part.part(0.0, 0.8))
             if self.options.judge:
                 found = accidents(self._stage(k, before, after, done), part.part(0.8, 1.0))
-                told, after = [*told, *found.findings], replace(after, rapids=found.rapids)
+                accident, after = [*accident, *found.findings], replace(after, rapids=found.rapids)
                 holders = found.holders if holders is None else holders.followed(found.holders, done)
+            after = replace(after, heights=heights)
             cut = after if cut is None else _joined(cut, after, done)
             done += len(known.course.motions)
         assert cut is not None
-        return cut, tuple(told), holders
+        return _Done(cut, tuple(accident), engine.told, holders)
+
+    def _engine(self) -> Engine:
+        """Return which engine's heights are wanted beside those of the engine of record, or, for a quick look, without them."""
+        if self.options.engine is not Engine.AUTO:
+            return self.options.engine
+        return Engine.GPU if not self.options.trace and not self.options.judge and trial_of(self.graphics).hardware else Engine.CPU
+
+    def _heights(self, engine: HeightEngine, job: Job, stop: int | None, progress: Progress) -> tuple[Cut, Heights]:
+        """Return what the engine of record tells of a job up to a motion, and the heights that are wanted."""
+        if stop is not None:
+            part = trim(*job, TrimOptions(trace=self.options.trace, stop=stop), progress)
+            return part, part.heights
+        if self.options.engine is Engine.AUTO and engine.wanted:
+            looked = engine.alone(job, progress)
+            if looked is not None:
+                return Cut(job[0], looked), looked
+        share = 0.5 if engine.wanted else 1.0
+        after = trim(*job, TrimOptions(trace=self.options.trace), progress.part(0.0, share))
+        return after, engine.beside(after.heights, job, progress.part(share, 1.0))
 
     def _stage(self, k: int, before: Workpiece, after: Cut, done: int) -> Stage:
         """Return a program as it was cut; `done` motions were before it."""

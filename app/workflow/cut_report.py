@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from app.dexel.differences import TOLERANCE
+from app.dexel.engines import Engine, Told
 from app.model.finding import Finding, FindingKind, worst_first
 from app.model.motion import Floats, MotionKind
 from app.model.motion_path import lengths
@@ -27,7 +29,12 @@ from app.workflow.setup_tools import KnownTool
 
 Json = dict[str, Any]
 
-ENGINE = "cpu: the lowest height of every sweep in every cell, in closed form, as float32"
+ENGINES = {
+    Engine.CPU: "cpu: the lowest height of every sweep in every cell, in closed form, as float32",
+    Engine.GPU: "gpu: heights by a quad for each piece of the path, in closed form, as float32, on {renderer}",
+    Engine.PATENT: "patent: heights by facets of two cells in the depth buffer, as published in 1999, on {renderer}",
+}  # fmt: skip
+BESIDE = "; by the cpu: which motion cut each cell, volumes, rapids in metal, certificates"
 LENGTH_METHOD = "cut: motions at feed rate that took metal from the cells; link: those at feed rate that took none; G0 is rapid"
 GOUGE_METHODS = {True: "closed-form distance of every motion from every wall, less tool radius and stock to leave; floors by the cells",
                  False: "the cells' heights below the part's"}  # fmt: skip
@@ -35,7 +42,12 @@ _TELLING = 10.0
 """Cells; a bound on gouges between the cells that is wider says nothing that a person could use."""
 
 HEIGHTS = 5e-6
-HEIGHTS_METHOD = "bound, times 1 + the surface's slope, for heights up to 32 mm; cells beside an upright wall may fall to either side"
+HEIGHTS_METHODS = {
+    Engine.CPU: "bound, times 1 + the surface's slope, for heights up to 32 mm; cells beside an upright wall may fall to either side",
+    Engine.GPU: "how far from the cpu's they may be; cells beside an upright wall may fall to either side",
+    Engine.PATENT: "how far facets are at most inside the surface, square to it (d² / 8r of cylinders, twice that of spheres); cells "
+                   "beside an upright wall may fall to either side",
+}  # fmt: skip
 SPOTS = 100
 """Places that the report lists."""
 
@@ -201,7 +213,7 @@ def _about(done: CutProgram, ready: Ready, motions: _Motions) -> Json:
     """Return what was cut out of what, with what, how finely."""
     grid, box, ends = done.cut.before.grid, done.setup.stock.box, zip(("low", "high"), cut_box(ready.programs).tolist(), strict=True)
     return {
-        "engine": ENGINE, "tolerance": _tolerance(done),
+        **_engine(done.told), "tolerance": _tolerance(done),
         "grid": {"x0": grid.x0, "y0": grid.y0, "pitch_mm": grid.pitch, "rows": grid.rows, "cols": grid.cols},
         "window": done.options.window, "coordinates": COORDINATES,
         "extent_mm": {end: [_finite(value) for value in corner] for end, corner in ends},
@@ -211,16 +223,29 @@ def _about(done: CutProgram, ready: Ready, motions: _Motions) -> Json:
     }  # fmt: skip
 
 
+def _engine(told: Told) -> Json:
+    """Return what has computed the heights, and how far they are from the cpu's where it has computed them as well."""
+    text, found = ENGINES[told.engine].format(renderer=told.renderer), told.apart
+    if told.engine is not Engine.CPU:
+        text += BESIDE
+    elif told.fault:
+        text += f"; {told.fault}"
+    apart = {"largest_mm": found.largest, "cells": found.cells, "beyond_mm": TOLERANCE, "rim_cells": found.rims} if found else None
+    return {"engine": text, "apart_from_cpu": apart}
+
+
 def _tolerance(done: CutProgram) -> Json:
     """Return within which lengths what is true; of a part only where there is one."""
-    part, cells = done.setup.part, {"heights_mm": HEIGHTS, "heights": HEIGHTS_METHOD, "pitch_mm": done.cut.before.grid.pitch}
+    told, part = done.told, done.setup.part
+    within = {Engine.CPU: HEIGHTS, Engine.GPU: TOLERANCE, Engine.PATENT: told.error}[told.engine]
+    cells: Json = {"heights_mm": within, "heights": HEIGHTS_METHODS[told.engine], "pitch_mm": done.cut.before.grid.pitch}
     if part is None:
         return cells
-    told = cells | {"part_mm": part.tolerance}
+    cells |= {"part_mm": part.tolerance}
     if isinstance(part, SolidPart):
-        return told | {"leave_mm": part.leave}
+        return cells | {"leave_mm": part.leave}
     contours = [contour for region in part.regions for contour in region.contours]
-    return told | {"wall_mm": part.wall_tolerance, "join_mm": part.job.join_tolerance,
+    return cells | {"wall_mm": part.wall_tolerance, "join_mm": part.job.join_tolerance,
                    "curves_mm": max((contour.deviation for contour in contours), default=0.0)}  # fmt: skip
 
 

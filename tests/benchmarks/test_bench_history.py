@@ -4,27 +4,20 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.dexel.cutter import Cutter
 from app.dexel.history import History, Playhead, changed_box
 from app.dexel.sweeps import Field
 from app.dexel.trim import TrimOptions, trim
-from app.dexel.workpiece import Grid
+from app.workflow.die_programs import PROGRAMS, block
 from tests.benchmarks.conftest import OURS, record
-from tests.benchmarks.test_bench_dexel import PROGRAMS, SIZE, STOCK, course
 
 pytestmark = pytest.mark.benchmark
 NAMES = ("A", "C")
 kept: dict[str, History] = {}
 
 
-def cutters(name: str) -> dict[int, Cutter]:
-    radius = PROGRAMS[name][1]
-    return {1: Cutter(radius, 0.0, radius)}
-
-
 def history(name: str) -> History:
     if name not in kept:
-        kept[name] = History(STOCK.over(Grid.over((0.0, 0.0, SIZE, SIZE), 1024)), [course(name)], cutters(name))
+        kept[name] = History(block(1024), [PROGRAMS[name].course()], PROGRAMS[name].cutters)
     return kept[name]
 
 
@@ -40,9 +33,10 @@ def test_seek(benchmark: BenchmarkFixture, name: str) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_from_the_start(benchmark: BenchmarkFixture, name: str) -> None:
-    piece, count = STOCK.over(Grid.over((0.0, 0.0, SIZE, SIZE), 1024)), len(course(name).motions)
-    places = iter(np.random.default_rng(1).integers(0, count + 1, 100).tolist())
-    benchmark.pedantic(lambda: trim(piece, course(name), cutters(name), TrimOptions(trace=True, stop=next(places))), rounds=15)
+    piece, program = block(1024), PROGRAMS[name]
+    places = iter(np.random.default_rng(1).integers(0, program.moves + 1, 100).tolist())
+    way, cutters = program.course(), program.cutters
+    benchmark.pedantic(lambda: trim(piece, way, cutters, TrimOptions(trace=True, stop=next(places))), rounds=15)
     record(benchmark, f"seek {name}", "cut from the start")
 
 
@@ -62,6 +56,6 @@ def test_a_frame(benchmark: BenchmarkFixture, name: str) -> None:
 
 
 def test_keep(benchmark: BenchmarkFixture) -> None:
-    piece = STOCK.over(Grid.over((0.0, 0.0, SIZE, SIZE), 1024))
-    benchmark.pedantic(lambda: History(piece, [course("C")], cutters("C")), rounds=3)
+    piece, program = block(1024), PROGRAMS["C"]
+    benchmark.pedantic(lambda: History(piece, [program.course()], program.cutters), rounds=3)
     record(benchmark, "keep C", OURS)

@@ -29,8 +29,8 @@ from app.nc.posts import load_post
 from app.nc.read.options import PATIENT, ReadOptions
 from app.nc.read.reader import read_program
 from app.workflow.course import course_of, picked
+from app.workflow.die_programs import PROGRAMS, finishing
 from app.workflow.smooth import Smoothed, SmoothOptions, smooth
-from tests.benchmarks.test_bench_dexel import PROGRAMS, finishing
 from tests.dexel.courses import joined
 from tests.workflow.test_smooth_oracle import WAYS, program
 from tests.workflow.written_curves import Floats
@@ -47,7 +47,7 @@ Case = tuple[bytes, float, StockBox]
 
 
 def program_a(data: Path) -> Case:
-    return program(finishing(*PROGRAMS["A"])), PROGRAMS["A"][1], StockBox(0.0, 0.0, -25.0, 100.0, 100.0)
+    return program(finishing(PROGRAMS["A"])), PROGRAMS["A"].radius, StockBox(0.0, 0.0, -25.0, 100.0, 100.0)
 
 
 def drop_cutter(data: Path) -> Case:

@@ -1,0 +1,67 @@
+"""How far two fields of heights of the same cells are from one another, walls apart."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.dexel.workpiece import Heights
+from app.model.motion import Floats
+
+TOLERANCE = 1e-4
+"""mm; float32 sums of some hundred millimetres differ by less, whoever adds them."""
+
+RIMS = 0.01
+"""Share of the cells that may fall to the other side of a wall: all sides of a part may lie on centres of cells."""
+
+
+@dataclass(frozen=True, slots=True)
+class Apart:
+    """How far heights are from those of the engine of record.
+
+    Attributes:
+        largest: mm; infinite where one is no number.
+        cells: how many differ by more than `TOLERANCE`.
+        astray: how many differ by more than was allowed, and by more than a cell that falls to the other side of a wall would.
+        rims: how many differ by more than was allowed, but lie between the heights beside them.
+    """
+
+    largest: float
+    cells: int
+    astray: int
+    rims: int
+
+    @property
+    def agrees(self) -> bool:
+        """Whether nothing but walls tells them apart."""
+        return self.astray == 0
+
+    def joined(self, other: Apart | None) -> Apart:
+        """Return both, of one job after another, as one."""
+        if other is None:
+            return self
+        return Apart(max(self.largest, other.largest), self.cells + other.cells, self.astray + other.astray, self.rims + other.rims)
+
+
+def apart(record: Heights, other: Heights, allowed: float | Floats = TOLERANCE) -> Apart:
+    """Return how far heights are from those of the engine of record, (rows, cols) both.
+
+    A cell whose centre is on a vertical wall falls to either side by rounding: it then has a height between the least and the greatest
+    of its neighbours'. More than a share `RIMS` of such cells are no walls.
+
+    Args:
+        allowed: difference that counts as none, mm; or (rows, cols) of them.
+    """
+    import cv2
+
+    off = np.abs(np.subtract(record, other, dtype=np.float64))
+    off[np.isnan(off)] = np.inf
+    far = off > allowed
+    square = np.ones((3, 3), np.uint8)
+    low, high = cv2.erode(record, square), cv2.dilate(record, square)
+    beside = far & (other >= low - allowed) & (other <= high + allowed)
+    rims = int(np.count_nonzero(beside))
+    astray = int(np.count_nonzero(far & ~beside))
+    most = 4 + RIMS * record.size
+    return Apart(float(off.max(initial=0.0)), int(np.count_nonzero(off > TOLERANCE)), astray + (rims if rims > most else 0), rims)

@@ -1,0 +1,249 @@
+"""Which engine computes heights, and what happens when the graphics system cannot, or lies.
+
+The engine of record runs on the processor. Graphics systems are tried on a small job before anything is believed of them, and
+what they compute is compared with the engine of record wherever that has run as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from enum import Enum
+from functools import cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from app.dexel.cutter import Cutter
+from app.dexel.differences import TOLERANCE, Apart, apart
+from app.dexel.trial import tried
+from app.dexel.trim import Course
+from app.dexel.workpiece import Heights, Workpiece
+from app.errors import HitofudeError
+from app.graphics import is_software, renderer_of, standalone_context
+from app.model.motion import Floats
+from app.progress import NO_PROGRESS, Progress
+
+if TYPE_CHECKING:
+    import moderngl
+
+Cutters = Mapping[int, Cutter]
+"""By T number."""
+
+Job = tuple[Workpiece, Course, Cutters]
+"""What is cut, along what, with what."""
+
+Compute = Callable[["moderngl.Context", Workpiece, Course, Cutters, Progress], Heights]
+"""Heights that a course leaves, on a graphics context that is current."""
+
+EIGHT_BITS = 1.0 / 256.0
+"""Cells; graphics systems round corners of facets to that."""
+
+
+class Engine(Enum):
+    """What computes heights.
+
+    AUTO takes graphics hardware for a look that is neither traced nor judged, where it has passed its trial, else the processor.
+    """
+
+    AUTO = "auto"
+    CPU = "cpu"
+    GPU = "gpu"
+    PATENT = "patent"
+
+
+def quads(ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress) -> Heights:
+    """Compute heights by a quad for each piece of the path; see `quad_heights`."""
+    from app.dexel.quads import quad_heights
+
+    return quad_heights(ctx, workpiece, course, cutters, progress)
+
+
+def published(ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress) -> Heights:
+    """Compute heights as it was published, by facets in the depth buffer; see `DepthBuffer`."""
+    from app.dexel.depth_buffer import DepthBuffer
+
+    engine = DepthBuffer(ctx)
+    try:
+        return engine.heights(workpiece, course, cutters, progress)
+    finally:
+        engine.release()
+
+
+@dataclass(frozen=True)
+class Graphics:
+    """A graphics system.
+
+    Attributes:
+        opened: returns a context of its own, which is not current.
+        quads, published: compute heights on it.
+    """
+
+    opened: Callable[[], moderngl.Context] = standalone_context
+    quads: Compute = quads
+    published: Compute = published
+
+    @contextmanager
+    def current(self) -> Iterator[moderngl.Context]:
+        """Yield a context that is current on this thread, for as long as the job takes.
+
+        Raises:
+            HitofudeError: there is no OpenGL.
+        """
+        context = self.opened()
+        try:
+            with context:
+                yield context
+        finally:
+            context.release()
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """How a graphics system has done the small job.
+
+    Attributes:
+        renderer: its name; empty where there is none.
+        fault: what is wrong with it, the end of a sentence; empty if nothing is.
+    """
+
+    renderer: str
+    fault: str
+
+    @property
+    def hardware(self) -> bool:
+        """Whether it is graphics hardware that can be believed."""
+        return not self.fault and not is_software(self.renderer)
+
+
+@cache
+def trial_of(graphics: Graphics) -> Trial:
+    """Return how a graphics system does the small job; each is tried once."""
+    renderer = ""
+    try:
+        with graphics.current() as context:
+            renderer = renderer_of(context)
+            found = tried(lambda piece, course, cutters: _computed(graphics.quads, context, (piece, course, cutters), NO_PROGRESS))
+    except HitofudeError as error:
+        return Trial(renderer, str(error).rstrip("."))
+    except Exception as error:  # whatever a driver comes up with
+        return Trial(renderer, f"{renderer or 'the graphics system'} fails ({_words(error)})")
+    if found.agrees:
+        return Trial(renderer, "")
+    return Trial(renderer, f"{renderer} computes wrong heights, in a trial up to {found.largest:.3g} mm off in {found.cells} cells")
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """What has computed the heights of a cut.
+
+    Attributes:
+        engine: never AUTO.
+        renderer: name of the graphics system; empty for the processor.
+        apart: how far its heights are from those of the engine of record, where that has run as well.
+        error: how far at most, square to the surface, they may be from exact, mm, beside rounding.
+        fault: why the engine that was asked for has not computed them; empty: it has.
+    """
+
+    engine: Engine
+    renderer: str = ""
+    apart: Apart | None = None
+    error: float = 0.0
+    fault: str = ""
+
+
+class HeightEngine:
+    """Computes heights for one job, program after program; what fails once is not tried again.
+
+    Attributes:
+        told: what has computed them so far.
+    """
+
+    def __init__(self, engine: Engine, graphics: Graphics) -> None:
+        """Prepare for an engine, not AUTO."""
+        self._graphics, self._compute = graphics, {Engine.GPU: graphics.quads, Engine.PATENT: graphics.published}.get(engine)
+        self.told = Told(engine)
+        trial = trial_of(graphics) if self._compute is not None else Trial("", "")
+        if trial.fault:
+            self._fall_back(trial.fault)
+        elif trial.renderer:
+            self.told = Told(engine, trial.renderer)
+
+    @property
+    def wanted(self) -> bool:
+        """Whether heights beside those of the engine of record are to be computed."""
+        return self._compute is not None
+
+    def alone(self, job: Job, progress: Progress = NO_PROGRESS) -> Heights | None:
+        """Return what a course leaves of a work piece; None: the engine of record must compute it.
+
+        Raises:
+            HitofudeError: it cannot be cut. Cancelled: the job was asked to stop.
+        """
+        if self._compute is None:
+            return None
+        try:
+            with self._graphics.current() as context:
+                return _computed(self._compute, context, job, progress)
+        except HitofudeError:
+            raise
+        except Exception as error:  # whatever a driver comes up with
+            self._fall_back(f"{self.told.renderer} fails ({_words(error)})")
+            return None
+
+    def beside(self, record: Heights, job: Job, progress: Progress = NO_PROGRESS) -> Heights:
+        """Return what a course leaves of a work piece, compared with the heights of the engine of record.
+
+        Args:
+            record: heights of the engine of record; they are returned where others fail or disagree.
+            job: what is cut.
+        """
+        heights = self.alone(job, progress)
+        if heights is None:
+            return record
+        error = published_error(*job) if self.told.engine is Engine.PATENT else 0.0
+        found = apart(record, heights, _allowed(record, error, job[0].grid.pitch))
+        if not found.agrees:
+            self._fall_back(f"{self.told.renderer} computes heights up to {found.largest:.3g} mm off, in {found.astray} cells by more than "
+                            "its stated error")  # fmt: skip
+            return record
+        self.told = replace(self.told, apart=found.joined(self.told.apart), error=max(error, self.told.error))
+        return heights
+
+    def _fall_back(self, fault: str) -> None:
+        self._compute, self.told = None, Told(Engine.CPU, fault=fault)
+
+
+def published_error(workpiece: Workpiece, course: Course, cutters: Cutters) -> float:
+    """Return how far the facets of the published method are at most from the surface, square to it, mm."""
+    from app.dexel.depth_buffer import FACET_PITCHES
+    from app.dexel.polyhedron import facet_error
+
+    facet = FACET_PITCHES * workpiece.grid.pitch
+    used = [cutters[number] for number in np.unique(course.tool).tolist() if number in cutters]
+    return max((facet_error(cutter, facet) for cutter in used), default=0.0)
+
+
+def _allowed(record: Heights, error: float, pitch: float) -> float | Floats:
+    """Return by how much heights may differ from those of the engine of record, mm; of facets that is more where it is steep."""
+    if not error:
+        return TOLERANCE
+    steep = np.hypot(*np.gradient(record, pitch)) if min(record.shape) > 1 else np.zeros(record.shape)
+    return TOLERANCE + 1.25 * error * np.hypot(1.0, steep) + EIGHT_BITS * pitch * steep
+
+
+def _computed(compute: Compute, context: moderngl.Context, job: Job, progress: Progress) -> Heights:
+    """Compute heights; a graphics system that tells of an error has failed.
+
+    Raises:
+        RuntimeError: it does.
+    """
+    heights = compute(context, *job, progress)
+    if (error := context.error) != "GL_NO_ERROR":
+        raise RuntimeError(error)
+    return heights
+
+
+def _words(error: Exception) -> str:
+    return " ".join(str(error).split())[:200] or type(error).__name__
