@@ -52,7 +52,8 @@ class Chains:
         way[moves] /= length[moves, None]
         way[~moves] = 0.0
         goes_on = np.diff(chain[kept], prepend=0) == 0
-        return Chains(*(np.ascontiguousarray(column[kept]) for column in (start, end, way)), goes_on.astype(np.uint8))
+        first, last, ways = (np.ascontiguousarray(column[kept]) for column in (start, end, way))
+        return Chains(first, last, ways, goes_on.astype(np.uint8))
 
     def __len__(self) -> int:
         return len(self.joins)

@@ -86,13 +86,13 @@ class Cutter:
         if by >= self.radius:
             return None
         rest = max(by - self.flat, 0.0)
-        flat, radius = self.flat - (by - rest), self.radius - by
+        flat, radius = max(self.flat - by, 0.0), self.radius - by
         if not math.isinf(self.slope):
             whole = self.rim_of_fillet - self.flat + flat <= radius
             if not whole:
                 return Cutter(radius, lift=self.lift + by * self.slope, slope=self.slope)
             return replace(self, radius=radius, flat=flat, lift=self.lift + rest * self.slope)
-        return replace(self, radius=radius, flat=flat, fillet=self.fillet - rest, lift=self.lift + rest)
+        return replace(self, radius=radius, flat=flat, fillet=min(self.fillet - rest, radius - flat), lift=self.lift + rest)
 
     def heights(self, radii: Floats) -> Floats:
         """Return the profile over the tip, mm; infinite beyond the radius.

@@ -3,15 +3,15 @@
 The grid is the frame buffer, a pixel a cell, and the view runs up along the tool's axis: of all that is drawn over a cell's
 centre the depth test keeps the lowest. What is read back trims the dexels.
 
-How far heights are from exact: facets leave metal (`facet_error`, square to the surface), chords of arcs and splines are off by a
-quarter of that to either side. Graphics hardware rounds corners to a part of a pixel, 1/256 as a rule, which is worth as
-much times the slope. Depths are of 24 bits over the heights that matter, 2e-6 mm of 30 mm. At walls a cell falls to either side.
+How far heights are from exact: facets leave metal (`facet_error`, square to the surface, and at steep moves as much again for the
+overlaps), chords of arcs and splines are off by a quarter of that to either side. Hardware rounds corners to a part of a pixel,
+1/256 as a rule, which is worth as much times the slope; a facet that stands all but on edge then gives any of its own heights.
+Depths have 24 bits over the heights that matter, 2e-6 mm of 30 mm.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,13 +32,18 @@ FACET_PITCHES = 2.0
 """Size of facets where nobody says it, in pitches of the grid: the published figure."""
 
 OVERLAP_PITCHES = 1.0 / 16.0
-"""How far cylinders reach over their ends: more than places are rounded by, and worth a 256th of the error of such facets."""
+"""How far cylinders of level moves reach over their ends: more than hardware rounds by, and worth a 256th of the error of such facets."""
 
 MOST_CELLS = 4096
 """Along a side of what is drawn at a time."""
 
 _DEPTH_CLAMP = 0x864F
 """What lies outside the range of depths is drawn at its end and not left out."""
+
+
+def usual(grid: Grid) -> Tessellation:
+    """Return the facets with which a grid is cut if nobody says otherwise."""
+    return Tessellation(FACET_PITCHES * grid.pitch, overlap=OVERLAP_PITCHES * grid.pitch)
 
 
 class DepthBuffer:
@@ -49,21 +54,19 @@ class DepthBuffer:
 
         Args:
             ctx: the graphics context.
-            how: in which facets; None: those of two pitches of the grid.
+            how: in which facets; None: the usual ones for each grid.
 
         Raises:
             moderngl.Error: the graphics system does not take it.
         """
         self._ctx, self._how = ctx, how
         self._program = compiled(ctx, "sweep.vert", "sweep.frag", "SWEEP")
-        corners = np.arange(ROOM, dtype=np.int32)[:, None] * 4 + np.array([0, 1, 2, 0, 2, 3], np.int32)
-        self._order = ctx.buffer(corners.tobytes())
         self._places = ctx.buffer(reserve=ROOM * 48, dynamic=True)
-        self._facets = ctx.vertex_array(self._program, [(self._places, "3f", "place")], self._order)
+        self._facets = ctx.vertex_array(self._program, [(self._places, "3f 3f 3f 3f/i", "a", "b", "c", "d")], mode=ctx.TRIANGLE_STRIP)
 
     def release(self) -> None:
         """Give everything back to the graphics system."""
-        for part in (self._facets, self._order, self._places, self._program):
+        for part in (self._facets, self._places, self._program):
             part.release()
 
     def heights(self, workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter], progress: Progress = NO_PROGRESS) -> Heights:
@@ -84,8 +87,7 @@ class DepthBuffer:
         """
         grid = workpiece.grid
         ensure_memory(grid, 8)
-        how = self._how or Tessellation(FACET_PITCHES * grid.pitch)
-        how = replace(how, overlap=max(how.overlap, OVERLAP_PITCHES * grid.pitch))
+        how = self._how or usual(grid)
         sweeps = chains_of(course, cutters, chord_of(course, cutters, how.facet))
         left = workpiece.heights.copy()
         tiles = list(_tiles(grid, min(MOST_CELLS, *self._ctx.info["GL_MAX_VIEWPORT_DIMS"], self._ctx.info["GL_MAX_TEXTURE_SIZE"])))
@@ -124,7 +126,7 @@ class DepthBuffer:
         with ctx.scope(frame, ctx.DEPTH_TEST):
             ctx.depth_func = "<"
             ctx.enable_direct(_DEPTH_CLAMP)
-            self._facets.render(vertices=6 * len(quads))
+            self._facets.render(vertices=4, instances=len(quads))
             ctx.disable_direct(_DEPTH_CLAMP)
 
 
@@ -139,8 +141,9 @@ def _facets(grid: Grid, low: float, sweeps: list[tuple[Cutter, Chains]], how: Te
 
 
 def _tiles(grid: Grid, most: int) -> Iterator[tuple[tuple[slice, slice], Grid]]:
-    """Yield the parts of a grid that are drawn at a time, and where they are in it."""
+    """Yield where in a grid the parts of at most so many cells along a side are, and those parts."""
     for row in range(0, grid.rows, most):
         for col in range(0, grid.cols, most):
-            part = Grid(grid.x0 + col * grid.pitch, grid.y0 + row * grid.pitch, grid.pitch, min(most, grid.rows - row), min(most, grid.cols - col))
-            yield (slice(row, row + part.rows), slice(col, col + part.cols)), part
+            rows, cols = min(most, grid.rows - row), min(most, grid.cols - col)
+            corner = grid.x0 + col * grid.pitch, grid.y0 + row * grid.pitch
+            yield (slice(row, row + rows), slice(col, col + cols)), Grid(*corner, grid.pitch, rows, cols)

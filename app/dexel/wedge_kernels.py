@@ -193,7 +193,7 @@ def strips_of(piece, way, joins, shape, half, wedges):
     if piece + 1 >= len(joins) or not joins[piece + 1]:
         return at_start, half
     turn = turn_of(u, row_of(way, piece + 1))
-    return at_start, int(math.ceil(turn * shape[0] / shape[1] - 1e-9)) if wedges and turn > STRAIGHT else 0
+    return at_start, math.ceil(turn * shape[0] / shape[1] - 1e-9) if wedges and turn > STRAIGHT else 0
 
 
 @kernel(f"int64({_OUT}, {_TABLE}, {_TABLE}, {_TABLE}, uint8[::1], {_SHAPE}, {_TABLE}, {_VIEW})", counts=False)

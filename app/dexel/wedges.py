@@ -56,7 +56,8 @@ class Tessellation:
         facet: their size d, mm, > 0.
         wedges: False leaves the corners of chains open.
         side: which facets are kept. Cutters that are no balls have no upper side.
-        overlap: how far the cylinder of a level move reaches over its ends, mm, >= 0; it keeps within the spheres there.
+        overlap: how far the cylinder of a level move reaches over its ends, mm, >= 0, so that no crack is left where a drawing rounds
+            places; it keeps within the spheres there, and so is slimmer by overlap² / 2r. Of steep moves up to 16 times that.
     """
 
     facet: float
@@ -168,7 +169,8 @@ def polygon_counts(course: Course, cutters: Mapping[int, Cutter], facet: float) 
             for part, _ in facets_in(cutter, chains, Tessellation(facet, side=side)):
                 found += np.bincount(part.kind, minlength=len(FacetKind))
         both, down = kept[Side.BOTH], kept[Side.DOWN]
-        total += (both[FacetKind.CYLINDER] + chains.corners * whole, down[FacetKind.CYLINDER] + chains.corners * lower, both.sum(), down.sum())
+        cylinders = FacetKind.CYLINDER
+        total += both[cylinders] + chains.corners * whole, down[cylinders] + chains.corners * lower, both.sum(), down.sum()
     return PolygonCounts(*total.tolist())
 
 

@@ -109,3 +109,12 @@ def test_a_window_leaves_curves_out_and_changes_no_bit(cutter: str, monkeypatch:
         assert done.owner is not None
         assert np.array_equal(done.owner, every.owner)
         assert np.array_equal(done.volume, every.volume)
+
+
+@pytest.mark.parametrize("chord", [1e-5, 1e-3, 0.05])
+def test_chords_are_as_near_as_the_caller_wants(chord: float) -> None:
+    for motions, along_it in [*((curve, lambda t, c=curve: arc_paths(c).points(t)[0]) for curve in CURVES.values()),
+                              (spline_motion(QUARTER), along(QUARTER)), (spline_motion(HEAVY), along(HEAVY))]:  # fmt: skip
+        pieces = Splitter(motions, arcs_stay=False, chord=chord).pieces(0, 1)
+        assert 0.05 * chord < from_chords(pieces, along_it(np.linspace(0, 1, 3001))).max() <= chord
+        assert len(pieces) < len(Splitter(motions, arcs_stay=False).pieces(0, 1))
