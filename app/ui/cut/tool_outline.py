@@ -30,6 +30,9 @@ as long as it is."""
 _SHANK = 3.0
 """A shank that nobody tells the length of: so many of its diameters."""
 
+_SAME = 1e-9
+"""Points nearer than this, mm, are one."""
+
 _STEPS = 24
 """Chords of a quarter of a circle."""
 
@@ -133,7 +136,7 @@ def _rounding(flat: float, radius: float, turn: float) -> Floats:
 
 def _split(points: Floats, height: float) -> tuple[Floats, Floats]:
     """Return what of an outline lies below a height, and what above; a level step at that height is above."""
-    first = int(np.searchsorted(points[:, 0], height))
+    first = int(np.searchsorted(points[:, 0], height - _SAME))
     if first == len(points):
         return points, points[:0]
     (low, near), (high, far) = points[first - 1], points[first]
@@ -146,4 +149,4 @@ def _without_doubles(points: Floats) -> Floats:
     """Return points without those that stand where the one before does."""
     if not len(points):
         return points
-    return np.asarray(points[np.append(True, np.any(np.abs(np.diff(points, axis=0)) > 1e-9, axis=1))])
+    return np.asarray(points[np.append(True, np.any(np.abs(np.diff(points, axis=0)) > _SAME, axis=1))])

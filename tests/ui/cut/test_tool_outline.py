@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from app.dexel.cutter import cutter_of
@@ -77,6 +77,7 @@ LENGTHS = st.one_of(st.just(0.0), st.floats(0.5, 90.0))
 
 @settings(max_examples=200, deadline=None)
 @given(st.sampled_from(list(ToolKind)), LENGTHS, LENGTHS, LENGTHS, LENGTHS, st.sampled_from([(), HOLDER]))
+@example(ToolKind.BALL, 0.0, 0.0, 1.5, 0.0, HOLDER)
 def test_every_tool_is_one_closed_outline(kind, flutes, overall, stick_out, shank, holder):
     most = overall or 1e9
     tool = made(kind, flute_length=min(flutes, most), overall_length=overall, stick_out=min(stick_out, most), shank_diameter=shank,
