@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from app.dexel.course import Course
 from app.dexel.cutter import Cutter
 from app.dexel.pieces import Pieces, Splitter
-from app.dexel.trim import Course
 from app.errors import ParameterError
 from app.model.motion import Floats, MotionKind
 from app.model.motion_path import anchored

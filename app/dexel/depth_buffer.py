@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.dexel.chains import Chains, chains_of
+from app.dexel.course import Course
 from app.dexel.cutter import Cutter
-from app.dexel.trim import Course
 from app.dexel.wedges import ROOM, Tessellation, chord_of, facets_in
 from app.dexel.workpiece import Grid, Heights, Workpiece, ensure_memory
 from app.graphics import compiled

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from app.dexel.course import Course
 from app.dexel.cutter import Cutter
 from app.dexel.differences import TOLERANCE, Apart, apart
 from app.dexel.trial import tried
-from app.dexel.trim import Course
 from app.dexel.workpiece import Heights, Workpiece
 from app.errors import HitofudeError
 from app.graphics import is_software, renderer_of, standalone_context

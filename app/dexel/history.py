@@ -15,8 +15,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from app.dexel.course import Course, Ints, Rapids
 from app.dexel.cutter import Cutter
-from app.dexel.sweeps import Course, Field, Ints, Limits, Mask, Rapids, Sweeps
+from app.dexel.sweeps import Field, Limits, Mask, Sweeps
 from app.dexel.workpiece import Workpiece, ensure_memory
 from app.model.motion import Floats
 from app.model.motion_path import lengths

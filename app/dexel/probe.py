@@ -8,9 +8,9 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from app.dexel.course import Course
 from app.dexel.cutter import Cutter
 from app.dexel.pieces import Splitter
-from app.dexel.trim import Course
 from app.model.motion import Floats, MotionKind
 from app.model.motion_path import reach
 

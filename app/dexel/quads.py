@@ -7,7 +7,6 @@ computed in closed form, float32, as the engine of record does. The picture has 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
@@ -15,13 +14,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from app.dexel.course import Course, Rapids
 from app.dexel.cutter import Cutter
-from app.dexel.pieces import QUARTER, Pieces, Splitter, Window
-from app.dexel.trim import Course, Rapids, TrimOptions, _deeds, _shape_rows
+from app.dexel.pieces import QUARTER, Pieces
 from app.dexel.workpiece import Grid, Heights, Workpiece, ensure_memory
 from app.graphics import compiled
 from app.model.motion import Floats
-from app.model.motion_path import anchored
 from app.progress import NO_PROGRESS, Progress
 
 if TYPE_CHECKING:
@@ -87,20 +85,15 @@ class _Way:
     """A course made ready: what each motion does, and with which cutter; its pieces."""
 
     def __init__(self, workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter]) -> None:
-        self._motions = anchored(course.motions) if any(course.motions.known_from) else course.motions
-        options = TrimOptions(Rapids.IGNORED)
-        self._does = _deeds(course, options)
-        self._shapes, self._cutter = _shape_rows(course, cutters, self._does, options)
-        radius = np.where(self._does > 0, self._shapes[self._cutter, 0], -math.inf)
-        self._splitter = Splitter(self._motions, window=Window(workpiece.grid.box, radius))
+        self._sweeps = Sweeps(workpiece.grid, course, cutters, (Rapids.IGNORED, 0.0), trace=False)
 
     def portions(self) -> Iterator[tuple[Pieces, float]]:
         """Yield the pieces of motions that follow one another, and which part of all pieces is done with them."""
-        ends, first = np.cumsum(self._splitter.counts), 0
+        ends, first = np.cumsum(self._sweeps.splitter.counts), 0
         while first < len(ends):
             done = int(ends[first - 1]) if first else 0
             last = max(first + 1, int(np.searchsorted(ends, done + PORTION, "right")))
-            yield self._splitter.pieces(first, last), float(ends[last - 1] / ends[-1])
+            yield self._sweeps.splitter.pieces(first, last), float(ends[last - 1] / ends[-1])
             first = last
 
     def quads(self, pieces: Pieces, grid: Grid, top: float) -> Iterator[tuple[str, Shape, Quads, float]]:
@@ -117,13 +110,13 @@ class _Way:
 
         for array in (pieces.start, pieces.end):
             array.setflags(write=False)
-        cutter, corner = self._cutter[pieces.motion], (float(grid.x0), float(grid.y0), float(grid.pitch))
-        tables = (pieces.start, pieces.end, self._does[pieces.motion], cutter, pieces.arc, self._shapes, pieces.arcs)
+        cutter, corner = self._sweeps.cutter[pieces.motion], (float(grid.x0), float(grid.y0), float(grid.pitch))
+        tables = (pieces.start, pieces.end, self._sweeps.does[pieces.motion], cutter, pieces.arc, self._sweeps.shapes, pieces.arcs)
         spans, met = np.empty((len(pieces), 2)), np.empty((len(pieces), 5), np.int16)
         survey(*tables, corner, (grid.rows, grid.cols), 0, len(pieces), True, top, spans, met)
         comes, frame = met[:, 1] >= met[:, 0], (*corner, float(grid.cols), float(grid.rows))
         for k in np.unique(cutter[comes]).tolist():
-            shape, mine = tuple(self._shapes[k].tolist()), comes & (cutter == k)
+            shape, mine = tuple(self._sweeps.shapes[k].tolist()), comes & (cutter == k)
             straight, round_ = np.flatnonzero(mine & (pieces.arc < 0)), np.flatnonzero(mine & (pieces.arc >= 0))
             if len(straight):
                 length = np.maximum(spans[straight, 1] - spans[straight, 0], 2 * shape[0])

@@ -9,17 +9,17 @@ from collections import deque
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import wait
 from dataclasses import dataclass, replace
-from enum import Enum
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from app.dexel.course import Course, Ints, Rapids
 from app.dexel.cutter import Cutter
 from app.dexel.pieces import Splitter, Window
 from app.dexel.workpiece import Grid, Heights
 from app.errors import Cancelled, ParameterError
-from app.model.motion import Floats, MotionKind, Motions
+from app.model.motion import Floats, MotionKind
 from app.model.motion_path import anchored
 from app.pool import pool
 from app.progress import NO_PROGRESS, Progress
@@ -32,36 +32,7 @@ CHUNKS = 4
 
 WORKERS = max(2, os.cpu_count() or 2)
 
-Ints = NDArray[np.int32]
 Mask = NDArray[np.bool_]
-
-
-class Rapids(Enum):
-    """What rapid motions do."""
-
-    IGNORED = "ignored"
-    ASKED = "asked"
-    CUT = "cut"
-
-
-@dataclass(frozen=True, eq=False)
-class Course:
-    """What is cut along.
-
-    Attributes:
-        motions: n motions; where they are not known to begin (`Motions.known_from`) they are anchored.
-        tool: (n,) T number of each.
-        left_out: rows that neither cut nor are asked, such as those to a place of the machine.
-    """
-
-    motions: Motions
-    tool: Ints
-    left_out: tuple[int, ...] = ()
-
-    @staticmethod
-    def of(motions: Motions, tools: tuple[int, ...], left_out: tuple[int, ...] = ()) -> Course:
-        """Return the course of a program; `tools` has the T number of each of its states."""
-        return Course(motions, np.array(tools, np.int32)[motions.state], left_out)
 
 
 @dataclass(frozen=True, eq=False)

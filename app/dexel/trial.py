@@ -8,9 +8,10 @@ from functools import cache
 
 import numpy as np
 
+from app.dexel.course import Course
 from app.dexel.cutter import Cutter
 from app.dexel.differences import Apart, apart
-from app.dexel.trim import Course, trim
+from app.dexel.trim import trim
 from app.dexel.workpiece import BoxStock, Grid, Heights, Workpiece
 from app.fit.fitted import arcs_between
 from app.model.stock_box import StockBox

@@ -8,14 +8,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from app.dexel.course import Course, Ints, Rapids
 from app.dexel.cutter import Cutter
-from app.dexel.sweeps import BATCH, Course, Field, Ints, Limits, Part, Rapids, Sweeps
+from app.dexel.sweeps import Field, Limits, Part, Sweeps
 from app.dexel.workpiece import Heights, Workpiece, ensure_memory
 from app.model.motion import Floats
 from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
-
-__all__ = ["BATCH", "Course", "Cut", "RapidHit", "Rapids", "TrimOptions", "trim"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +90,7 @@ def trim(workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter], op
 
     Heights are within 5e-6 mm (1 + slope of the surface) of exact for heights up to 32 mm; beside a vertical wall a cell whose centre
     is on the wall may fall to either side. They do not depend on the order of chains of motions, bit for bit, as long as there are
-    no more than BATCH pieces (breaking up a chain changes which cells are evaluated, and so the rounding).
+    no more than `sweeps.BATCH` pieces (breaking up a chain changes which cells are evaluated, and so the rounding).
 
     Args:
         workpiece: it is left as it is.

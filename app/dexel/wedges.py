@@ -18,9 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.dexel.chains import Chains, chains_of
+from app.dexel.course import Course
 from app.dexel.cutter import Cutter
 from app.dexel.polyhedron import Polyhedron, circle_corners, circle_table, facet_error, is_ball
-from app.dexel.trim import Course
 from app.model.motion import Floats
 
 ROOM = 1 << 18

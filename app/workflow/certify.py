@@ -13,9 +13,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from app.dexel.course import Rapids
 from app.dexel.cutter import Cutter
 from app.dexel.target import by_strips, frozen
-from app.dexel.trim import Rapids, TrimOptions
+from app.dexel.trim import TrimOptions
 from app.dexel.workpiece import Heights, Workpiece
 from app.progress import NO_PROGRESS, Progress
 from app.workflow.judge import Wanted

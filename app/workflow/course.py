@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from app.dexel.trim import Course
+from app.dexel.course import Course
 from app.model.motion import Floats, MotionKind, Motions
 from app.nc.extent import at_home, nowhere_of
 from app.nc.read.program import NcProgram

@@ -8,8 +8,8 @@ from functools import cache
 
 import numpy as np
 
+from app.dexel.course import Course
 from app.dexel.cutter import Cutter
-from app.dexel.trim import Course
 from app.dexel.workpiece import BoxStock, Grid, Workpiece
 from app.fit.fitted import lines_between
 from app.model.motion import Floats

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from app.dexel.trim import Course
+from app.dexel.course import Course
 from app.model.job import Job
 from app.model.moves import Moves
 from app.model.stock_box import StockBox

@@ -15,7 +15,8 @@ from app.dexel.depth_buffer import FACET_PITCHES, DepthBuffer
 from app.dexel.differences import Apart, apart
 from app.dexel.engines import Graphics, published_error
 from app.dexel.quads import quad_heights
-from app.dexel.trim import WORKERS, trim
+from app.dexel.sweeps import WORKERS
+from app.dexel.trim import trim
 from app.dexel.wedges import PolygonCounts, polygon_counts
 from app.dexel.workpiece import Heights, Workpiece
 from app.errors import HitofudeError

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from app.dexel.course import Course
 from app.dexel.pieces import Splitter
-from app.dexel.trim import Course
 from app.model.job import Job
 from app.model.motion import Floats, MotionKind
 from app.model.motion_path import arc_paths

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from app.dexel.course import Course
 from app.dexel.cutter import Cutter
-from app.dexel.trim import Course, RapidHit
+from app.dexel.trim import RapidHit
 from app.dexel.workpiece import Workpiece
 from app.model.motion import MotionKind
 from app.model.motion_path import reach

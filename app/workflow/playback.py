@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from app.dexel.course import Course
 from app.dexel.cutter import cutter_of
 from app.dexel.history import History, HistoryOptions, Playhead, changed_box
-from app.dexel.sweeps import Course, Field
+from app.dexel.sweeps import Field
 from app.dexel.workpiece import Heights
 from app.files.machine_toml import DEFAULT_MACHINE, load_machine
 from app.model.machine import Machine

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from app.dexel.course import Course
 from app.dexel.cutter import Cutter
-from app.dexel.trim import Course, trim
+from app.dexel.trim import trim
 from app.dexel.workpiece import Workpiece
 from app.model.motion import Floats, MotionKind, Plane
 from app.model.motion_path import arc_paths

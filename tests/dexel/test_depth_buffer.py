@@ -14,10 +14,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.dexel import depth_buffer
+from app.dexel.course import Course
 from app.dexel.cutter import Cutter
 from app.dexel.depth_buffer import DepthBuffer, usual
 from app.dexel.polyhedron import facet_error
-from app.dexel.trim import Course, trim
+from app.dexel.trim import trim
 from app.dexel.wedges import CHORD_SHARE, Side, Tessellation
 from app.dexel.workpiece import BoxStock, Grid, Heights, HeightStock, Workpiece
 from app.errors import Cancelled, HitofudeError, ParameterError

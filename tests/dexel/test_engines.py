@@ -6,10 +6,11 @@ import moderngl
 import numpy as np
 import pytest
 
+from app.dexel.course import Course
 from app.dexel.differences import TOLERANCE, apart
 from app.dexel.engines import Compute, Cutters, Engine, Graphics, HeightEngine, Job, Told, published_error, quads, trial_of
 from app.dexel.trial import CUTTERS, trial, tried
-from app.dexel.trim import Course, trim
+from app.dexel.trim import trim
 from app.dexel.workpiece import Heights, Workpiece
 from app.errors import Cancelled, HitofudeError
 from app.graphics import is_software, standalone_context

@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.dexel import sweeps
+from app.dexel.course import Course
 from app.dexel.history import History, HistoryOptions, Playhead, changed_box
-from app.dexel.sweeps import Course, Field
+from app.dexel.sweeps import Field
 from app.dexel.trim import TrimOptions, trim
 from app.dexel.workpiece import Workpiece
 from app.errors import Cancelled

@@ -11,10 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.ndimage import maximum_filter, minimum_filter
 
+from app.dexel.course import Course
 from app.dexel.cutter import Cutter
 from app.dexel.differences import apart
 from app.dexel.quads import quad_heights
-from app.dexel.trim import Course, trim
+from app.dexel.trim import trim
 from app.dexel.workpiece import BoxStock, Grid, Heights, HeightStock, Workpiece
 from app.errors import Cancelled, ParameterError
 from app.graphics import standalone_context

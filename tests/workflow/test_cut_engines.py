@@ -6,8 +6,8 @@ import moderngl
 import numpy as np
 import pytest
 
+from app.dexel.course import Course
 from app.dexel.engines import Compute, Cutters, Engine, Graphics, quads
-from app.dexel.trim import Course
 from app.dexel.workpiece import Heights, Workpiece
 from app.errors import HitofudeError
 from app.graphics import is_software, renderer_of, standalone_context

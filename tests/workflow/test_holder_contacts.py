@@ -8,9 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
+from app.dexel.course import Course
 from app.dexel.cutter import Cutter, cutter_of
 from app.dexel.holder import Part, bodies_of
-from app.dexel.trim import Course
 from app.dexel.workpiece import BoxStock, Grid, Workpiece
 from app.errors import Cancelled
 from app.model.motion import Floats, MotionKind, Motions, Plane

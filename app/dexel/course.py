@@ -1,0 +1,41 @@
+"""What is cut along: motions, and the tool of each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.model.motion import Motions
+
+Ints = NDArray[np.int32]
+
+
+class Rapids(Enum):
+    """What rapid motions do."""
+
+    IGNORED = "ignored"
+    ASKED = "asked"
+    CUT = "cut"
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """What is cut along.
+
+    Attributes:
+        motions: n motions; where they are not known to begin (`Motions.known_from`) they are anchored.
+        tool: (n,) T number of each.
+        left_out: rows that neither cut nor are asked, such as those to a place of the machine.
+    """
+
+    motions: Motions
+    tool: Ints
+    left_out: tuple[int, ...] = ()
+
+    @staticmethod
+    def of(motions: Motions, tools: tuple[int, ...], left_out: tuple[int, ...] = ()) -> Course:
+        """Return the course of a program; `tools` has the T number of each of its states."""
+        return Course(motions, np.array(tools, np.int32)[motions.state], left_out)
