@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.dexel.cutter import Cutter
-from app.dexel.differences import TOLERANCE, Apart, apart
+from app.dexel.differences import TOLERANCE, Apart, apart, least_beside
 from app.dexel.trial import tried
 from app.dexel.trim import Course
 from app.dexel.workpiece import Heights, Workpiece
@@ -229,7 +229,8 @@ def _allowed(record: Heights, error: float, pitch: float) -> float | Floats:
     """Return by how much heights may differ from those of the engine of record, mm; of facets that is more where it is steep."""
     if not error:
         return TOLERANCE
-    steep = np.hypot(*np.gradient(record, pitch)) if min(record.shape) > 1 else np.zeros(record.shape)
+    low, high = least_beside(record), -least_beside(-record)
+    steep = np.maximum(high - record, record - low) / pitch
     return TOLERANCE + 1.25 * error * np.hypot(1.0, steep) + EIGHT_BITS * pitch * steep
 
 
