@@ -231,7 +231,7 @@ def _allowed(record: Heights, error: float, pitch: float) -> float | Floats:
         return TOLERANCE
     low, high = least_beside(record), -least_beside(-record)
     steep = np.maximum(high - record, record - low) / pitch
-    return TOLERANCE + 1.25 * error * np.hypot(1.0, steep) + EIGHT_BITS * pitch * steep
+    return np.asarray(TOLERANCE + 1.25 * error * np.hypot(1.0, steep) + EIGHT_BITS * pitch * steep)
 
 
 def _computed(compute: Compute, context: moderngl.Context, job: Job, progress: Progress) -> Heights:
