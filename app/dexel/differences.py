@@ -53,15 +53,19 @@ def apart(record: Heights, other: Heights, allowed: float | Floats = TOLERANCE) 
     Args:
         allowed: difference that counts as none, mm; or (rows, cols) of them.
     """
-    import cv2
-
     off = np.abs(np.subtract(record, other, dtype=np.float64))
     off[np.isnan(off)] = np.inf
     far = off > allowed
-    square = np.ones((3, 3), np.uint8)
-    low, high = cv2.erode(record, square), cv2.dilate(record, square)
+    low, high = least_beside(record), -least_beside(-record)
     beside = far & (other >= low - allowed) & (other <= high + allowed)
     rims = int(np.count_nonzero(beside))
     astray = int(np.count_nonzero(far & ~beside))
     most = 4 + RIMS * record.size
     return Apart(float(off.max(initial=0.0)), int(np.count_nonzero(off > TOLERANCE)), astray + (rims if rims > most else 0), rims)
+
+
+def least_beside(heights: Heights) -> Heights:
+    """Return (rows, cols) the least height of each cell and of those that touch it."""
+    import cv2
+
+    return np.asarray(cv2.erode(heights, np.ones((3, 3), np.uint8)), np.float32)

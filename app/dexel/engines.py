@@ -17,7 +17,7 @@ import numpy as np
 
 from app.dexel.course import Course
 from app.dexel.cutter import Cutter
-from app.dexel.differences import TOLERANCE, Apart, apart
+from app.dexel.differences import TOLERANCE, Apart, apart, least_beside
 from app.dexel.trial import tried
 from app.dexel.workpiece import Heights, Workpiece
 from app.errors import HitofudeError
@@ -229,8 +229,9 @@ def _allowed(record: Heights, error: float, pitch: float) -> float | Floats:
     """Return by how much heights may differ from those of the engine of record, mm; of facets that is more where it is steep."""
     if not error:
         return TOLERANCE
-    steep = np.hypot(*np.gradient(record, pitch)) if min(record.shape) > 1 else np.zeros(record.shape)
-    return TOLERANCE + 1.25 * error * np.hypot(1.0, steep) + EIGHT_BITS * pitch * steep
+    low, high = least_beside(record), -least_beside(-record)
+    steep = np.maximum(high - record, record - low) / pitch
+    return np.asarray(TOLERANCE + 1.25 * error * np.hypot(1.0, steep) + EIGHT_BITS * pitch * steep)
 
 
 def _computed(compute: Compute, context: moderngl.Context, job: Job, progress: Progress) -> Heights:

@@ -17,7 +17,7 @@ from app.graphics import is_software, standalone_context
 from app.progress import Progress
 from tests.dexel.courses import CUTTERS as KINDS
 from tests.dexel.courses import box_piece, course_of, polyline
-from tests.dexel.test_sweep import walk
+from tests.dexel.test_sweep import REDUCED, walk
 
 JOB: Job = (box_piece(cells=120), course_of(polyline(walk(4, 60, 0.9, 0.6))), {1: KINDS["ball"]})
 
@@ -111,6 +111,15 @@ def test_the_published_method_states_its_error() -> None:
     facet = 2 * JOB[0].grid.pitch
     assert facet**2 / (8 * 3) <= engine.told.error <= 2.01 * facet**2 / (8 * 3)
     assert heights is not record and not np.array_equal(heights, record)
+
+
+@pytest.mark.parametrize("cutter", KINDS)
+def test_creases_and_walls_of_facets_are_no_faults(cutter: str) -> None:
+    for name in ("rough walk", "sharp", "raster 30.0"):
+        job: Job = (box_piece(cells=290), course_of(polyline(REDUCED[name])), {1: KINDS[cutter]})
+        engine = HeightEngine(Engine.PATENT, Graphics())
+        engine.beside(trim(*job).heights, job)
+        assert engine.told.engine is Engine.PATENT, engine.told.fault
 
 
 def test_the_engine_of_record_needs_no_graphics_system() -> None:
