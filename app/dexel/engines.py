@@ -44,7 +44,7 @@ EIGHT_BITS = 1.0 / 256.0
 class Engine(Enum):
     """What computes heights.
 
-    AUTO takes graphics hardware for a look that is neither traced nor judged, where it has passed its trial, else the processor.
+    AUTO takes graphics hardware where there is some that passes its trial, else the processor.
     """
 
     AUTO = "auto"
@@ -111,11 +111,6 @@ class Trial:
     renderer: str
     fault: str
 
-    @property
-    def hardware(self) -> bool:
-        """Whether it is graphics hardware that can be believed."""
-        return not self.fault and not is_software(self.renderer)
-
 
 @cache
 def trial_of(graphics: Graphics) -> Trial:
@@ -132,6 +127,18 @@ def trial_of(graphics: Graphics) -> Trial:
     if found.agrees:
         return Trial(renderer, "")
     return Trial(renderer, f"{renderer} computes wrong heights, in a trial up to {found.largest:.3g} mm off in {found.cells} cells")
+
+
+@cache
+def hardware(graphics: Graphics) -> bool:
+    """Return whether a graphics system is hardware that can be believed; what is none need not be tried."""
+    try:
+        with graphics.current() as context:
+            if is_software(renderer_of(context)):
+                return False
+    except Exception:  # whatever a driver comes up with: nobody has asked for it
+        return False
+    return not trial_of(graphics).fault
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from app.dexel.course import Course, Rapids
 from app.dexel.cutter import Cutter
 from app.dexel.pieces import QUARTER, Pieces
+from app.dexel.sweeps import Sweeps
 from app.dexel.workpiece import Grid, Heights, Workpiece, ensure_memory
 from app.graphics import compiled
 from app.model.motion import Floats

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.dexel.cutter import Cutter, cutter_of
-from app.dexel.engines import Engine, Graphics, HeightEngine, Job, Told, trial_of
+from app.dexel.engines import Engine, Graphics, HeightEngine, Job, Told, hardware
 from app.dexel.probe import lowest
 from app.dexel.trim import Cut, TrimOptions, trim
 from app.dexel.workpiece import Grid, Heights, Stock, Workpiece, ensure_memory
@@ -89,7 +89,7 @@ class CutOptions:
         judge: measure on the motions and certify, and look on the whole stock for what goes wrong on the way; else the cells alone are
             compared with the part, which is quick.
         engine: whose heights are shown, judged and written; what only the engine of record can tell it tells beside them. A look that is
-            neither traced nor judged may be graphics hardware's alone (AUTO); then nobody tells of rapids in metal.
+            neither traced nor judged is graphics hardware's alone under AUTO; then nobody tells of rapids in metal.
         stop: motions from this one on, counted through all files, are not done; None = all are. The engine of record tells alone then.
     """
 
@@ -214,17 +214,17 @@ class _Run:
         return _Done(cut, tuple(accident), engine.told, holders)
 
     def _engine(self) -> Engine:
-        """Return which engine's heights are wanted beside those of the engine of record, or, for a quick look, without them."""
+        """Return which engine's heights are wanted."""
         if self.options.engine is not Engine.AUTO:
             return self.options.engine
-        return Engine.GPU if not self.options.trace and not self.options.judge and trial_of(self.graphics).hardware else Engine.CPU
+        return Engine.GPU if self.options.stop is None and hardware(self.graphics) else Engine.CPU
 
     def _heights(self, engine: HeightEngine, job: Job, stop: int | None, progress: Progress) -> tuple[Cut, Heights]:
         """Return what the engine of record tells of a job up to a motion, and the heights that are wanted."""
         if stop is not None:
             part = trim(*job, TrimOptions(trace=self.options.trace, stop=stop), progress)
             return part, part.heights
-        if self.options.engine is Engine.AUTO and engine.wanted:
+        if engine.wanted and not (self.options.trace or self.options.judge) and self.options.engine is Engine.AUTO:
             looked = engine.alone(job, progress)
             if looked is not None:
                 return Cut(job[0], looked), looked

@@ -8,7 +8,19 @@ import pytest
 
 from app.dexel.course import Course
 from app.dexel.differences import TOLERANCE, apart
-from app.dexel.engines import Compute, Cutters, Engine, Graphics, HeightEngine, Job, Told, published_error, quads, trial_of
+from app.dexel.engines import (
+    Compute,
+    Cutters,
+    Engine,
+    Graphics,
+    HeightEngine,
+    Job,
+    Told,
+    hardware,
+    published_error,
+    quads,
+    trial_of,
+)  # fmt: skip
 from app.dexel.trial import CUTTERS, trial, tried
 from app.dexel.trim import trim
 from app.dexel.workpiece import Heights, Workpiece
@@ -94,7 +106,7 @@ def test_cells_on_walls_are_no_lies_unless_they_are_many() -> None:
 def test_a_sound_system_passes_and_its_heights_are_taken() -> None:
     found = trial_of(Graphics())
     assert found.fault == "" and found.renderer
-    assert found.hardware is not is_software(found.renderer)
+    assert hardware(Graphics()) is not is_software(found.renderer)
     record = trim(*JOB).heights
     engine = HeightEngine(Engine.GPU, Graphics())
     heights = engine.beside(record, JOB)
@@ -135,7 +147,7 @@ def test_the_engine_of_record_needs_no_graphics_system() -> None:
 def test_a_system_that_lies_is_found_out_by_the_trial(lie: str) -> None:
     graphics = Graphics(quads=spoiled(LIES[lie]))
     assert "computes wrong heights, in a trial up to" in trial_of(graphics).fault
-    assert not trial_of(graphics).hardware
+    assert not hardware(graphics)
     record = trim(*JOB).heights
     engine = HeightEngine(Engine.GPU, graphics)
     assert not engine.wanted and engine.beside(record, JOB) is record

@@ -128,7 +128,9 @@ def test_automatically_a_look_is_hardwares_alone() -> None:
     looked, record = run(Engine.AUTO, graphics, trace=False, judge=False), run(Engine.CPU, trace=False, judge=False)
     assert looked.told.engine is Engine.GPU and looked.told.renderer == "a card" and looked.told.apart is None
     assert np.abs(looked.cut.heights - record.cut.heights).max() < 1e-4 and len(jobs) == STAGES
-    assert run(Engine.AUTO, graphics).told.engine is Engine.CPU and len(jobs) == STAGES
+    judged = run(Engine.AUTO, graphics)
+    assert judged.told.engine is Engine.GPU and judged.told.apart is not None and len(jobs) == 2 * STAGES
+    assert judged.cut.owner is not None and judged.cut.rapids
     broken = run(Engine.AUTO, Graphics(hardware, counted([], 0)), trace=False, judge=False)
     assert broken.told.engine is Engine.CPU and np.array_equal(broken.cut.heights, record.cut.heights)
     assert not [finding for finding in broken.findings if "processor" in finding.text]

@@ -18,7 +18,7 @@ from app.ui.cut.given import Given
 from app.ui.cut.inks import inks_of
 from app.ui.cut.overlay import Pin
 from app.ui.cut.shown_cut import ProgramFile, ShownCut, shown_cut
-from app.ui.cut.zooming import Zooming
+from app.ui.cut.zooming import Followed, Zooming
 from app.ui.main_window import MainWindow
 from app.ui.nc.reading import Source
 from app.ui.verdict import Level, Verdict, verdict
@@ -84,6 +84,7 @@ class Cutting(QObject):
         self.zooming.failed.connect(self.failed)
         self.player.failed.connect(self.failed)
         self.player.moved.connect(self._on_played)
+        self.player.state_changed.connect(self._on_played)
         self._computation.changed.connect(self._follow)
         self._computation.changed.connect(self._tell)
         self._view.colours.known.connect(self._show_key)
@@ -156,7 +157,7 @@ class Cutting(QObject):
     def _show(self, cut: ShownCut | None) -> None:
         self.cut = cut
         self._view.show_cut(cut.picture if cut is not None else None)
-        self.zooming.follow(cut.cut if cut is not None else None)
+        self.zooming.follow(Followed(cut.cut) if cut is not None else None)
         self._panel.show_cut(cut)
         self.player.follow(cut, self._panel.entries)
         self._tell()
@@ -206,8 +207,12 @@ class Cutting(QObject):
             self._foreign = self._shown_foreign
 
     def _on_played(self) -> None:
-        """A finer look shows the end alone."""
-        self.zooming.follow(self.cut.cut if self.cut is not None and self.player.at_end else None)
+        """A finer look shows the moment that the cut rests at; within a motion there is none."""
+        at, cut = self.player.at, self.cut
+        if cut is None or at is None or self.player.playing or (at.fraction > 0 and not self.player.at_end):
+            self.zooming.follow(None)
+        else:
+            self.zooming.follow(Followed(cut.cut, None if self.player.at_end else at.motion))
 
     def _on_busy(self, busy: bool) -> None:
         if busy or not self._window.worker.busy:

@@ -35,11 +35,11 @@ class Look:
     detail: CutPicture | None
 
 
-def look_closer(program: CutProgram, sight: Sighted, colour: CutColour, progress: Progress) -> Look:
+def look_closer(followed: Followed, sight: Sighted, colour: CutColour, progress: Progress) -> Look:
     """Cut the part of the stock that is seen with as many cells as the whole; runs on the worker's thread.
 
     Args:
-        program: the whole, cut. sight: what is looked at. colour: what its colours tell.
+        followed: the whole, cut. sight: what is looked at. colour: what its colours tell.
 
     Raises:
         HitofudeError: it cannot be cut.
@@ -47,7 +47,7 @@ def look_closer(program: CutProgram, sight: Sighted, colour: CutColour, progress
     """
     from app.workflow.cut import CutOptions, cut
 
-    cells = program.options.cells
+    program, cells = followed.program, followed.program.options.cells
     window = wanted(sight, cells)
     progress.step(0.3, "Looking closer")
     if window is None:
@@ -56,10 +56,18 @@ def look_closer(program: CutProgram, sight: Sighted, colour: CutColour, progress
         return Look(sight, sight.detail)
     moves = sight.picture.moves
     assert moves is not None
-    part = cut(program.setup, CutOptions(cells, window, judge=False), progress.part(0.3, 0.9))
+    part = cut(program.setup, CutOptions(cells, window, judge=False, stop=followed.stop), progress.part(0.3, 0.9))
     detail = picture_of(part, moves)
     prepare(detail, colour, sight.picture.span)
     return Look(sight, detail)
+
+
+@dataclass(frozen=True, slots=True)
+class Followed:
+    """A program, and how many of its motions are done; None = all."""
+
+    program: CutProgram
+    stop: int | None = None
 
 
 class Zooming(QObject):
@@ -75,7 +83,7 @@ class Zooming(QObject):
     def __init__(self, view: CutView, parent: QObject) -> None:
         super().__init__(parent)
         self._view = view
-        self._program: CutProgram | None = None
+        self._followed: Followed | None = None
         self._job_id: int | None = None
         self._looks = 0
         self.worker = Worker(self, head_start_s=0.0)
@@ -84,10 +92,11 @@ class Zooming(QObject):
         view.painting.stirred.connect(self._on_stirred)
         view.painting.rested.connect(self._look)
 
-    def follow(self, program: CutProgram | None) -> None:
-        """Look closer at another program from now on."""
-        self.worker.cancel()
-        self._program, self._looks = program, 0
+    def follow(self, followed: Followed | None) -> None:
+        """Look closer at another program, or another moment of it, from now on; None: at nothing."""
+        if followed != self._followed:
+            self.worker.cancel()
+            self._followed, self._looks = followed, 0
 
     def _on_stirred(self) -> None:
         self._looks = 0
@@ -95,12 +104,12 @@ class Zooming(QObject):
             self.worker.cancel()
 
     def _look(self) -> None:
-        view, program = self._view, self._program
-        if program is None or view.picture is None or not view.isVisible() or self._looks >= MOST_LOOKS:
+        view, followed = self._view, self._followed
+        if followed is None or view.picture is None or not view.isVisible() or self._looks >= MOST_LOOKS:
             return
         sight, colour = Sighted(view.picture, view.detail, view.camera, pixel_size(view), view.section), view.colours.told
         self._looks += 1
-        self._job_id = self.worker.start(lambda progress: look_closer(program, sight, colour, progress), 0)
+        self._job_id = self.worker.start(lambda progress: look_closer(followed, sight, colour, progress), 0)
 
     def _on_done(self, answer: Answer) -> None:
         """Show what was found; with it, more of what is seen may be known, so look again until nothing changes."""

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication, QMainWindow, QStackedWidget, QWidget
 from app.model.tool import Tool, ToolKind
 from app.ui.cut.cut_view import CutView
 from app.ui.cut.surface import GlSurface
-from app.ui.cut.zooming import Zooming
+from app.ui.cut.zooming import Followed, Zooming
 from app.ui.theme import DARK, LIGHT
 from tests.ui.cut.made_up import made_up
 from tests.ui.cut.real_cut import real_shown
@@ -46,7 +46,7 @@ def metal_share(window, view):
 def look_closer(window, view):
     """Zoom into a real cut until its cells are fine, and out again."""
     shown, zooming = real_shown(), Zooming(view, view)
-    zooming.follow(shown.cut)
+    zooming.follow(Followed(shown.cut))
     view.show_cut(shown.picture)
     view.fit()
     wait(lambda: view.painting.fine and metal_share(window, view) > 0.2)

@@ -1,5 +1,7 @@
 """The cut is played in the window: keys, buttons, the plot; what is seen and picked is the metal of the moment."""
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 import pytest
@@ -16,6 +18,8 @@ from app.ui.cut.relief import relief
 from app.ui.cut.time_plot import exact_clock
 from app.ui.cut.transport import notch_of, speed_of
 from app.ui.views import View
+from app.workflow.cut import CutOptions
+from app.workflow.cut import cut as cut_of
 from app.workflow.timeline import Moment
 from tests.ui.cut.pictures import without_a_screen
 from tests.workflow.test_playback import from_start
@@ -251,3 +255,22 @@ def test_it_is_recorded(qtbot, computed, page, tmp_path, form):
     assert {frame.shape[1] for frame in frames} == {200}
     assert len({frame[..., :3].tobytes() for frame in frames}) >= 4  # at first the tool is changed
     assert np.array_equal(page.view.picture.heights, before)
+
+
+def test_a_rest_is_looked_at_closer_at_its_own_moment(qtbot, computed, page):
+    player, view = page.player, page.view
+    player.go(60)
+    settle(qtbot, page)
+    x, y, z = view.playing.tip
+    view.look_now(replace(view.camera, target=(x, y, z), scale=12 * view.camera.scale))
+    qtbot.waitUntil(lambda: view.detail is not None, timeout=30_000)
+    low, high = view.detail.low, view.detail.high
+    assert view.detail.pitch < 0.5 * view.picture.pitch
+    options = CutOptions(1024, (low[0], low[1], high[0], high[1]), judge=False, stop=60)
+    want = cut_of(player.shown.cut.setup, options).cut.heights
+    assert np.array_equal(view.detail.heights, want)
+    finished = cut_of(player.shown.cut.setup, replace(options, stop=None)).cut.heights
+    assert not np.array_equal(view.detail.heights, finished)
+    player.go(3)
+    settle(qtbot, page)
+    assert view.detail is None or not np.array_equal(view.detail.heights, want)
