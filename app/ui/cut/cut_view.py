@@ -9,7 +9,6 @@ from PySide6.QtCore import QEasingCurve, QEvent, QPointF, Qt, QVariantAnimation,
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
-from app.errors import HitofudeError
 from app.ui.canvas.viewport import GLIDE_MS
 from app.ui.cut.camera import Camera, StandardView
 from app.ui.cut.colouring import CutColour, possible
@@ -24,7 +23,8 @@ from app.ui.cut.picking import Hit, Section, pick_finest
 from app.ui.cut.picture import CutPicture
 from app.ui.cut.profile import profile
 from app.ui.cut.profile_panel import HEIGHT, ProfilePanel
-from app.ui.cut.surface import GlSurface, ImageSurface, made_surface, pixel_size
+from app.ui.cut.surface import GlSurface, ImageSurface, pixel_size
+from app.ui.cut.surfacing import Surfacing
 from app.ui.nc.motion_shapes import Look
 from app.ui.samples import Sample
 from app.ui.theme import Theme
@@ -47,6 +47,7 @@ class CutView(QWidget):
         picture: what is shown; None = nothing. detail: a part of it that was cut again with finer cells; None = there is none.
         colours: of both. camera: from where they are seen, in the screen's px.
         playing: the tool at its place, and cells that change. hit: the cell under the mouse. failure: why nothing can be shown here, or "".
+        surfacing: gives it what it is painted on.
     """
 
     cell_picked = Signal(float, float, float, int)
@@ -65,7 +66,7 @@ class CutView(QWidget):
         self.painting, self.colours, self._hands = Painting(self), Colours(self), Hands(self)
         self.playing = self.painting.playing
         self._shown = frozenset(int(look) for look in Look)
-        self._fitted, self._making = True, False
+        self._fitted, self.surfacing = True, Surfacing(self)
         self._side, self._signs = Side.WHOLE, (1.0, 1.0)
         self.sentence = QLabel()
         self.sentence.setProperty("role", "muted")
@@ -121,7 +122,7 @@ class CutView(QWidget):
             self._fitted = True
             self._thin_out(picture)
         if self.isVisible():
-            self._need_surface()
+            self.surfacing.need()
 
     def _thin_out(self, picture: CutPicture) -> None:
         """Leave out paths of cuts that would hide the metal, until the user wants them."""
@@ -211,7 +212,7 @@ class CutView(QWidget):
     def showEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
         """Make the surface when it is first needed: a window with OpenGL in it costs more to paint."""
         if self.picture is not None:
-            self._need_surface()
+            self.surfacing.need()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Keep what was fitted fitted."""
@@ -276,29 +277,6 @@ class CutView(QWidget):
             finer = self.detail is not None and all(self.detail.holds(*end[:2]) for end in line)
             picture = self.detail if self.detail is not None and finer else self.picture
             self.profile.show_profile(profile(picture, line[0][:2], line[1][:2]))
-
-    def _need_surface(self) -> None:
-        """Make what the cut is painted on, once; where that cannot be, say why.
-
-        A widget with OpenGL in it makes Qt show the whole window anew, which asks for the surface again meanwhile.
-        """
-        if self.surface is not None or self.failure or self._making:
-            return
-        self._making = True
-        try:
-            self.surface = made_surface(self, self.painting.paint)
-        except HitofudeError as error:
-            self.failure = f"The cut cannot be shown. {error}"
-            self.sentence.setText(self.failure)
-            self.overlay.hide()
-            self.legend.hide()
-            return
-        finally:
-            self._making = False
-        self.surface.renewed.connect(self.painting.renew)
-        self.surface.setGeometry(self.rect())
-        self.surface.lower()
-        self.surface.show()
 
     def _fitted_camera(self, camera: Camera | None = None) -> Camera:
         """Return the camera that shows the whole stock beside the legend and above the profile."""

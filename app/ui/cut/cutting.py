@@ -83,6 +83,7 @@ class Cutting(QObject):
             window.closed.connect(worker.finish)
         self.zooming.failed.connect(self.failed)
         self.player.failed.connect(self.failed)
+        self._view.surfacing.said.connect(self.failed)
         self.player.moved.connect(self._on_played)
         self.player.state_changed.connect(self._on_played)
         self._computation.changed.connect(self._follow)

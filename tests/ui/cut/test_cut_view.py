@@ -235,3 +235,25 @@ def test_the_view_stays_when_the_same_stock_is_cut_anew(view, picture):
 def test_cut_curves_and_surfaces_stand_between_paths_and_nc():
     names = [view.name for view in View]
     assert names[names.index("PATHS") + 1:] == ["CUT", "CURVES", "SURFACES", "NC"]
+
+
+def fails(scene):
+    raise RuntimeError("GL_CONTEXT_LOST")
+
+
+def test_a_surface_that_fails_is_replaced_and_that_is_said_once(qtbot, view):
+    said = []
+    view.surfacing.said.connect(said.append)
+    old, before = view.surface, pixels(view)
+    old._scene.draw = fails
+    view.painting.moved()
+    qtbot.waitUntil(lambda: view.surface is not old and view.surface is not None and view.painting.fine, timeout=20_000)
+    assert len(said) == 1
+    assert "GL_CONTEXT_LOST" in said[0]
+    assert np.mean(np.abs(pixels(view) - before) > 3) < 0.001
+    view.surface._scene.draw_in_steps = view.surface._scene.draw = fails
+    view.painting.moved()
+    qtbot.waitUntil(lambda: bool(view.failure), timeout=20_000)
+    assert len(said) == 1
+    assert view.sentence.text() == "The cut cannot be shown. The graphics system fails (GL_CONTEXT_LOST)."
+    assert not view.legend.isVisible()
