@@ -11,6 +11,7 @@ Depths have 24 bits over the heights that matter, 2e-6 mm of 30 mm.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     import moderngl
 
 FACET_PITCHES = 2.0
-"""Size of facets where nobody says it, in pitches of the grid: the published figure."""
+"""Size of facets, in pitches of the grid: the published figure."""
 
 OVERLAP_PITCHES = 1.0 / 16.0
 """How far cylinders of level moves reach over their ends: more than hardware rounds by, and worth a 256th of the error of such facets."""
@@ -42,7 +43,15 @@ _DEPTH_CLAMP = 0x864F
 
 
 def usual(grid: Grid) -> Tessellation:
-    """Return the facets with which a grid is cut if nobody says otherwise."""
+    """Return the facets with which a grid is cut if nobody says otherwise: of the published size d from corner to corner.
+
+    A facet of a sphere bends both ways; with sides of d it would lie up to d² / 4r inside, so it lies within d² / 8r.
+    """
+    return Tessellation(FACET_PITCHES / math.sqrt(2.0) * grid.pitch, overlap=OVERLAP_PITCHES * grid.pitch)
+
+
+def published(grid: Grid) -> Tessellation:
+    """Return the facets with which the published figures were measured: their sides are as long as d."""
     return Tessellation(FACET_PITCHES * grid.pitch, overlap=OVERLAP_PITCHES * grid.pitch)
 
 

@@ -224,10 +224,10 @@ class HeightEngine:
 
 def published_error(workpiece: Workpiece, course: Course, cutters: Cutters) -> float:
     """Return how far the facets of the published method are at most from the surface, square to it, mm."""
-    from app.dexel.depth_buffer import FACET_PITCHES
+    from app.dexel.depth_buffer import usual
     from app.dexel.polyhedron import facet_error
 
-    facet = FACET_PITCHES * workpiece.grid.pitch
+    facet = usual(workpiece.grid).facet
     used = [cutters[number] for number in np.unique(course.tool).tolist() if number in cutters]
     return max((facet_error(cutter, facet) for cutter in used), default=0.0)
 

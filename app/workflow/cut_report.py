@@ -45,7 +45,7 @@ HEIGHTS = 5e-6
 HEIGHTS_METHODS = {
     Engine.CPU: "bound, times 1 + the surface's slope, for heights up to 32 mm; cells beside an upright wall may fall to either side",
     Engine.GPU: "how far from the cpu's they may be; cells beside an upright wall may fall to either side",
-    Engine.PATENT: "how far facets are at most inside the surface, square to it (d² / 8r of cylinders, twice that of spheres); cells "
+    Engine.PATENT: "how far facets are at most inside the surface, square to it (d² / 8r of balls, d = two cells); cells "
                    "beside an upright wall may fall to either side",
 }  # fmt: skip
 SPOTS = 100

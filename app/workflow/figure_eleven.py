@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from app.dexel.depth_buffer import FACET_PITCHES, DepthBuffer
+from app.dexel.depth_buffer import DepthBuffer, published
 from app.dexel.differences import Apart, apart
-from app.dexel.engines import Graphics, published_error
+from app.dexel.engines import Graphics
+from app.dexel.polyhedron import facet_error
 from app.dexel.quads import quad_heights
 from app.dexel.sweeps import WORKERS
 from app.dexel.trim import trim
@@ -154,8 +155,9 @@ def _row(name: str, options: FigureOptions, context: moderngl.Context | None, pr
             share = 0.05 + 0.9 * k / len(ways), 0.05 + 0.9 * (k + 1) / len(ways)
             seconds[way], heights[way] = _best(run, options.repeat, progress.part(*share))
     found: dict[Way, Apart] = {way: apart(heights[Way.RECORD], other) for way, other in heights.items() if way is not Way.RECORD}
-    counts = polygon_counts(course, cutters, FACET_PITCHES * piece.grid.pitch)
-    return FigureRow(name, program, seconds, found, counts, published_error(piece, course, cutters))
+    facet = published(piece.grid).facet
+    counts, error = polygon_counts(course, cutters, facet), facet_error(cutters[1], facet)
+    return FigureRow(name, program, seconds, found, counts, error)
 
 
 def _ways(program: DieProgram, piece: Workpiece, context: moderngl.Context | None, stack: ExitStack) -> dict[Way, Run]:
@@ -165,7 +167,7 @@ def _ways(program: DieProgram, piece: Workpiece, context: moderngl.Context | Non
                             Way.PLAIN: lambda told: plain_heights(program, cells, told)}  # fmt: skip
     if context is None:
         return ways
-    engine = DepthBuffer(context)
+    engine = DepthBuffer(context, published(piece.grid))
     stack.callback(engine.release)
     return ways | {Way.QUADS: lambda told: quad_heights(context, piece, course, cutters, told),
                    Way.PUBLISHED: lambda told: engine.heights(piece, course, cutters, told)}  # fmt: skip

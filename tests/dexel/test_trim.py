@@ -147,7 +147,7 @@ def test_cells_of_a_micrometre() -> None:
 def test_many_pieces_are_cut_in_parts(monkeypatch: pytest.MonkeyPatch) -> None:
     motions = joined([polyline(walk(51, 80, 0.8, 0.5)), arc((5, 0, -3), (5, 0, -4), (0, 0, -3))])
     whole = cut(box_piece(cells=300), motions, CUTTERS["ball"], TRACED)
-    monkeypatch.setattr("app.dexel.trim.BATCH", 25)
+    monkeypatch.setattr("app.dexel.sweeps.BATCH", 25)
     parts = cut(box_piece(cells=300), motions, CUTTERS["ball"], TRACED)
     assert differ(whole.heights, parts.heights) == 0
     assert whole.owner is not None and parts.owner is not None
