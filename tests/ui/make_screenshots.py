@@ -121,7 +121,7 @@ def nc_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
 
 
 def cut_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
-    """Return what the Cut view is photographed with: a place that was picked, another program, and what is asked of one."""
+    """Return what the Cut view is photographed with: a moment on the way, a picked place, another program, what is asked of one."""
     panel, cutting, view = wiring.window_.cut_panel, wiring.cutting, wiring.window_.views.cut
 
     def rest() -> None:
@@ -130,6 +130,7 @@ def cut_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
 
     def place() -> None:
         wiring.showing.show_view(View.CUT)
+        wiring.window_.views.cut_page.player.go(10**9)
         panel.rows[0].clicked.emit()
         rest()
 
@@ -143,7 +144,17 @@ def cut_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
         view.fit()
         rest()
 
-    return {"place": place, "foreign": foreign, "asked": lambda: program("tux.ngc")}
+    def played() -> None:
+        wiring.showing.show_view(View.CUT)
+        player = wiring.window_.views.cut_page.player
+        wait_until(lambda: player.timeline is not None)
+        if player.timeline is not None:
+            player.seek(0.4 * player.timeline.total)
+        wait_until(lambda: not player.worker.busy and not player.at_end)
+        view.fit()
+        rest()
+
+    return {"played": played, "place": place, "foreign": foreign, "asked": lambda: program("tux.ngc")}
 
 
 def curves_states(wiring: Wiring) -> dict[str, Callable[[], None]]:

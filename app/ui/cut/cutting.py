@@ -182,7 +182,9 @@ class Cutting(QObject):
             self._panel.show_key(key_of(picture, CutColour.DEVIATION, inks_of(self._view.colours.theme), picture.span))
 
     def _go_to(self, entry: Entry) -> None:
-        """Glide to a place; gouges and metal left are seen best by their deviation."""
+        """Glide to a place; gouges and metal left are seen best by their deviation. On the way of the cut, go to when it was done."""
+        if not self.player.at_end:
+            self.player.go(entry.motion + 1 if entry.motion >= 0 else self.player.length)
         if entry.place is None:
             return
         if entry.colour is not EntryColour.ACCIDENT and self._view.picture is not None and self._view.picture.deviation is not None:

@@ -117,6 +117,11 @@ class Player(QObject):
         return self.timeline is None or self.at is None or self.at == self.timeline.last
 
     @property
+    def length(self) -> int:
+        """How many motions there are; 0 until it is ready."""
+        return len(self.timeline) if self.timeline is not None else 0
+
+    @property
     def time(self) -> float:
         """When it is, s; while the control waits it goes on, though nothing else does."""
         return self._now

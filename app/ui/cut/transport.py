@@ -118,7 +118,7 @@ class Transport(QWidget):
         player, plain, shift = self._player, Qt.KeyboardModifier.NoModifier, Qt.KeyboardModifier.ShiftModifier
         keys: dict[tuple[Qt.Key, Qt.KeyboardModifier], Callable[[], None]] = {
             (Qt.Key.Key_Space, plain): lambda: player.toggle(1), (Qt.Key.Key_Space, shift): lambda: player.toggle(-1),
-            (Qt.Key.Key_Home, plain): lambda: player.go(0), (Qt.Key.Key_End, plain): self._to_end,
+            (Qt.Key.Key_Home, plain): lambda: player.go(0), (Qt.Key.Key_End, plain): lambda: player.go(player.length),
         }  # fmt: skip
         return keys | {(key, held): partial(player.step, what, way) for key, held, what, way in _stepping(plain, shift)}
 
@@ -154,10 +154,6 @@ class Transport(QWidget):
         parts = [f"line {timeline.line[row]}", f"T{timeline.tool[row]}{f' {tool.label}' if tool is not None else ''}",
                  f"{grouped(timeline.removed_at(player.at), 0)} mm³"]  # fmt: skip
         self.place.setText(" · ".join(parts) if len(timeline) else "")
-
-    def _to_end(self) -> None:
-        if self._player.timeline is not None:
-            self._player.go(len(self._player.timeline))
 
     def _choose(self, speed: float) -> None:
         self._player.set_pace(self.pace.currentData(), speed)
