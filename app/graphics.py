@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from app.errors import HitofudeError
@@ -12,6 +13,9 @@ if TYPE_CHECKING:
     import moderngl
 
 _HOW = "Install a graphics driver, or the packages libegl1 and libgl1, and start again."
+_DEVICES = ("dri/renderD*", "nvidia[0-9]*", "dxg")
+"""Of Mesa and others, of NVIDIA's own driver, of the Linux that runs under Windows."""
+
 _SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software rasterizer", "swiftshader", "gdi generic", "microsoft basic render")
 
 
@@ -30,6 +34,13 @@ def standalone_context() -> moderngl.Context:
         raise HitofudeError(f"There is no OpenGL 3.3 here ({fault}). {_HOW}") from fault
     with context:
         return context
+
+
+def has_device() -> bool:
+    """Return whether there may be graphics hardware: on Linux a device for it; elsewhere only OpenGL tells."""
+    if sys.platform != "linux":
+        return True
+    return any(any(Path("/dev").glob(name)) for name in _DEVICES)
 
 
 def renderer_of(context: moderngl.Context) -> str:

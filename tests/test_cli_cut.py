@@ -275,7 +275,7 @@ def test_more_cells_than_memory_holds_are_told_before(slot: Path, tmp_path: Path
 def test_no_window_library_is_needed(slot: Path, tmp_path: Path) -> None:
     code = ("import sys; from app.cli import main; assert main(sys.argv[1:]) == 0; "
             "print([name for name in sys.modules if name.split('.')[0] in ('PySide6', 'pyqtgraph', 'moderngl') or '.ui' in name])")
-    command = [sys.executable, "-c", code, "cut", str(slot), STOCK, "--tool=1=flat:6", "--quiet", "--image", str(tmp_path / "o.png")]
+    command = [sys.executable, "-c", code, "cut", str(slot), STOCK, "--tool=1=flat:6", "--engine=cpu", "--quiet", "--image", str(tmp_path / "o.png")]
     done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=True)
     assert done.stdout.strip() == "[]"
 

@@ -21,7 +21,7 @@ from app.dexel.differences import TOLERANCE, Apart, apart, least_beside
 from app.dexel.trial import tried
 from app.dexel.workpiece import Heights, Workpiece
 from app.errors import HitofudeError
-from app.graphics import is_software, renderer_of, standalone_context
+from app.graphics import has_device, is_software, renderer_of, standalone_context
 from app.model.motion import Floats
 from app.progress import NO_PROGRESS, Progress
 
@@ -76,6 +76,7 @@ class Graphics:
     """A graphics system.
 
     Attributes:
+        present: returns whether there may be hardware, without asking OpenGL.
         opened: returns a context of its own, which is not current.
         quads, published: compute heights on it.
     """
@@ -83,6 +84,7 @@ class Graphics:
     opened: Callable[[], moderngl.Context] = standalone_context
     quads: Compute = quads
     published: Compute = published
+    present: Callable[[], bool] = has_device
 
     @contextmanager
     def current(self) -> Iterator[moderngl.Context]:
@@ -132,6 +134,8 @@ def trial_of(graphics: Graphics) -> Trial:
 @cache
 def hardware(graphics: Graphics) -> bool:
     """Return whether a graphics system is hardware that can be believed; what is none need not be tried."""
+    if not graphics.present():
+        return False
     try:
         with graphics.current() as context:
             if is_software(renderer_of(context)):

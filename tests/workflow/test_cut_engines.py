@@ -108,9 +108,9 @@ def test_automatically_software_is_not_taken_and_nothing_is_said() -> None:
         pytest.skip("this machine has graphics hardware")
     jobs: list[Workpiece] = []
     for look in ({}, {"trace": False, "judge": False}):
-        done = run(Engine.AUTO, Graphics(quads=counted(jobs)), **look)
+        done = run(Engine.AUTO, Graphics(quads=counted(jobs), present=lambda: True), **look)
         assert done.told.engine is Engine.CPU and not jobs
-    done = run(Engine.AUTO, Graphics(no_graphics), trace=False, judge=False)
+    done = run(Engine.AUTO, Graphics(no_graphics, present=lambda: True), trace=False, judge=False)
     assert not [finding for finding in done.findings if "processor" in finding.text]
 
 
@@ -124,14 +124,14 @@ def renderer() -> str:
 
 def test_automatically_a_look_is_hardwares_alone() -> None:
     jobs: list[Workpiece] = []
-    graphics = Graphics(hardware, counted(jobs))
+    graphics = Graphics(hardware, counted(jobs), present=lambda: True)
     looked, record = run(Engine.AUTO, graphics, trace=False, judge=False), run(Engine.CPU, trace=False, judge=False)
     assert looked.told.engine is Engine.GPU and looked.told.renderer == "a card" and looked.told.apart is None
     assert np.abs(looked.cut.heights - record.cut.heights).max() < 1e-4 and len(jobs) == STAGES
     judged = run(Engine.AUTO, graphics)
     assert judged.told.engine is Engine.GPU and judged.told.apart is not None and len(jobs) == 2 * STAGES
     assert judged.cut.owner is not None and judged.cut.rapids
-    broken = run(Engine.AUTO, Graphics(hardware, counted([], 0)), trace=False, judge=False)
+    broken = run(Engine.AUTO, Graphics(hardware, counted([], 0), present=lambda: True), trace=False, judge=False)
     assert broken.told.engine is Engine.CPU and np.array_equal(broken.cut.heights, record.cut.heights)
     assert not [finding for finding in broken.findings if "processor" in finding.text]
 
@@ -155,3 +155,10 @@ def test_the_context_is_used_on_the_working_thread_alone() -> None:
     other.start()
     other.join()
     assert set(where) == {other.ident}
+
+
+def test_automatically_nothing_is_opened_where_there_is_no_device() -> None:
+    def opened() -> moderngl.Context:
+        raise AssertionError("nobody asked for it")
+
+    assert run(Engine.AUTO, Graphics(opened, present=lambda: False)).told.engine is Engine.CPU

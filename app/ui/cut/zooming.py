@@ -97,6 +97,7 @@ class Zooming(QObject):
         if followed != self._followed:
             self.worker.cancel()
             self._followed, self._looks = followed, 0
+            self._view.show_detail(None)
 
     def _on_stirred(self) -> None:
         self._looks = 0

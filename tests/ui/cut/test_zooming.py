@@ -7,7 +7,7 @@ from PySide6.QtCore import QPointF
 from app.ui.cut.camera import StandardView
 from app.ui.cut.colouring import CutColour
 from app.ui.cut.cut_view import CutView
-from app.ui.cut.zooming import Zooming
+from app.ui.cut.zooming import Followed, Zooming
 from app.ui.theme import LIGHT
 from tests.ui.cut.pictures import without_a_screen
 from tests.ui.cut.real_cut import detailed_heights, real_shown
@@ -31,7 +31,7 @@ def zooming(qtbot, shown):
     view.show()
     made = Zooming(view, view)
     made.failed.connect(pytest.fail)
-    made.follow(shown.cut)
+    made.follow(Followed(shown.cut))
     with qtbot.waitSignal(made.looked, timeout=WAIT_MS):
         view.show_cut(shown.picture)
     view.look_now(view._fitted_camera(view.camera.seen_from(StandardView.TOP)))
