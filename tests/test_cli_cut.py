@@ -259,7 +259,7 @@ def test_the_published_method_states_its_error(slot: Path, tmp_path: Path) -> No
     data = report_of(tmp_path, slot, STOCK, "--tool=1=ball:6", "--engine=patent", "--grid=500")
     assert data["engine"].startswith("patent: ")
     facet = 2 * 0.1
-    assert facet**2 / 24 <= data["tolerance"]["heights_mm"] < facet**2 / 11
+    assert 0.8 * facet**2 / 24 <= data["tolerance"]["heights_mm"] <= facet**2 / 24
     assert data["apart_from_cpu"]["largest_mm"] > 1e-4 and data["apart_from_cpu"]["cells"] > 1000
     assert data["removed_mm3"] == pytest.approx(data["tools"][0]["removed_mm3"], rel=0.01)
 
@@ -275,7 +275,8 @@ def test_more_cells_than_memory_holds_are_told_before(slot: Path, tmp_path: Path
 def test_no_window_library_is_needed(slot: Path, tmp_path: Path) -> None:
     code = ("import sys; from app.cli import main; assert main(sys.argv[1:]) == 0; "
             "print([name for name in sys.modules if name.split('.')[0] in ('PySide6', 'pyqtgraph', 'moderngl') or '.ui' in name])")
-    command = [sys.executable, "-c", code, "cut", str(slot), STOCK, "--tool=1=flat:6", "--engine=cpu", "--quiet", "--image", str(tmp_path / "o.png")]
+    options = ["--tool=1=flat:6", "--engine=cpu", "--quiet", "--image", str(tmp_path / "o.png")]
+    command = [sys.executable, "-c", code, "cut", str(slot), STOCK, *options]
     done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=True)
     assert done.stdout.strip() == "[]"
 
