@@ -48,7 +48,8 @@ def apart(record: Heights, other: Heights, allowed: float | Floats = TOLERANCE) 
     """Return how far heights are from those of the engine of record, (rows, cols) both.
 
     A cell whose centre is on a vertical wall falls to either side by rounding: it then has a height between the least and the greatest
-    of its neighbours'. More than a share `RIMS` of such cells are no walls.
+    round it, two cells far, for what goes on beyond the wall may rise from cell to cell. More than a share `RIMS` of such cells are no
+    walls.
 
     Args:
         allowed: difference that counts as none, mm; or (rows, cols) of them.
@@ -56,7 +57,7 @@ def apart(record: Heights, other: Heights, allowed: float | Floats = TOLERANCE) 
     off = np.abs(np.subtract(record, other, dtype=np.float64))
     off[np.isnan(off)] = np.inf
     far = off > allowed
-    low, high = least_beside(record), -least_beside(-record)
+    low, high = least_beside(record, 2), -least_beside(-record, 2)
     beside = far & (other >= low - allowed) & (other <= high + allowed)
     rims = int(np.count_nonzero(beside))
     astray = int(np.count_nonzero(far & ~beside))
@@ -64,8 +65,8 @@ def apart(record: Heights, other: Heights, allowed: float | Floats = TOLERANCE) 
     return Apart(float(off.max(initial=0.0)), int(np.count_nonzero(off > TOLERANCE)), astray + (rims if rims > most else 0), rims)
 
 
-def least_beside(heights: Heights) -> Heights:
-    """Return (rows, cols) the least height of each cell and of those that touch it."""
+def least_beside(heights: Heights, reach: int = 1) -> Heights:
+    """Return (rows, cols) the least height of each cell and of those at most `reach` cells away."""
     import cv2
 
-    return np.asarray(cv2.erode(heights, np.ones((3, 3), np.uint8)), np.float32)
+    return np.asarray(cv2.erode(heights, np.ones((2 * reach + 1, 2 * reach + 1), np.uint8)), np.float32)

@@ -7,7 +7,7 @@ what they compute is compared with the engine of record wherever that has run as
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cache
@@ -194,14 +194,19 @@ class HeightEngine:
         """
         if self._compute is None:
             return None
-        try:
-            with self._graphics.current() as context:
+        with ExitStack() as stack:
+            try:
+                context = stack.enter_context(self._graphics.current())
+            except Exception as error:  # whatever a driver comes up with
+                self._fall_back(f"{self.told.renderer} cannot be had again ({_words(error)})")
+                return None
+            try:
                 return _computed(self._compute, context, job, progress)
-        except HitofudeError:
-            raise
-        except Exception as error:  # whatever a driver comes up with
-            self._fall_back(f"{self.told.renderer} fails ({_words(error)})")
-            return None
+            except HitofudeError:
+                raise
+            except Exception as error:
+                self._fall_back(f"{self.told.renderer} fails ({_words(error)})")
+                return None
 
     def beside(self, record: Heights, job: Job, progress: Progress = NO_PROGRESS) -> Heights:
         """Return what a course leaves of a work piece, compared with the heights of the engine of record.

@@ -9,6 +9,8 @@ from app.model.motion_path import arc_paths, spline_points
 
 _COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
 _FULL = 2 * np.pi
+_WHOLE = 1e-9
+"""Turns; an arc that is so near to whole turns is taken as that."""
 
 
 def place_on(motions: Motions, row: int, fraction: float) -> Floats:
@@ -35,8 +37,10 @@ def part_of(motions: Motions, row: int, fraction: float) -> Motions:
     if one.kind[0] in (MotionKind.ARC_CW, MotionKind.ARC_CCW):
         arcs = arc_paths(one)
         end = arcs.points(np.array([fraction]))[:, 0]
-        swept = abs(float(arcs.sweep[0])) * fraction
-        turns = np.array([max(int(np.ceil(swept / _FULL)), 1)], np.int32)
+        swept = abs(float(arcs.sweep[0])) * fraction / _FULL
+        turns = np.array([max(int(np.ceil(swept - _WHOLE)), 1)], np.int32)
+        if abs(swept - round(swept)) < _WHOLE and round(swept):  # ends that are alike in the plane are whole turns
+            end[0, arcs.axes[0, :2]] = one.start[0, arcs.axes[0, :2]]
     return Motions(one.start, end, one.centre, one.kind, one.plane, turns, one.feed, one.line, one.state)
 
 

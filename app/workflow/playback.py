@@ -53,7 +53,7 @@ class PlayFrame:
 class Playback:
     """A cut that can be shown at any moment of its way.
 
-    One thread at a time asks it; it takes the budget of `HistoryOptions` and 40 bytes a cell.
+    One thread at a time asks it; it takes the budget of `HistoryOptions` and 32 bytes a cell.
 
     Attributes:
         timeline: when what happens.
@@ -74,10 +74,12 @@ class Playback:
             Cancelled: the job was asked to stop.
         """
         setup, machine = done.setup, machine or load_machine(DEFAULT_MACHINE)
-        known = [course_of(program).course for program in setup.programs]
+        courses = [course_of(program) for program in setup.programs]
+        known, nowhere = [each.course for each in courses], np.concatenate([each.nowhere.any(axis=1) for each in courses])
         cutters = {number: cutter_of(tool) for number, tool in setup.tools.items()}
         times = [duration(program, machine) for program in setup.programs]
-        self.timeline = Timeline.of([anchored(program.motions) for program in setup.programs], times, setup.numbers(), done.cut.volume)
+        motions = [anchored(program.motions) for program in setup.programs]
+        self.timeline = Timeline.of(motions, times, setup.numbers(), done.cut.volume, nowhere)
         self._courses = known
         self._head = Playhead(History(done.cut.before, known, cutters, options, progress))
         owner = done.cut.owner if done.cut.owner is not None else np.full(done.cut.heights.shape, -1, np.int32)

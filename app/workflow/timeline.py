@@ -53,6 +53,7 @@ class Timeline:
         total: s until the last program has ended.
         tool, line: (n,) T number, and 1-based line in its own file.
         length: (n,) mm. volume: (n,) mm³ that each takes; empty if nobody knows.
+        nowhere: (n,) whether each ends at a place that nobody knows, such as one of the machine.
     """
 
     programs: tuple[Motions, ...]
@@ -64,14 +65,16 @@ class Timeline:
     line: Ints
     length: Floats
     volume: Floats
+    nowhere: NDArray[np.bool_]
 
     @staticmethod
-    def of(programs: Sequence[Motions], times: Sequence[Duration], tool: Ints, volume: Floats) -> Timeline:
+    def of(programs: Sequence[Motions], times: Sequence[Duration], tool: Ints, volume: Floats,
+           nowhere: NDArray[np.bool_]) -> Timeline:  # fmt: skip
         """Return the timeline of programs.
 
         Args:
             programs: motions of each, anchored. times: how long each takes.
-            tool: (n,) T number of each motion of all programs. volume: (n,) mm³, or empty.
+            tool: (n,) T number of each motion of all programs. volume: (n,) mm³, or empty. nowhere: (n,) see above.
         """
         starts = np.cumsum([0.0, *(each.total for each in times)])
         ends = np.concatenate([start + each.ends for start, each in zip(starts, times, strict=False)])
@@ -79,7 +82,7 @@ class Timeline:
         line = np.concatenate([motions.line for motions in programs])
         first = np.cumsum([0, *(len(motions) for motions in programs)])
         return Timeline(tuple(programs), first, ends - moving, ends, float(starts[-1]), tool, line,
-                        np.concatenate([lengths(motions) for motions in programs]), volume)  # fmt: skip
+                        np.concatenate([lengths(motions) for motions in programs]), volume, nowhere)  # fmt: skip
 
     def __len__(self) -> int:
         return len(self.ends)
@@ -97,6 +100,25 @@ class Timeline:
         begin, end = float(self.begins[motion]), float(self.ends[motion])
         return Moment(motion, max(time - begin, 0.0) / (end - begin) if end > begin else 0.0)
 
+    def wait_at(self, time: float) -> float:
+        """Return how long the control waits in all where it waits at a time, s; 0 where it moves."""
+        row = int(np.searchsorted(self.ends, time, "right"))
+        begin = float(self.ends[row - 1]) if row else 0.0
+        end = float(self.begins[row]) if row < len(self) else self.total
+        return end - begin if begin <= time < end else 0.0
+
+    def at_share(self, share: float) -> Moment:
+        """Return the moment when a share of the time is gone in which anything moves."""
+        moving = np.cumsum(self.ends - self.begins)
+        if not len(moving) or share >= 1.0:
+            return self.last
+        gone = share * float(moving[-1])
+        row = int(np.searchsorted(moving, gone, "right"))
+        if row >= len(self):
+            return self.last
+        own = float(self.ends[row] - self.begins[row])
+        return Moment(row, max(gone - (float(moving[row]) - own), 0.0) / own if own > 0 else 0.0)
+
     def time(self, moment: Moment) -> float:
         """Return when a moment is, s: with no motion begun as soon as the one before has ended."""
         if moment.fraction > 0 and moment.motion < len(self):
@@ -112,6 +134,8 @@ class Timeline:
         if moment == Moment(0):
             fraction = 0.0
         motions, own = self.own(row)
+        if self.nowhere[row] or (fraction < 1 and own > 0 and self.nowhere[row - 1]):
+            return None
         place = place_on(motions, own, fraction)
         return place if bool(np.all(np.isfinite(place))) else None
 
@@ -133,7 +157,8 @@ class Timeline:
     def line_ends(self) -> NDArray[np.int64]:
         """Motions that are done behind each line that moves the tool, rising."""
         new = np.diff(self.line) != 0
-        new[self.first[1:-1] - 1] = True
+        borders = self.first[1:-1] - 1
+        new[borders[(borders >= 0) & (borders < len(new))]] = True
         return np.append(np.flatnonzero(new) + 1, len(self)) if len(self) else np.zeros(0, np.int64)
 
     @cached_property

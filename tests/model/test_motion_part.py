@@ -63,3 +63,9 @@ def test_nothing_and_everything() -> None:
     assert len(part_of(way, 0, 0.0)) == 0
     assert place_on(way, 0, 0.0).tolist() == [0, 0, 0]
     assert place_on(way, 0, 1.0).tolist() == [1, 2, 3]
+
+
+@pytest.mark.parametrize("share", [1 / 3, 2 / 3, 0.5])
+def test_whole_turns_of_a_helix_are_not_lost(share: float) -> None:
+    part = part_of(ARCS["helix"], 0, share)
+    assert lengths(part)[0] == pytest.approx(share * lengths(ARCS["helix"])[0], rel=1e-6)

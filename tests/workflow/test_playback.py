@@ -1,5 +1,6 @@
 """A made program played: what frames add up to, when what happens, where the tool is, what is taken along time."""
 
+from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 
@@ -11,9 +12,16 @@ from hypothesis import strategies as st
 from app.dexel.cutter import cutter_of
 from app.dexel.sweeps import Field
 from app.dexel.trim import TrimOptions, trim
+from app.dexel.workpiece import BoxStock
 from app.model.motion import MotionKind
+from app.model.motion_path import anchored
+from app.model.stock_box import StockBox
+from app.model.tool import Tool
+from app.nc.read.options import ReadOptions
+from app.nc.read.reader import read_program
 from app.workflow.course import course_of
-from app.workflow.cut import CutProgram
+from app.workflow.cut import CutOptions, CutProgram, CutSetup
+from app.workflow.cut import cut as cut_setup
 from app.workflow.playback import Playback, PlayFrame
 from app.workflow.timeline import Moment, Timeline
 from tests.workflow.test_cut import cut
@@ -136,7 +144,7 @@ def test_columns_hold_all_that_is_taken(columns: int) -> None:
 
 def test_a_program_without_motions_is_a_point_in_time() -> None:
     nothing = Timeline((), np.zeros(1, np.int64), np.zeros(0), np.zeros(0), 0.0, np.zeros(0, np.int32), np.zeros(0, np.int32),
-                       np.zeros(0), np.zeros(0))  # fmt: skip
+                       np.zeros(0), np.zeros(0), np.zeros(0, bool))  # fmt: skip
     assert nothing.at(3.0) == nothing.last == Moment(0)
     assert nothing.place(Moment(0)) is None
     assert nothing.sampled(5).removed.tolist() == [0] * 6
@@ -144,3 +152,44 @@ def test_a_program_without_motions_is_a_point_in_time() -> None:
 
 def test_what_is_kept_stays_within_its_budget() -> None:
     assert 0 < played("linuxcnc").bytes <= 256 << 20
+
+
+def test_where_the_tool_is_nobody_says_what_nobody_knows() -> None:
+    text = "G21 G90\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX5 Y5\nG53 G0 Z0\nG28\nG0 X1 Y1\nZ-1\nG1 X3\nM2\n"
+    timeline = Playback(cut_text(text)).timeline
+    places = [timeline.place(Moment(k)) for k in range(1, len(timeline) + 1)]
+    known = [place is not None for place in places]
+    assert known[:3] == [True] * 3
+    assert not known[3]
+    assert known[-1]
+
+
+def test_programs_without_motions_beside_others() -> None:
+    for texts in (("M2\n", LINE), (LINE, "M2\n"), ("M2\n", "M2\n")):
+        timeline = Playback(cut_text(*texts)).timeline
+        assert timeline.line_ends.tolist() == sorted(set(timeline.line_ends.tolist()))
+        assert timeline.line_ends.max(initial=0) == len(timeline)
+        assert timeline.sampled(10).removed[-1] == pytest.approx(timeline.volume.sum())
+
+
+def test_a_share_of_what_moves_leaves_the_waits_out() -> None:
+    timeline = played("linuxcnc").timeline
+    moving = timeline.ends - timeline.begins
+    for share in (0.0, 0.3, 0.77, 0.999):
+        moment = timeline.at_share(share)
+        gone = moving[: moment.motion].sum() + moment.fraction * moving[min(moment.motion, len(moving) - 1)]
+        assert gone == pytest.approx(share * moving.sum(), abs=1e-6)
+    assert timeline.at_share(1.0) == timeline.last
+    wait = int(np.argmax(timeline.begins - np.concatenate([[0.0], timeline.ends[:-1]])))
+    before = timeline.ends[wait - 1] if wait else 0.0
+    assert timeline.wait_at((before + timeline.begins[wait]) / 2) == pytest.approx(timeline.begins[wait] - before)
+    assert timeline.wait_at((timeline.begins[wait] + timeline.ends[wait]) / 2) == 0.0
+
+
+LINE = "G21 G90\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX5 Y5\nG0 Z5\nM2\n"
+
+
+def cut_text(*texts: str) -> CutProgram:
+    programs = tuple(replace(read, motions=anchored(read.motions)) for read in (read_program(text.encode(), ReadOptions()) for text in texts))
+    stock = BoxStock(StockBox(-2.0, -2.0, -5.0, 8.0, 8.0))
+    return cut_setup(CutSetup(programs, {1: Tool(1, 2.0), 0: Tool(1, 2.0)}, stock), CutOptions(60))

@@ -42,6 +42,10 @@ class CutPage(QWidget):
         """Prepare playing when the cut is first looked at."""
         self._prepare()
 
+    def hideEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
+        """What nobody sees is not played."""
+        self.player.pause()
+
     def eventFilter(self, watched: QWidget, event: QEvent) -> bool:  # type: ignore[override]  # noqa: N802 (Qt's name)
         """Keep the keys that play from whoever types elsewhere, and do what they ask."""
         if isinstance(event, QKeyEvent) and event.type() in (QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress):

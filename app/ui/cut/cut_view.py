@@ -205,6 +205,12 @@ class CutView(QWidget):
         place = at * self.devicePixelRatioF()
         return pick_finest(self.picture, self.detail, self.camera.ray((place.x(), place.y()), pixel_size(self)), self.section)
 
+    def metal_changed(self) -> None:
+        """The picture's cells have changed in place: what is told of single ones is told anew, or no more."""
+        if self.overlay.line is not None:
+            self.show_line(self.overlay.line)
+        self.show_hit(None, QPointF())
+
     def frame_parts(self) -> tuple[Camera, Section | None, frozenset[int]]:
         """Return what is to be painted: from where, what is taken away, and which paths."""
         return self.camera, self.section, self._shown

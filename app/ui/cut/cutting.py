@@ -79,6 +79,7 @@ class Cutting(QObject):
             window.status.cancelled.connect(worker.cancel)
         self.foreign_worker.progress.connect(window.status.show_progress)
         self.foreign_worker.busy_changed.connect(self._on_busy)
+        window.closed.connect(self.player.pause)
         for worker in (self.worker, self.foreign_worker, self.zooming.worker, self._view.colours.worker, self.player.worker):
             window.closed.connect(worker.finish)
         self.zooming.failed.connect(self.failed)
@@ -212,10 +213,10 @@ class Cutting(QObject):
     def _on_played(self) -> None:
         """A finer look shows the moment that the cut rests at; within a motion there is none."""
         at, cut = self.player.at, self.cut
-        if cut is None or at is None or self.player.playing or (at.fraction > 0 and not self.player.at_end):
+        if cut is None or self.player.playing or (at is not None and at.fraction > 0):
             self.zooming.follow(None)
         else:
-            self.zooming.follow(Followed(cut.cut, None if self.player.at_end else at.motion))
+            self.zooming.follow(Followed(cut.cut, None if at is None or self.player.at_end else at.motion))
 
     def _on_busy(self, busy: bool) -> None:
         if busy or not self._window.worker.busy:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -76,9 +77,18 @@ class Painting(QObject):
         self.stir()
 
     def patch(self, patch: Patch) -> None:
-        """Cells of the cut have changed, in the view's picture too: only they are handed over."""
+        """Cells of the cut have changed, in the view's picture too: only they are handed over, unless so many wait that all are less."""
         self._patches.append(patch)
+        picture = self._view.picture
+        if picture is not None and sum(each.heights.size for each in self._patches) > picture.heights.size:
+            self._patches.clear()
+            self._picture_due = self._colours_due = True
         self.stir()
+
+    def adopt(self, values: Bytes) -> None:
+        """Take the cells' colours from another array from now on, which holds the same ones and is changed in place."""
+        if self._colours is not None:
+            self._colours = replace(self._colours, values=values)
 
     def new_colours(self, colours: Colouring, detail: Bytes | None, look: CutLook) -> None:
         """The cut has other colours.

@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from app.workflow.timeline import Moment, Timeline
 
 TICK_MS = 16
+
+LONGEST_WAIT_S = 0.5
+"""A dwell, or a change of tool, takes no longer than this to watch, at any speed."""
+
 _LONGEST_S = 0.25
 """A tick that comes later counts as no more: a window that was held up does not jump."""
 
@@ -64,16 +68,19 @@ class Player(QObject):
     """Where a cut stands, and how it goes on.
 
     Signals:
-        moved(): another moment is shown. state_changed(): it plays or not, is ready or not, or follows another cut. failed(sentence).
+        moved(): another moment is shown. ticked(): time goes on, whether anything changes or not.
+        state_changed(): it plays or not, is ready or not, or follows another cut. failed(sentence).
 
     Attributes:
         shown: the cut that is played; None = none.
         timeline: of it; None until it is ready. marks: what is wrong on the way.
         at: the moment that is shown; None until it is ready.
-        pace, speed: what goes on evenly, and how fast.
+        pace, speed: what goes on evenly, and how fast. speeds: the last one of each pace.
+        failure: why it cannot be played, or "".
     """
 
     moved = Signal()
+    ticked = Signal()
     state_changed = Signal()
     failed = Signal(str)
 
@@ -84,7 +91,8 @@ class Player(QObject):
         self.timeline: Timeline | None = None
         self.marks: tuple[Mark, ...] = ()
         self.at: Moment | None = None
-        self.pace, self.speed = Pace.TIME, USUAL[Pace.TIME]
+        self.pace, self.speed, self.speeds = Pace.TIME, USUAL[Pace.TIME], dict(USUAL)
+        self.failure = ""
         self._cells: LiveCells | None = None
         self._live: CutPicture | None = None
         self._wanted: Wish | None = None
@@ -93,8 +101,7 @@ class Player(QObject):
         self._place = self._now = 0.0
         self.worker = Worker(self, head_start_s=0.0)
         self.worker.done.connect(self._on_done)
-        self.worker.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
-        self.worker.progress.connect(lambda _share, _text: self.state_changed.emit())
+        self.worker.failed.connect(self._on_failed)
         self._timer = QTimer(self, interval=TICK_MS)
         self._timer.setTimerType(Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self._tick)
@@ -130,7 +137,7 @@ class Player(QObject):
         """Play another cut from now on, or none; it stands at its end."""
         self.pause()
         self.worker.cancel()
-        self.shown, self.timeline, self.at = shown, None, None
+        self.shown, self.timeline, self.at, self.failure = shown, None, None, ""
         self._cells = self._live = self._wanted = None
         self.marks = tuple(sorted({Mark(each.motion + 1, each.colour) for each in entries if each.counts and each.motion >= 0},
                                   key=lambda mark: (mark.motion, mark.colour.value)))  # fmt: skip
@@ -141,7 +148,7 @@ class Player(QObject):
     def prepare(self) -> None:
         """Make ready what is needed to go anywhere, on another thread, once."""
         shown = self.shown
-        if shown is None or self.timeline is not None or self.worker.busy:
+        if shown is None or self.timeline is not None or self.worker.busy or self.failure:
             return
         self.worker.start(lambda progress: prepared(shown, progress), 0)
         self.state_changed.emit()
@@ -151,11 +158,12 @@ class Player(QObject):
         if self.playing == way:
             self.pause()
             return
-        if self.timeline is None or self.at is None or not len(self.timeline):
+        goal = self._goal()
+        if self.timeline is None or goal is None or not len(self.timeline):
             return
-        if way > 0 and self.at_end:
+        if way > 0 and goal == self.timeline.last:
             self.go(0)
-        elif way < 0 and self.at.motion == 0 and self.at.fraction == 0:
+        elif way < 0 and goal.motion == 0 and goal.fraction == 0:
             self.go(len(self.timeline))
         self._way, self._last_tick = way, time.perf_counter()
         self._start_from()
@@ -171,6 +179,7 @@ class Player(QObject):
     def set_pace(self, pace: Pace, speed: float) -> None:
         """Let something else go on evenly, and so fast."""
         self.pace, self.speed = pace, speed
+        self.speeds[pace] = speed
         self._start_from()
         self.state_changed.emit()
 
@@ -237,13 +246,14 @@ class Player(QObject):
         if timeline is None:
             return
         passed, self._last_tick = min(now - self._last_tick, _LONGEST_S), now
-        self._place += self._way * passed * self.speed * self._evenness(timeline)
+        self._place += self._way * max(passed * self.speed * self._evenness(timeline), passed * self._hurry(timeline))
         end = timeline.total if self.pace is Pace.TIME else float(len(timeline))
         over = self._place >= end if self._way > 0 else self._place <= 0
         self._place = min(max(self._place, 0.0), end)
         moment = self._moment(timeline)
         self._now = self._place if self.pace is Pace.TIME else timeline.time(moment)
         self._ask(moment)
+        self.ticked.emit()
         if over:
             self.pause()
 
@@ -255,6 +265,10 @@ class Player(QObject):
         run = int(np.searchsorted(ends, self._place + (0 if self._way > 0 else -_FEW), "right"))
         run = min(max(run, 1), len(ends) - 1)
         return float(ends[run] - ends[run - 1])
+
+    def _hurry(self, timeline: Timeline) -> float:
+        """Return how many seconds go by in one at least: while the control waits, so many that the wait is soon over."""
+        return timeline.wait_at(self._place) / LONGEST_WAIT_S if self.pace is Pace.TIME else 0.0
 
     def _moment(self, timeline: Timeline) -> Moment:
         from app.workflow.timeline import Moment
@@ -302,8 +316,9 @@ class Player(QObject):
         if shown is None or view.picture is None:
             return
         if self._live is None:
-            self._live = live_copy(shown.picture)
-            view.picture = self._live
+            self._live = view.picture = live_copy(shown.picture)
+            if view.colours.told in self._live.values:
+                view.painting.adopt(self._live.values[view.colours.told])
         if frame.colour is not view.colours.told and self._wanted is None:
             self._wanted = Wish(frame.moment, view.colours.told, view.playing.wedges_on, True)
         if frame.cells is not None and frame.patch is not None and frame.colour is view.colours.told:
@@ -312,7 +327,14 @@ class Player(QObject):
         self.at = frame.moment
         view.playing.show_tool(None if self.at_end else frame.tool, frame.tip)
         view.playing.show_wedges(frame.wedges)
+        view.metal_changed()
         self.moved.emit()
+
+    def _on_failed(self, answer: Answer) -> None:
+        """Say so, and do not try again until there is another cut."""
+        self.failure = answer.error or ""
+        self.failed.emit(self.failure)
+        self.state_changed.emit()
 
     def _on_colours(self) -> None:
         """Colours that were worked out while cells changed may be those of before."""

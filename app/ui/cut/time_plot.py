@@ -56,6 +56,8 @@ class TimePlot(QWidget):
 
     def show_timeline(self, timeline: Timeline | None, marks: tuple[Mark, ...]) -> None:
         """Show another way, or none."""
+        if timeline is self._timeline and marks == self._marks:
+            return
         self._timeline, self._marks, self._columns = timeline, marks, None
         self.setCursor(Qt.CursorShape.PointingHandCursor if timeline is not None else Qt.CursorShape.ArrowCursor)
         self.update()

@@ -9,7 +9,7 @@ from functools import partial
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSlider, QVBoxLayout, QWidget
 
-from app.ui.cut.player import RANGES, USUAL, Pace, Player, Step
+from app.ui.cut.player import RANGES, Pace, Player, Step
 from app.ui.cut.time_plot import TimePlot, exact_clock
 from app.ui.figures import TIMES, grouped
 from app.ui.icons import IconButton
@@ -52,6 +52,7 @@ class Transport(QWidget):
         self.play, self.play_back = IconButton("play", "Play (Space)"), IconButton("play-back", "Play backward (Shift+Space)")
         self.record = IconButton("record", "Record to a GIF or to pictures…")
         self.steps: list[IconButton] = []
+        self._finding_steps: list[IconButton] = []
         self.clock, self.place = muted(), Elided(role="muted")
         self.pace, self.speed, self.rate = QComboBox(), QSlider(Qt.Orientation.Horizontal), muted()
         self._lay_out()
@@ -100,6 +101,8 @@ class Transport(QWidget):
         button = IconButton(name, tip)
         button.clicked.connect(lambda: self._player.step(what, way))
         self.steps.append(button)
+        if what is Step.FINDING:
+            self._finding_steps.append(button)
         return button
 
     def _connect(self) -> None:
@@ -108,9 +111,10 @@ class Transport(QWidget):
         self.play_back.clicked.connect(lambda: player.toggle(-1))
         self.record.clicked.connect(self.record_wanted)
         self.plot.wanted.connect(player.seek)
-        self.pace.currentIndexChanged.connect(lambda _: self._choose(USUAL[self.pace.currentData()]))
+        self.pace.currentIndexChanged.connect(lambda _: self._choose(player.speeds[self.pace.currentData()]))
         self.speed.valueChanged.connect(lambda notch: self._choose(speed_of(self.pace.currentData(), notch)))
-        player.moved.connect(self.show_place)
+        for signal in (player.moved, player.ticked):
+            signal.connect(self.show_place)
         player.state_changed.connect(self.show_state)
 
     def keys(self) -> dict[tuple[Qt.Key, Qt.KeyboardModifier], Callable[[], None]]:
@@ -131,9 +135,8 @@ class Transport(QWidget):
         ready = timeline is not None and len(timeline) > 0
         for widget in (self.play, self.play_back, self.record, self.pace, self.speed, *self.steps):
             widget.setEnabled(ready)
-        for button in self.steps:
-            findings = "finding" in button.toolTip()
-            button.setVisible(not findings or bool(player.marks))
+        for button in self._finding_steps:
+            button.setVisible(bool(player.marks))
         self.plot.show_timeline(timeline, player.marks)
         self._show_speed()
         self.show_place()
@@ -143,7 +146,7 @@ class Transport(QWidget):
         player, timeline = self._player, self._player.timeline
         if timeline is None or player.at is None:
             self.clock.setText("")
-            self.place.setText("Preparing playback…" if player.preparing else "")
+            self.place.setText(player.failure or ("Preparing playback…" if player.preparing else ""))
             return
         seconds = player.time
         self.plot.show_time(seconds)
@@ -173,7 +176,9 @@ def _stepping(plain: Qt.KeyboardModifier, shift: Qt.KeyboardModifier) -> Iterato
     yield from ((key.Key_Comma, plain, Step.LINE, -1), (key.Key_Period, plain, Step.LINE, 1))
     for back, on in ((key.Key_Comma, key.Key_Period), (key.Key_Less, key.Key_Greater)):  # as layouts tell the same two keys with Shift
         yield from ((back, shift, Step.MOVE, -1), (on, shift, Step.MOVE, 1))
-    yield from ((key.Key_BracketLeft, plain, Step.TOOL, -1), (key.Key_BracketRight, plain, Step.TOOL, 1))
+    yield from ((key.Key_Semicolon, shift, Step.MOVE, -1), (key.Key_Colon, shift, Step.MOVE, 1))
+    for back, on in ((key.Key_BracketLeft, key.Key_BracketRight), (key.Key_PageUp, key.Key_PageDown)):
+        yield from ((back, plain, Step.TOOL, -1), (on, plain, Step.TOOL, 1))
     yield from ((key.Key_N, shift, Step.FINDING, -1), (key.Key_N, plain, Step.FINDING, 1))
 
 

@@ -98,6 +98,8 @@ class Zooming(QObject):
             self.worker.cancel()
             self._followed, self._looks = followed, 0
             self._view.show_detail(None)
+            if self._view.painting.resting:
+                self._look()
 
     def _on_stirred(self) -> None:
         self._looks = 0
