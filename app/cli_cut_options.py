@@ -36,9 +36,9 @@ HELD = "NUMBER=HOLDER:STICKOUT"
 Corners = list[float]
 """x0, y0, z0, x1, y1, z1, mm."""
 
-ENGINE_HELP = ("what computes the heights: cpu, the engine of record; gpu, as exactly by the graphics system; patent, by facets in the "
-               "depth buffer, as published in 1999; where the graphics system fails, cpu (default auto: gpu on graphics hardware, "
-               "else cpu)")  # fmt: skip
+ENGINE_HELP = ("what computes the heights: cpu, the engine of record; gpu, within 1e-4 mm of it by the graphics system; patent, by facets "
+               "in the depth buffer, the method of 1999; where the graphics system fails, cpu (default auto: gpu on graphics "
+               "hardware, else cpu)")  # fmt: skip
 _COUNT = {ToolKind.FLAT: (1,), ToolKind.BALL: (1,), ToolKind.BULL: (2,), ToolKind.V: (2,), ToolKind.DRILL: (1, 2), ToolKind.TAPER: (3,)}
 
 

@@ -32,7 +32,7 @@ Json = dict[str, Any]
 ENGINES = {
     Engine.CPU: "cpu: the lowest height of every sweep in every cell, in closed form, as float32",
     Engine.GPU: "gpu: heights by a quad for each piece of the path, in closed form, as float32, on {renderer}",
-    Engine.PATENT: "patent: heights by facets of two cells in the depth buffer, as published in 1999, on {renderer}",
+    Engine.PATENT: "patent: heights by facets of two cells from corner to corner in the depth buffer, the method of 1999, on {renderer}",
 }  # fmt: skip
 BESIDE = "; by the cpu: which motion cut each cell, volumes, rapids in metal, certificates"
 LENGTH_METHOD = "cut: motions at feed rate that took metal from the cells; link: those at feed rate that took none; G0 is rapid"
@@ -294,6 +294,8 @@ def _summary(data: Json) -> Iterator[str]:
     if certificate is not None and certificate["gouge_mm"] < _TELLING * certificate["pitch_mm"]:
         yield (f"  between the cells, {certificate['pitch_mm']:.4g} mm wide, too: no point deeper than {certificate['gouge_mm']:.4f} mm "
                "inside the part was cut")
+    if data["apart_from_cpu"] is not None:
+        yield f"  {data['engine'].partition(';')[0]}, at most {data['apart_from_cpu']['largest_mm']:.2g} mm from the cpu's"
     if not data["removed_mm3"]:
         yield f"  nothing was removed: the motions at feed rate reach {_words(data['extent_mm'])}, and the stock {_words(data['stock'])}"
     for tool in data["tools"]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
@@ -20,7 +21,7 @@ from app.dexel.sweeps import WORKERS
 from app.dexel.trim import trim
 from app.dexel.wedges import PolygonCounts, polygon_counts
 from app.dexel.workpiece import Heights, Workpiece
-from app.errors import HitofudeError
+from app.errors import Cancelled, HitofudeError
 from app.graphics import is_software, renderer_of
 from app.progress import NO_PROGRESS, Progress
 from app.workflow.cut import GRAPHICS
@@ -97,7 +98,7 @@ class FigureEleven:
 
     Attributes:
         options: what was asked for. rows: one a program.
-        renderer: name of what draws; empty where there is no OpenGL. fault: why there is none.
+        renderer: name of what draws; empty where there is no OpenGL. fault: why there is none, or what has failed.
     """
 
     options: FigureOptions
@@ -125,26 +126,25 @@ def figure_eleven(options: FigureOptions = FigureOptions(), progress: Progress =
 
     Raises:
         HitofudeError: the cells do not fit into memory. Cancelled: the job was asked to stop.
-        moderngl.Error: the graphics system fails.
     """
-    rows, renderer, fault = [], "", ""
+    rows, renderer, faults = [], "", list[str]()
     with ExitStack() as stack:
         context = None
         try:
             context = stack.enter_context(graphics.current())
             renderer = renderer_of(context)
         except HitofudeError as error:
-            fault = str(error)
+            faults.append(str(error))
         for k, name in enumerate(options.programs):
-            rows.append(_row(name, options, context, progress.part(k / len(options.programs), (k + 1) / len(options.programs))))
+            rows.append(_row(name, options, context, faults, progress.part(k / len(options.programs), (k + 1) / len(options.programs))))
     progress.step(1.0)
-    return FigureEleven(options, tuple(rows), renderer, fault)
+    return FigureEleven(options, tuple(rows), renderer, " ".join(faults))
 
 
 Run = Callable[[Progress], Heights]
 
 
-def _row(name: str, options: FigureOptions, context: moderngl.Context | None, progress: Progress) -> FigureRow:
+def _row(name: str, options: FigureOptions, context: moderngl.Context | None, faults: list[str], progress: Progress) -> FigureRow:
     program, piece = PROGRAMS[name], block(options.cells)
     progress.step(0.0, f"Making program {name}")
     course, cutters = program.course(), program.cutters
@@ -153,11 +153,17 @@ def _row(name: str, options: FigureOptions, context: moderngl.Context | None, pr
         ways = _ways(program, piece, context, stack)
         for k, (way, run) in enumerate(ways.items()):
             share = 0.05 + 0.9 * k / len(ways), 0.05 + 0.9 * (k + 1) / len(ways)
-            seconds[way], heights[way] = _best(run, options.repeat, progress.part(*share))
+            try:
+                seconds[way], heights[way] = _best(run, options.repeat, progress.part(*share))
+            except (HitofudeError, Cancelled):
+                raise
+            except Exception as trouble:  # whatever a driver comes up with; the other ways are worth telling
+                if way not in (Way.QUADS, Way.PUBLISHED):
+                    raise
+                faults.append(f"{way.value} fails on program {name}: {' '.join(str(trouble).split())[:200] or type(trouble).__name__}")
     found: dict[Way, Apart] = {way: apart(heights[Way.RECORD], other) for way, other in heights.items() if way is not Way.RECORD}
     facet = published(piece.grid).facet
-    counts, error = polygon_counts(course, cutters, facet), facet_error(cutters[1], facet)
-    return FigureRow(name, program, seconds, found, counts, error)
+    return FigureRow(name, program, seconds, found, polygon_counts(course, cutters, facet), facet_error(cutters[1], facet))
 
 
 def _ways(program: DieProgram, piece: Workpiece, context: moderngl.Context | None, stack: ExitStack) -> dict[Way, Run]:
@@ -202,13 +208,17 @@ def plain_heights(program: DieProgram, cells: int, progress: Progress = NO_PROGR
     return heights.astype(np.float32)
 
 
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
 def _plain(row: FigureRow) -> dict[str, Any]:
     """Return a row as plain values."""
     ratios = {f"{slower.value}_by_{faster.value}": row.ratio(slower, faster) for slower, faster in _RATIOS}
     return {
         "program": row.name, "moves": row.program.moves, "radius_mm": row.program.radius,
         "seconds": {way.value: row.seconds.get(way) for way in Way}, "ratios": ratios,
-        "apart_from_record_mm": {way.value: found.largest for way, found in row.apart.items()}, "published_error_mm": row.error,
+        "apart_from_record_mm": {way.value: _finite(found.largest) for way, found in row.apart.items()}, "published_error_mm": row.error,
         "polygons": {"spheres": row.polygons.spheres, "spheres_culled": row.polygons.spheres_down, "wedges": row.polygons.wedges,
                      "wedges_culled": row.polygons.drawn},
     }  # fmt: skip
@@ -234,6 +244,9 @@ def _lines(figure: FigureEleven) -> Iterator[str]:
     for row in figure.rows:
         counts = row.polygons
         yield (f"{row.name:2}{counts.spheres:>15,}{counts.spheres_down:>16,}{counts.wedges:>14,}{counts.drawn:>16,}{row.error:>10.5f} mm")
+    yield "How far heights are at most from those of the engine of record (cells on walls may fall to either side):"
+    for row in figure.rows:
+        yield f"{row.name:2}" + ", ".join(f"{way.value} {found.largest:.2g} mm" for way, found in row.apart.items())
     yield from (f"{way.value}: {text}" for way, text in WAYS.items())
     if figure.fault:
         yield figure.fault

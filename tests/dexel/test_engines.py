@@ -221,3 +221,20 @@ def test_stopping_is_no_fault() -> None:
     with pytest.raises(Cancelled):
         engine.alone(JOB)
     assert engine.wanted and not engine.told.fault
+
+
+def test_a_context_that_cannot_be_had_a_second_time_is_a_fall_back() -> None:
+    opened: list[int] = []
+
+    def once() -> moderngl.Context:
+        opened.append(1)
+        if len(opened) > 1:
+            raise HitofudeError("There is no OpenGL 3.3 here.")
+        return standalone_context()
+
+    record = trim(*JOB).heights
+    engine = HeightEngine(Engine.GPU, Graphics(once))
+    assert engine.wanted
+    assert engine.beside(record, JOB) is record
+    assert engine.told.engine is Engine.CPU
+    assert "cannot be had again (There is no OpenGL 3.3 here.)" in engine.told.fault

@@ -13,7 +13,7 @@ LIBRARY = b'format = 1\n[[tool]]\nnumber = 1\ndiameter = 6\nstick_out = 30\nhold
 
 
 def test_every_named_holder_makes_a_tool_and_is_found_again():
-    assert len(named_holders()) == len({each.outline for each in named_holders()}) > 8
+    assert len(named_holders()) == len({each.name for each in named_holders()}) > 8
     for holder in named_holders():
         assert Tool(1, 6.0, stick_out=30.0, holder=holder.outline).holder == holder.outline
         assert name_of_outline(holder.outline) == holder.name
@@ -21,7 +21,7 @@ def test_every_named_holder_makes_a_tool_and_is_found_again():
 
 
 def test_a_collet_nut_is_as_wide_as_the_standard_says():
-    assert outline_of("ER20") == ((0.0, 17.5), (19.0, 17.5), (60.0, 17.5))
+    assert outline_of("ER20") == ((0.0, 17.5), (60.0, 17.5))
 
 
 @pytest.mark.parametrize("name", ["er20", " ER 20", "ER-20"])

@@ -190,6 +190,7 @@ LINE = "G21 G90\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX5 Y5\nG0 Z5\nM2\n"
 
 
 def cut_text(*texts: str) -> CutProgram:
-    programs = tuple(replace(read, motions=anchored(read.motions)) for read in (read_program(text.encode(), ReadOptions()) for text in texts))
+    reads = [read_program(text.encode(), ReadOptions()) for text in texts]
+    programs = tuple(replace(read, motions=anchored(read.motions)) for read in reads)
     stock = BoxStock(StockBox(-2.0, -2.0, -5.0, 8.0, 8.0))
     return cut_setup(CutSetup(programs, {1: Tool(1, 2.0), 0: Tool(1, 2.0)}, stock), CutOptions(60))

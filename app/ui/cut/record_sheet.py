@@ -17,7 +17,8 @@ from app.ui.panels.fields import NumberField, Spec
 from app.ui.panels.section import heading
 from app.ui.theme import LIGHT, Theme
 
-LENGTH = Spec("Length", "s", 0.1, 600.0, 1, False, "How long the recording runs; all of the cut is in it.")
+LENGTH = Spec("Length", "s", 0.1, 600.0, 1, False,
+              "How long the recording runs; all of the cut is in it, but for dwells and changes of tool.")
 RATE = Spec("Pictures", "a second", 1.0, MOST_PER_SECOND, 0, False, "More run smoother and make a larger file.")
 WIDTH = Spec("Width", "px", 64.0, 4096.0, 0, False, "Of the pictures; their height follows from the view.")
 
@@ -47,6 +48,10 @@ class RecordPlan:
     def count(self) -> int:
         """How many pictures there are: at least the first and the last one."""
         return max(round(self.seconds * self.per_second), 2)
+
+    def size(self, view: tuple[int, int]) -> tuple[int, int]:
+        """Return width and height of the pictures of a view of so many px."""
+        return self.width, max(round(self.width * view[1] / view[0]), 1)
 
 
 class RecordSheet(QFrame):
@@ -105,15 +110,9 @@ class RecordSheet(QFrame):
         self.raise_()
         self.gif.setFocus(Qt.FocusReason.PopupFocusReason)
 
-    @property
-    def picture_size(self) -> tuple[int, int]:
-        """Width and height of the pictures, px."""
-        width, height = self._size
-        return self.plan.width, max(round(self.plan.width * height / width), 1)
-
     def _take(self) -> None:
         self.plan = RecordPlan(self.length.number, self.rate.number, round(self.width_px.number))
-        wide, high = self.picture_size
+        wide, high = self.plan.size(self._size)
         self.told.setText(f"{counted(self.plan.count, 'picture')} of {wide} {TIMES} {high} px")
 
     def set_theme(self, theme: Theme) -> None:

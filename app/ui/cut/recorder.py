@@ -48,22 +48,19 @@ class Recording:
     target: Path
 
 
-def write_recording(wanted: Recording, progress: Progress) -> Path:
-    """Record; runs on the worker's thread.
-
-    Returns:
-        What was written.
+def write_recording(wanted: Recording, progress: Progress) -> Recording:
+    """Record, and return what was; runs on the worker's thread.
 
     Raises:
         HitofudeError: it cannot be painted, or not be written. Cancelled: nothing was written.
     """
     record(_shots(wanted, progress.part(0.0, 0.1)), wanted.frame, wanted.target, Reel(wanted.plan.count, wanted.plan.per_second),
            progress.part(0.1, 1.0))  # fmt: skip
-    return wanted.target
+    return wanted
 
 
 def _shots(wanted: Recording, progress: Progress) -> Iterator[Shot]:
-    """Yield what each picture shows, from the start to the end."""
+    """Yield what each picture shows, from the start to the end; what waits takes none."""
     from app.workflow.playback import ONCE, Playback
     from app.workflow.timeline import Moment
 
@@ -73,8 +70,7 @@ def _shots(wanted: Recording, progress: Progress) -> Iterator[Shot]:
     colours = colouring(replace(shown.picture, values={}), wanted.colour, wanted.inks)
     for k in range(plan.count):
         share = k / (plan.count - 1)
-        by_time = wanted.pace is Pace.TIME and share < 1.0
-        moment = timeline.at(share * timeline.total) if by_time else Moment(round(share * len(timeline)))
+        moment = timeline.at_share(share) if wanted.pace is Pace.TIME else Moment(round(share * len(timeline)))
         frame = cells.frame(Wish(moment, wanted.colour, wanted.wedges))
         patches = (frame.patch,) if frame.patch is not None else ()
         shot = Shot(Whole(shown.picture, colours) if k == 0 else None, patches, _drawn(frame.tool, shown, drawn), wedges=frame.wedges)
@@ -117,9 +113,13 @@ class Recorder(QObject):
     def ask(self) -> None:
         """Ask how it shall be recorded."""
         player = self._page.player
-        if player.timeline is None or not len(player.timeline):
+        if self.worker.busy:
+            self.failed.emit("A recording is being written; wait for it, or cancel it.")
+            return
+        if player.shown is None:
             self.failed.emit("There is nothing to record yet; press F5, then open the Cut view.")
             return
+        self._window.actions_["view_cut"].trigger()
         player.pause()
         self._page.open_sheet()
 
@@ -137,14 +137,15 @@ class Recorder(QObject):
     def start(self, target: Path) -> None:
         """Record to a file that ends in ".gif", or else to single pictures in a folder."""
         shown, view = self._page.player.shown, self._page.view
-        if shown is None:
+        if shown is None or self.worker.busy:
             return
         self._page.close_sheet()
-        size, view_size = self._sheet.picture_size, pixel_size(view)
+        plan, view_size = self._sheet.plan, pixel_size(view)
+        size = plan.size(view_size)
         camera, section, paths = view.frame_parts()
         camera = replace(camera, scale=camera.scale * size[0] / view_size[0])
         frame = Frame(camera, size, view.painting.look, 0, section, paths)
-        wanted = Recording(shown, frame, self._sheet.plan, self._page.player.pace, view.colours.told, inks_of(view.colours.theme),
+        wanted = Recording(shown, frame, plan, self._page.player.pace, view.colours.told, inks_of(view.colours.theme),
                            view.playing.wedges_on, target)  # fmt: skip
         self.worker.start(lambda progress: write_recording(wanted, progress), 0)
 
@@ -153,8 +154,7 @@ class Recorder(QObject):
             self._window.status.show_progress(0.0 if busy else None)
 
     def _on_done(self, answer: Answer) -> None:
-        target = answer.value
-        if isinstance(target, Path):
-            plan = self._sheet.plan
-            self._log.note(f"record {target.name}", f"{plan.count} pictures of the cut written to {target}")
+        done = answer.value
+        if isinstance(done, Recording):
+            self._log.note(f"record {done.target.name}", f"{done.plan.count} pictures of the cut written to {done.target}")
 
