@@ -294,8 +294,9 @@ def _summary(data: Json) -> Iterator[str]:
     if certificate is not None and certificate["gouge_mm"] < _TELLING * certificate["pitch_mm"]:
         yield (f"  between the cells, {certificate['pitch_mm']:.4g} mm wide, too: no point deeper than {certificate['gouge_mm']:.4f} mm "
                "inside the part was cut")
-    if data["apart_from_cpu"] is not None:
-        yield f"  {data['engine'].partition(';')[0]}, at most {data['apart_from_cpu']['largest_mm']:.2g} mm from the cpu's"
+    if (apart := data["apart_from_cpu"]) is not None:
+        yield (f"  {data['engine'].partition(';')[0]}; {_counted(apart['cells'], 'cell')} more than {apart['beyond_mm']:g} mm "
+               f"from the cpu's, {apart['rim_cells']} beyond the stated error, on walls")
     if not data["removed_mm3"]:
         yield f"  nothing was removed: the motions at feed rate reach {_words(data['extent_mm'])}, and the stock {_words(data['stock'])}"
     for tool in data["tools"]:
