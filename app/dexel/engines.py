@@ -18,7 +18,7 @@ import numpy as np
 from app.dexel.course import Course
 from app.dexel.cutter import Cutter
 from app.dexel.differences import TOLERANCE, Apart, apart, least_beside
-from app.dexel.trial import tried
+from app.dexel.trial import CUTTERS, record, trial, tried
 from app.dexel.workpiece import Heights, Workpiece
 from app.errors import HitofudeError
 from app.graphics import has_device, is_software, renderer_of, standalone_context
@@ -115,13 +115,17 @@ class Trial:
 
 
 @cache
-def trial_of(graphics: Graphics) -> Trial:
-    """Return how a graphics system does the small job; each is tried once."""
-    renderer = ""
+def trial_of(graphics: Graphics, engine: Engine = Engine.GPU) -> Trial:
+    """Return how a graphics system does the small job with an engine, GPU or PATENT; each is tried once."""
+    renderer, compute = "", graphics.quads
+    allowed: float | Floats = TOLERANCE
+    if engine is Engine.PATENT:
+        piece, course = trial()
+        compute, allowed = graphics.published, _allowed(record(), published_error(piece, course, CUTTERS), piece.grid.pitch)
     try:
         with graphics.current() as context:
             renderer = renderer_of(context)
-            found = tried(lambda piece, course, cutters: _computed(graphics.quads, context, (piece, course, cutters), NO_PROGRESS))
+            found = tried(lambda *job: _computed(compute, context, job, NO_PROGRESS), allowed)
     except HitofudeError as error:
         return Trial(renderer, str(error).rstrip("."))
     except Exception as error:  # whatever a driver comes up with
@@ -175,11 +179,11 @@ class HeightEngine:
         """Prepare for an engine, not AUTO."""
         self._graphics, self._compute = graphics, {Engine.GPU: graphics.quads, Engine.PATENT: graphics.published}.get(engine)
         self.told = Told(engine)
-        trial = trial_of(graphics) if self._compute is not None else Trial("", "")
-        if trial.fault:
-            self._fall_back(trial.fault)
-        elif trial.renderer:
-            self.told = Told(engine, trial.renderer)
+        done = trial_of(graphics, engine) if self._compute is not None else Trial("", "")
+        if done.fault:
+            self._fall_back(done.fault)
+        elif done.renderer:
+            self.told = Told(engine, done.renderer)
 
     @property
     def wanted(self) -> bool:

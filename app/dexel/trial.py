@@ -10,10 +10,11 @@ import numpy as np
 
 from app.dexel.course import Course
 from app.dexel.cutter import Cutter
-from app.dexel.differences import Apart, apart
+from app.dexel.differences import TOLERANCE, Apart, apart
 from app.dexel.trim import trim
 from app.dexel.workpiece import BoxStock, Grid, Heights, Workpiece
 from app.fit.fitted import arcs_between
+from app.model.motion import Floats
 from app.model.stock_box import StockBox
 
 Compute = Callable[[Workpiece, Course, Mapping[int, Cutter]], Heights]
@@ -56,14 +57,19 @@ def trial() -> tuple[Workpiece, Course]:
     return piece, Course(motions, np.repeat(np.array(list(CUTTERS), np.int32), len(places[0]))[:-1])
 
 
-def tried(compute: Compute) -> Apart:
-    """Return how far the heights that somebody computes of the trial are from those of the engine of record."""
+def tried(compute: Compute, allowed: float | Floats = TOLERANCE) -> Apart:
+    """Return how far the heights that somebody computes of the trial are from those of the engine of record.
+
+    Args:
+        compute: computes them. allowed: difference that counts as none, mm; or (rows, cols) of them.
+    """
     piece, course = trial()
-    return apart(_record(), compute(piece, course, CUTTERS))
+    return apart(record(), compute(piece, course, CUTTERS), allowed)
 
 
 @cache
-def _record() -> Heights:
+def record() -> Heights:
+    """Return the heights that the engine of record leaves."""
     return trim(*trial(), CUTTERS).heights
 
 

@@ -238,3 +238,14 @@ def test_a_context_that_cannot_be_had_a_second_time_is_a_fall_back() -> None:
     assert engine.beside(record, JOB) is record
     assert engine.told.engine is Engine.CPU
     assert "cannot be had again (There is no OpenGL 3.3 here.)" in engine.told.fault
+
+
+def test_each_method_is_tried_for_itself() -> None:
+    graphics = Graphics(quads=spoiled(next(iter(LIES.values()))))
+    assert trial_of(graphics).fault
+    assert not trial_of(graphics, Engine.PATENT).fault
+    engine = HeightEngine(Engine.PATENT, graphics)
+    engine.beside(trim(*JOB).heights, JOB)
+    assert engine.told.engine is Engine.PATENT
+    lying = Graphics(published=spoiled(LIES["no numbers"]))
+    assert trial_of(lying, Engine.PATENT).fault
