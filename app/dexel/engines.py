@@ -115,7 +115,7 @@ class Trial:
 
 
 @cache
-def trial_of(graphics: Graphics, engine: Engine = Engine.GPU) -> Trial:
+def trial_of(graphics: Graphics, engine: Engine) -> Trial:
     """Return how a graphics system does the small job with an engine, GPU or PATENT; each is tried once."""
     renderer, compute = "", graphics.quads
     allowed: float | Floats = TOLERANCE
@@ -146,7 +146,7 @@ def hardware(graphics: Graphics) -> bool:
                 return False
     except Exception:  # whatever a driver comes up with: nobody has asked for it
         return False
-    return not trial_of(graphics).fault
+    return not trial_of(graphics, Engine.GPU).fault
 
 
 @dataclass(frozen=True, slots=True)

@@ -104,7 +104,7 @@ def test_cells_on_walls_are_no_lies_unless_they_are_many() -> None:
 
 
 def test_a_sound_system_passes_and_its_heights_are_taken() -> None:
-    found = trial_of(Graphics())
+    found = trial_of(Graphics(), Engine.GPU)
     assert found.fault == "" and found.renderer
     assert hardware(Graphics(present=lambda: True)) is not is_software(found.renderer)
     record = trim(*JOB).heights
@@ -146,12 +146,12 @@ def test_the_engine_of_record_needs_no_graphics_system() -> None:
 @pytest.mark.parametrize("lie", LIES)
 def test_a_system_that_lies_is_found_out_by_the_trial(lie: str) -> None:
     graphics = Graphics(quads=spoiled(LIES[lie]))
-    assert "computes wrong heights, in a trial up to" in trial_of(graphics).fault
+    assert "computes wrong heights, in a trial up to" in trial_of(graphics, Engine.GPU).fault
     assert not hardware(graphics)
     record = trim(*JOB).heights
     engine = HeightEngine(Engine.GPU, graphics)
     assert not engine.wanted and engine.beside(record, JOB) is record
-    assert engine.told == Told(Engine.CPU, fault=trial_of(graphics).fault)
+    assert engine.told == Told(Engine.CPU, fault=trial_of(graphics, Engine.GPU).fault)
 
 
 @pytest.mark.parametrize("lie", LIES)
@@ -176,7 +176,7 @@ def test_a_system_that_breaks_is_not_tried_again() -> None:
     assert engine.alone(JOB) is None
     assert "fails (the context is lost)" in engine.told.fault
     assert engine.beside(record, JOB) is record and len(tries) == 1
-    assert "fails (the context is lost)" in trial_of(Graphics(quads=fails)).fault
+    assert "fails (the context is lost)" in trial_of(Graphics(quads=fails), Engine.GPU).fault
 
 
 def test_no_graphics_system_at_all() -> None:
@@ -185,7 +185,7 @@ def test_no_graphics_system_at_all() -> None:
 
     engine = HeightEngine(Engine.GPU, Graphics(opened))
     assert not engine.wanted and engine.told.fault == "There is no OpenGL 3.3 here. Install a graphics driver"
-    assert trial_of(Graphics(opened)).renderer == ""
+    assert trial_of(Graphics(opened), Engine.GPU).renderer == ""
 
 
 def test_an_error_that_nobody_raises_is_one() -> None:
@@ -196,7 +196,7 @@ def test_an_error_that_nobody_raises_is_one() -> None:
         ctx.enable_direct(0xFFFF)
         return heights
 
-    assert "GL_INVALID_ENUM" in trial_of(Graphics(quads=silent)).fault
+    assert "GL_INVALID_ENUM" in trial_of(Graphics(quads=silent), Engine.GPU).fault
 
 
 def test_each_system_is_tried_once_and_its_context_given_back() -> None:
@@ -207,7 +207,7 @@ def test_each_system_is_tried_once_and_its_context_given_back() -> None:
         return contexts[-1]
 
     graphics = Graphics(opened)
-    assert trial_of(graphics) is trial_of(graphics) and len(contexts) == 1
+    assert trial_of(graphics, Engine.GPU) is trial_of(graphics, Engine.GPU) and len(contexts) == 1
     HeightEngine(Engine.GPU, graphics).alone(JOB)
     assert len(contexts) == 2
     assert all(type(context.mglo).__name__ == "InvalidObject" for context in contexts)
@@ -242,7 +242,7 @@ def test_a_context_that_cannot_be_had_a_second_time_is_a_fall_back() -> None:
 
 def test_each_method_is_tried_for_itself() -> None:
     graphics = Graphics(quads=spoiled(next(iter(LIES.values()))))
-    assert trial_of(graphics).fault
+    assert trial_of(graphics, Engine.GPU).fault
     assert not trial_of(graphics, Engine.PATENT).fault
     engine = HeightEngine(Engine.PATENT, graphics)
     engine.beside(trim(*JOB).heights, JOB)
