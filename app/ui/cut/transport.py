@@ -151,12 +151,16 @@ class Transport(QWidget):
         seconds = player.time
         self.plot.show_time(seconds)
         self.clock.setText(f"{exact_clock(seconds)} / {exact_clock(timeline.total)}")
-        row = timeline.current(player.at)
         shown = player.shown
-        tool = shown.cut.setup.tools.get(int(timeline.tool[row])) if shown is not None else None
-        parts = [f"line {timeline.line[row]}", f"T{timeline.tool[row]}{f' {tool.label}' if tool is not None else ''}",
-                 f"{grouped(timeline.removed_at(player.at), 0)} mm³"]  # fmt: skip
-        self.place.setText(" · ".join(parts) if len(timeline) else "")
+        if not len(timeline) or shown is None:
+            self.place.setText("")
+            return
+        row = timeline.current(player.at)
+        line, tool = int(timeline.line[row]), shown.cut.setup.tools.get(int(timeline.tool[row]))
+        parts = [f"line {line}", f"T{timeline.tool[row]}{f' {tool.label}' if tool is not None else ''}",
+                 f"{grouped(timeline.removed_at(player.at), 0)} mm³", shown.texts[shown.file_of(row)].line(line - 1).strip()]  # fmt: skip
+        self.place.setText(" · ".join(parts))
+        self.place.setToolTip(parts[-1])
 
     def _choose(self, speed: float) -> None:
         self._player.set_pace(self.pace.currentData(), speed)

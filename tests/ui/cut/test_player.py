@@ -67,6 +67,9 @@ def test_anywhere_at_once(qtbot, page):
         assert shows(page, motion)
         assert page.view.playing.tip == pytest.approx(player.timeline.place(Moment(motion)))
         assert page.view.playing.tool.number == player.timeline.tool[motion - 1]
+        line = player.timeline.line[motion - 1]
+        assert page.transport.place.text().startswith(f"line {line} · T{player.timeline.tool[motion - 1]} ")
+        assert page.transport.place.text().endswith(player.shown.texts[0].line(int(line) - 1))
     player.go(10**6)
     settle(qtbot, page)
     assert np.array_equal(page.view.picture.heights, end)
