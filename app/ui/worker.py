@@ -9,6 +9,7 @@ import time
 import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from PySide6.QtCore import QObject, Qt, Signal, Slot
 from shiboken6 import isValid
@@ -76,24 +77,27 @@ class _Runner(threading.Thread):
 
     def __init__(self, work: _Work, worker: Worker) -> None:
         super().__init__(name=f"job {work.job_id}", daemon=True)
-        self._work, self._worker, self._told = work, worker, 0.0
+        self._work: _Work | None = work
+        self._worker, self._told = worker, 0.0
         self._head_start = worker.head_start_s
 
-    def _tell(self, fraction: float, text: str) -> None:
+    def run(self) -> None:
+        """Run the function and answer; nothing may escape from here. What the function holds is let go of with it."""
+        work, self._work = self._work, None
+        if work is not None and not work.cancelled.wait(self._head_start):
+            self._run(work)
+
+    def _tell(self, job_id: int, fraction: float, text: str) -> None:
         now = time.monotonic()
         if now - self._told >= _TOLD_EVERY_S:
             self._told = now
-            self._worker.told.emit(self._work.job_id, fraction, text)
+            self._worker.told.emit(job_id, fraction, text)
 
-    def run(self) -> None:
-        """Run the function and answer; nothing may escape from here."""
-        work = self._work
-        if work.cancelled.wait(self._head_start):
-            return
+    def _run(self, work: _Work) -> None:
         value, error = None, None
         try:
             with _NO_COLLECTOR:
-                value = work.function(Progress(self._tell, work.cancelled))
+                value = work.function(Progress(partial(self._tell, work.job_id), work.cancelled))
         except Cancelled:
             return
         except HitofudeError as sentence:

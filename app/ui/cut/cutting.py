@@ -82,6 +82,7 @@ class Cutting(QObject):
         window.closed.connect(self.player.pause)
         for worker in (self.worker, self.foreign_worker, self.zooming.worker, self._view.colours.worker, self.player.worker):
             window.closed.connect(worker.finish)
+        window.closed.connect(self._leave)
         self.zooming.failed.connect(self.failed)
         self.player.failed.connect(self.failed)
         self._view.surfacing.said.connect(self.failed)
@@ -116,6 +117,11 @@ class Cutting(QObject):
         if self._foreign is not None or self.cut is not self._own:
             self._foreign = self._shown_foreign = None
             self._show(self._own)
+
+    def _leave(self) -> None:
+        """Let go of what takes much memory; the window itself may be kept by somebody for longer."""
+        self._foreign = self._shown_foreign = self._own = self._made = None
+        self._show(None)
 
     def _follow(self) -> None:
         made = self._computation.made

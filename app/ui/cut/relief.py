@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
+import os
+from itertools import pairwise
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
+
+from app.pool import pool
 
 Bytes = NDArray[np.uint8]
 
@@ -21,6 +27,9 @@ _SPANS = (3, 7, 15)
 """Widths, in squares of 4 x 4 cells, of the neighbourhoods that a corner is compared with."""
 
 _DARKEST = 0.45
+
+_BANDS, _FEW = max(2, os.cpu_count() or 2), 100_000
+"""Parts that a relief is worked out in at a time, where there are not only few cells."""
 
 _NEAR = _WIDE // 2 + 1
 """A normal is told by cells at most this far away."""
@@ -58,14 +67,26 @@ def relief_part(heights: NDArray[np.float32], pitch: float, rows: slice, columns
 def _relief(heights: NDArray[np.float32], light: Bytes, pitch: float) -> Bytes:
     import cv2
 
-    from app.ui.cut.relief_kernels import relief_map
-
     out = np.empty(heights.shape, "<u4")
     smooth = np.asarray(cv2.GaussianBlur(heights, (_WIDE, _WIDE), 0.0, borderType=cv2.BORDER_REPLICATE))
     spread = np.asarray(cv2.morphologyEx(heights, cv2.MORPH_GRADIENT, np.ones((3, 3), np.uint8)))
     steep = np.where(spread > np.float32(2 * WALL * pitch), spread / np.float32(2 * pitch), np.float32(0.0))
-    relief_map(heights, smooth, steep, light, np.float32(pitch), np.float32(GAIN), np.float32(LIMIT), out)
+    rows, bands = heights.shape[0], 1 if heights.size < _FEW else _BANDS
+    ends = np.linspace(0, rows, bands + 1).astype(int).tolist()
+    done = [pool().submit(_band, (heights, smooth, steep, light), pitch, out, span) for span in pairwise(ends)]
+    for each in done:
+        each.result()
     return out.view(np.uint8).reshape(*heights.shape, 4)
+
+
+def _band(fields: tuple[NDArray[Any], ...], pitch: float, out: NDArray[np.uint32], span: tuple[int, int]) -> None:
+    """Write the relief of some rows; slopes want one more on either side."""
+    from app.ui.cut.relief_kernels import relief_map
+
+    first, last = max(span[0] - 1, 0), min(span[1] + 1, len(out))
+    made = np.empty((last - first, out.shape[1]), out.dtype)
+    relief_map(*(each[first:last] for each in fields), np.float32(pitch), np.float32(GAIN), np.float32(LIMIT), made)
+    out[span[0]:span[1]] = made[span[0] - first:span[1] - first]
 
 
 def corner_light(heights: NDArray[np.float32], pitch: float) -> Bytes:
