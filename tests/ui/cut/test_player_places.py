@@ -12,7 +12,7 @@ from app.ui.computation import State
 from app.ui.cut import player as player_file
 from app.ui.cut.player import Pace
 from app.ui.views import View
-from app.workflow.timeline import Moment, Timeline
+from app.workflow.timeline import Timeline
 from tests.ui.cut.test_player import page, settle
 
 __all__ = ["page"]
@@ -144,4 +144,5 @@ def test_the_end_of_the_window_is_the_end_of_playing(qtbot, computed, page):
     page.player.toggle(1)
     computed.window_.closed.emit()
     assert not page.player.playing
-    assert isinstance(page.player.at, Moment)
+    assert page.player.timeline is None  # what it kept is let go of
+    assert page.view.picture is None
