@@ -1,7 +1,9 @@
 """The worker: answers by signal, drops what nobody waits for, leaves a cancelled job at once."""
 
+import gc
 import threading
 import time
+import weakref
 
 import pytest
 
@@ -108,3 +110,21 @@ def test_newer_job_replaces_the_older(qtbot, worker):
     release.set()
     qtbot.wait(100)
     assert values == ["new"]
+
+
+def test_a_job_that_is_done_holds_nothing(qtbot: QtBot) -> None:
+    class Heavy:
+        pass
+
+    worker, heavy = Worker(), Heavy()
+    gone = weakref.ref(heavy)
+
+    def job(progress: Progress, held: Heavy = heavy) -> int:
+        return len(repr(held))
+
+    with qtbot.waitSignal(worker.done):
+        worker.start(job, 0)
+    worker.finish()
+    del heavy, job
+    gc.collect()
+    assert gone() is None
