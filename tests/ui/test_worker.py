@@ -112,7 +112,7 @@ def test_newer_job_replaces_the_older(qtbot, worker):
     assert values == ["new"]
 
 
-def test_a_job_that_is_done_holds_nothing(qtbot: QtBot) -> None:
+def test_a_job_that_is_done_holds_nothing(qtbot):
     class Heavy:
         pass
 
