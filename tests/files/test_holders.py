@@ -13,7 +13,7 @@ LIBRARY = b'format = 1\n[[tool]]\nnumber = 1\ndiameter = 6\nstick_out = 30\nhold
 
 
 def test_every_named_holder_makes_a_tool_and_is_found_again():
-    assert len(named_holders()) == len({each.name for each in named_holders()}) > 8
+    assert len(named_holders()) == len({each.outline for each in named_holders()}) > 8
     for holder in named_holders():
         assert Tool(1, 6.0, stick_out=30.0, holder=holder.outline).holder == holder.outline
         assert name_of_outline(holder.outline) == holder.name
