@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from app.dexel.course import Course
 from app.dexel.cutter import Cutter
 from app.dexel.pieces import Pieces, Splitter
-from app.errors import ParameterError
 from app.model.motion import Floats, MotionKind
 from app.model.motion_path import anchored
 
@@ -83,9 +82,7 @@ def cutting(course: Course, cutters: Mapping[int, Cutter]) -> NDArray[np.bool_]:
     cuts[list(course.left_out)] = False
     strange = np.flatnonzero(cuts & ~np.isin(course.tool, list(cutters)))
     if len(strange):
-        row = strange[0]
-        raise ParameterError(f"T{course.tool[row]} cuts from line {int(course.motions.line[row])} on, but nobody has said what it is; "
-                             f"give its shape, such as {course.tool[row]}=flat:6.")
+        raise course.strange_tool(int(strange[0]))
     return cuts
 
 

@@ -8,6 +8,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from app.errors import ParameterError
 from app.model.motion import Motions
 
 Ints = NDArray[np.int32]
@@ -39,3 +40,9 @@ class Course:
     def of(motions: Motions, tools: tuple[int, ...], left_out: tuple[int, ...] = ()) -> Course:
         """Return the course of a program; `tools` has the T number of each of its states."""
         return Course(motions, np.array(tools, np.int32)[motions.state], left_out)
+
+    def strange_tool(self, row: int) -> ParameterError:
+        """Return the error that nobody has said what the tool of a motion is, by its row."""
+        number = int(self.tool[row])
+        return ParameterError(f"T{number} cuts from line {int(self.motions.line[row])} on, but nobody has said what it is; "
+                              f"give its shape, such as {number}=flat:6.")

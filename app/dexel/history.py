@@ -118,11 +118,6 @@ class History:
         """What the copies take."""
         return self._kept.bytes
 
-    @property
-    def workpiece(self) -> Workpiece:
-        """What is cut."""
-        return self._workpiece
-
     def advance(self, field: Field, first: int, last: int, progress: Progress = NO_PROGRESS) -> None:
         """Do the motions first … last - 1 on a field that is as the ones before have left it.
 
@@ -194,7 +189,8 @@ class _Copies:
         self._count, self._merged = 0, 0
         self._last: Field | None = None
         self._stirred: list[Box] = []
-        self._bounds, self._order = np.zeros(self._squares + 1, np.int64), np.zeros(0, np.int32)
+        self._bounds = np.zeros(self._squares + 1, np.int64)
+        self._slots, self._blocks_of_slots = (np.zeros(0, np.int32) for _ in range(2))
 
     @property
     def bytes(self) -> int:
@@ -236,8 +232,9 @@ class _Copies:
         """Return the ends of the blocks that are left of those that there were; nothing is taken any more."""
         self._last = None
         square, block = self._square[: self._count], self._block[: self._count]
-        self._order = np.lexsort((block, square)).astype(np.int32)
-        self._bounds = np.searchsorted(square[self._order], np.arange(self._squares + 1)).astype(np.int64)
+        self._slots = np.lexsort((block, square)).astype(np.int32)
+        self._blocks_of_slots = block[self._slots]
+        self._bounds = np.searchsorted(square[self._slots], np.arange(self._squares + 1)).astype(np.int64)
         if not len(self._square):
             return ends[:0]
         step = 1 << self._merged
@@ -247,7 +244,7 @@ class _Copies:
         """See `History.restore`."""
         from app.dexel.history_kernels import restore
 
-        restore(block, self._block[self._order], self._order, self._bounds, self._heights, self._owner, base.heights, base.owner,
+        restore(block, self._blocks_of_slots, self._slots, self._bounds, self._heights, self._owner, base.heights, base.owner,
                 field.heights, field.owner)  # fmt: skip
 
     def _forget(self, squares: Ints, block: int) -> bool:

@@ -18,7 +18,7 @@ from app.dexel.course import Course, Ints, Rapids
 from app.dexel.cutter import Cutter
 from app.dexel.pieces import Splitter, Window
 from app.dexel.workpiece import Grid, Heights
-from app.errors import Cancelled, ParameterError
+from app.errors import Cancelled
 from app.model.motion import Floats, MotionKind
 from app.model.motion_path import anchored
 from app.pool import pool
@@ -279,8 +279,7 @@ def _shape_rows(course: Course, cutters: Mapping[int, Cutter], does: NDArray[np.
         mine = index == k
         cuts = np.flatnonzero(mine & (does == 1) & (course.motions.kind != MotionKind.RAPID))
         if len(cuts):
-            raise ParameterError(f"T{number} cuts from line {int(course.motions.line[cuts[0]])} on, but nobody has said what it is; "
-                                 f"give its shape, such as {number}=flat:6.")
+            raise course.strange_tool(int(cuts[0]))
         does[mine] = 0
     return rows, (2 * index + (does == 2)).astype(np.int32)
 

@@ -8,7 +8,7 @@ the metal as it is then (`asked_bodies`).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
@@ -254,8 +254,8 @@ class _Look:
 
     def _doubtful(self) -> list[int]:
         """Return the motions that may ask for more than is sure, by how much."""
-        over: Callable[[int], float] = lambda row: self._may[row] - self._least[int(self._course.tool[row])]  # noqa: E731
-        return sorted((row for row in self._may if over(row) > TOUCH), key=over, reverse=True)
+        over = {row: may - self._least[int(self._course.tool[row])] for row, may in self._may.items()}
+        return sorted((row for row, by in over.items() if by > TOUCH), key=over.__getitem__, reverse=True)
 
     def _contacts(self) -> tuple[Contact, ...]:
         """Return what was met, each contact with all of its motions."""

@@ -110,8 +110,8 @@ class Playback:
         field, row = self._head.field, moment.motion
         if moment.fraction <= 0 or row >= len(self.timeline):
             return field
-        program = int(np.searchsorted(self.timeline.first, row, "right")) - 1
-        course, own = self._courses[program], row - int(self.timeline.first[program])
+        program, own = self.timeline.program_of(row)
+        course = self._courses[program]
         if course.motions.kind[own] == MotionKind.RAPID or own in course.left_out:
             return field
         part = part_of(course.motions, own, moment.fraction)

@@ -109,7 +109,7 @@ class Timeline:
 
     def at_share(self, share: float) -> Moment:
         """Return the moment when a share of the time is gone in which anything moves."""
-        moving = np.cumsum(self.ends - self.begins)
+        moving = self._moving
         if not len(moving) or share >= 1.0:
             return self.last
         gone = share * float(moving[-1])
@@ -139,10 +139,15 @@ class Timeline:
         place = place_on(motions, own, fraction)
         return place if bool(np.all(np.isfinite(place))) else None
 
+    def program_of(self, row: int) -> tuple[int, int]:
+        """Return the index of the program that a motion belongs to, and its row there."""
+        program = int(np.searchsorted(self.first, row, "right")) - 1
+        return program, row - int(self.first[program])
+
     def own(self, row: int) -> tuple[Motions, int]:
         """Return the motions of the program that a motion belongs to, and its row there."""
-        program = int(np.searchsorted(self.first, row, "right")) - 1
-        return self.programs[program], row - int(self.first[program])
+        program, own = self.program_of(row)
+        return self.programs[program], own
 
     def current(self, moment: Moment) -> int:
         """Return the row of the motion that is being done, or was done last; the first one at the start."""
@@ -160,6 +165,11 @@ class Timeline:
         borders = self.first[1:-1] - 1
         new[borders[(borders >= 0) & (borders < len(new))]] = True
         return np.append(np.flatnonzero(new) + 1, len(self)) if len(self) else np.zeros(0, np.int64)
+
+    @cached_property
+    def _moving(self) -> Floats:
+        """(n,) s of motion behind each, waits left out."""
+        return np.cumsum(self.ends - self.begins)
 
     @cached_property
     def removed(self) -> Floats:

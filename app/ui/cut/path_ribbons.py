@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.ui.cut.camera import Camera, Floats
+from app.ui.cut.glass import blend_over
 from app.ui.cut.picture import CutPaths
 from app.ui.cut.stage import CutLook
 
@@ -90,8 +91,7 @@ class PathRibbons:
         program["scale"] = camera.scale
         program["section"] = sight.section
         self._ctx.enable(self._ctx.BLEND)
-        over = (self._ctx.SRC_ALPHA, self._ctx.ONE_MINUS_SRC_ALPHA, self._ctx.ONE, self._ctx.ONE)
-        self._ctx.blend_func = over  # type: ignore[assignment]  # four are taken too: the last two are for alpha
+        blend_over(self._ctx)
         for ribbons in self._coarse if sight.moving and self._coarse else self._whole:
             if ribbons.look in shown:
                 ribbons.array.render(self._ctx.TRIANGLE_STRIP, vertices=4, instances=ribbons.count)

@@ -97,7 +97,7 @@ class Player(QObject):
         self._live: CutPicture | None = None
         self._wanted: Wish | None = None
         self._running: Wish | None = None
-        self._way, self._last_tick, self._pending = 0, 0.0, 0
+        self._way, self._last_tick = 0, 0.0
         self._place = self._now = 0.0
         self.worker = Worker(self, head_start_s=0.0)
         self.worker.done.connect(self._on_done)
