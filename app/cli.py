@@ -9,9 +9,10 @@ import traceback
 from collections.abc import Sequence
 
 from app import __version__
-from app.cli_output import tell
+from app.cli_output import WaitLine, tell
 from app.cli_signals import stoppable
 from app.errors import Cancelled, HitofudeError
+from app.progress import told_waits
 
 DONE, WITH_FINDINGS, BAD_INPUT, CANCELLED = 0, 1, 2, 130
 HELP = """\
@@ -41,7 +42,7 @@ def main(argv: Sequence[str]) -> int:
         argv: the arguments behind the program's name.
     """
     try:
-        with stoppable() as stopped:
+        with stoppable() as stopped, WaitLine("--quiet" in argv) as line, told_waits(line.show, everywhere=True):
             return _command(list(argv), stopped)
     except (KeyboardInterrupt, Cancelled):
         _say("cancelled; no file was written")

@@ -7,7 +7,7 @@ from typing import Any
 
 from app.bitmap.frame import POINTS
 from app.bitmap.picture import PictureOptions, Shows
-from app.cli_options import number
+from app.cli_parser import number
 from app.errors import InputError
 from app.workflow.bitmap_options import BitmapOptions, BitmapSize, is_picture
 

@@ -9,18 +9,15 @@ from pathlib import Path
 
 from app.atomic import write_together
 from app.cli_files import check_outputs, read_input, shown_progress
-from app.cli_options import MACHINE_HELP, OptionParser, machine_named, typed
 from app.cli_output import helped, tell
+from app.cli_parser import MACHINE_HELP, OptionParser, machine_named, typed
 from app.cli_signals import undisturbed
 from app.errors import InputError
-from app.files.tool_files import read_rows
 from app.model.part import Units
 from app.nc.compare import Differences
 from app.nc.read.dialect import Dialect
 from app.nc.read.options import ToolOffset
 from app.nc.read.program import Problem, Severity
-from app.nc.restart import RestartOptions, restart
-from app.nc.tool_offsets import tool_offsets
 from app.progress import Progress
 from app.workflow.examine import CONTROLS, Examined, ExamineOptions, compared, examine
 
@@ -96,7 +93,12 @@ def _options(arguments: argparse.Namespace) -> ExamineOptions:
 
 def _tools(path: Path | None, units: str) -> Mapping[int, ToolOffset]:
     """Return the control's tool table as a file tells it."""
-    return tool_offsets(read_rows(path.name, read_input(path), Units.INCH if units == "in" else Units.MM)) if path is not None else {}
+    if path is None:
+        return {}
+    from app.files.tool_files import read_rows
+    from app.nc.tool_offsets import tool_offsets
+
+    return tool_offsets(read_rows(path.name, read_input(path), Units.INCH if units == "in" else Units.MM))
 
 
 def _differences(arguments: argparse.Namespace, examined: Examined, progress: Progress) -> Differences | None:
@@ -116,6 +118,8 @@ def _texts(
     if "frame" in outputs:
         texts["frame"] = examined.frame().encode("ascii")
     if "output" in outputs:
+        from app.nc.restart import RestartOptions, restart
+
         texts["output"] = restart(data, arguments.restart_at, RestartOptions(examined.read))
     return texts
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NoReturn
 
-from app.cli_options import OptionParser, join_tolerance, number, typed, with_equals
+from app.cli_parser import OptionParser, join_tolerance, number, typed, with_equals
 from app.edit.errors import CommandError
 from app.edit.numbers import angle, length
 from app.errors import HitofudeError, InputError

@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable
 from typing import TypeVar
 
-from app.cli_options import OptionParser, number
+from app.cli_parser import OptionParser, number
 from app.errors import InputError
 from app.fit.correction import CorrectionOptions, Move, Select
 from app.fit.effective_method import EffectiveMethod, second_embodiment

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from app.atomic import write_together
 from app.cli_files import check_outputs, shown_progress
-from app.cli_options import OptionParser, typed
 from app.cli_output import helped, tell
+from app.cli_parser import OptionParser, typed
 from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.workflow.die_programs import PROGRAMS

@@ -7,7 +7,7 @@ import math
 import re
 from collections.abc import Callable
 
-from app.cli_options import number
+from app.cli_parser import number
 from app.edit.errors import CommandError
 from app.edit.numbers import angle, length
 from app.errors import HitofudeError, InputError

@@ -7,6 +7,7 @@ import sys
 from argparse import ArgumentParser
 from collections import Counter
 from collections.abc import Callable, Sequence
+from typing import Self
 
 from app.model.finding import Finding, FindingKind
 
@@ -59,6 +60,31 @@ def finding_lines(findings: Sequence[Finding]) -> list[str]:
         if count > told:
             lines.append(f"  - {count - told} more of the kind {kind.value}; --report R.json lists them all")
     return lines
+
+
+class WaitLine:
+    """Says on stderr what a command waits for: on a terminal in one line that goes on, elsewhere once."""
+
+    def __init__(self, quiet: bool) -> None:
+        self._quiet, self._said = quiet or sys.stderr is None, False
+
+    def show(self, text: str) -> None:
+        """Say it; `text` may change from call to call."""
+        if self._quiet:
+            return
+        if sys.stderr.isatty():
+            print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
+        elif not self._said:
+            print(f"hitofude: {text}", file=sys.stderr, flush=True)
+        self._said = True
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Leave the terminal's line as it was."""
+        if self._said and sys.stderr.isatty():
+            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
 
 def _let_go() -> None:

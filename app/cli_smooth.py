@@ -11,8 +11,8 @@ from pathlib import Path
 from app.atomic import write_together
 from app.cli_effective import add_effective_options, effective_method
 from app.cli_files import check_outputs, read_input, shown_progress
-from app.cli_options import OptionParser, number, typed
 from app.cli_output import finding_lines, helped, tell
+from app.cli_parser import OptionParser, number, typed
 from app.cli_signals import undisturbed
 from app.nc.post import Post
 from app.nc.posts import load_post

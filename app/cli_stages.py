@@ -14,8 +14,9 @@ from pathlib import Path
 from app.atomic import write_together
 from app.cli_bitmap import add_bitmap_options, bitmap_options
 from app.cli_files import check_outputs, read_input, shown_progress
-from app.cli_options import OptionParser, join_tolerance, number, stepover, typed
+from app.cli_options import stepover
 from app.cli_output import finding_lines, helped, tell
+from app.cli_parser import OptionParser, join_tolerance, number, typed
 from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.files.job_toml import read_job, read_units

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from app.atomic import write_together
 from app.cli_files import check_outputs, read_input, shown_progress
-from app.cli_options import OptionParser, number
 from app.cli_output import finding_lines, helped, tell
+from app.cli_parser import OptionParser, number
 from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.files.scene_toml import read_scene, sources_of

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from app.atomic import write_together
 from app.cli_files import check_outputs, read_input, shown_progress
-from app.cli_options import OptionParser, join_tolerance, number, typed
 from app.cli_output import finding_lines, helped, tell
+from app.cli_parser import OptionParser, join_tolerance, number, typed
 from app.cli_signals import undisturbed
 from app.files.job_toml import read_units
 from app.files.tool_files import read_tools

@@ -1,4 +1,4 @@
-"""Fills the cache of compiled kernels, so that nobody ever waits for a compiler: `python -m app.kernels`."""
+"""Has every kernel compiled, so that nobody waits for a compiler later: `python -m app.kernels`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import sys
 from importlib import import_module
 from pathlib import Path
 
-from app.progress import NO_PROGRESS, Progress
+from app.progress import NO_PROGRESS, Progress, told_waits
 
 
 def kernel_modules() -> tuple[str, ...]:
@@ -17,24 +17,24 @@ def kernel_modules() -> tuple[str, ...]:
 
 
 def warm(progress: Progress = NO_PROGRESS) -> tuple[str, ...]:
-    """Compile every kernel, or load it from the cache; one that cannot be compiled stops none of the others.
+    """Have every kernel that is not kept yet compiled; one that cannot be stops none of the others.
 
     Returns:
-        A sentence for each module that failed: what needs it tells of it in its turn, everything else works.
+        A sentence for each kernel that failed: what needs it tells of it in its turn, everything else works.
 
     Raises:
-        Cancelled: between two modules.
+        Cancelled: the job was asked to stop.
     """
-    modules, failed = kernel_modules(), []
-    for done, name in enumerate(modules):
-        progress.step(done / len(modules), f"Preparing {name.split('.')[1]}")
-        try:
-            import_module(name)
-        except Exception as error:
-            cause = " ".join(str(error).split())[:200]
-            failed.append(f"{name} cannot be compiled, so what needs it will not work: {type(error).__name__}: {cause}")
-    progress.step(1.0, "Ready")
-    return tuple(failed)
+    from app.jit.compilers import compilers
+    from app.jit.compiled import REGISTERED
+
+    for name in kernel_modules():
+        progress.step(0.0)
+        import_module(name)
+    with told_waits(lambda text: progress.step(compilers().share, text)):
+        compilers().demand(*REGISTERED)
+    progress.step(1.0)
+    return tuple(why for kernel in REGISTERED if (why := compilers().why(kernel)))
 
 
 if __name__ == "__main__":

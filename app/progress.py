@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 from app.errors import Cancelled
@@ -44,3 +45,44 @@ class Progress:
 
 
 NO_PROGRESS = Progress()
+
+
+Waiter = Callable[[str], None]
+
+
+class _Waits(threading.local):
+    """Who is told what a job waits for: on this thread, or else on all."""
+
+    everywhere: Waiter | None = None
+    here: Waiter | None = None
+
+
+_WAITS = _Waits()
+
+
+@contextmanager
+def told_waits(waiter: Waiter, everywhere: bool = False) -> Iterator[None]:
+    """Have `waiter` told, again and again, what work waits for that can say no fraction of its own.
+
+    Args:
+        waiter: called on the thread that waits; it may raise Cancelled.
+        everywhere: on all threads that have no waiter of their own, instead of on this one.
+    """
+    holder, name = (_Waits, "everywhere") if everywhere else (_WAITS, "here")
+    before = getattr(holder, name)
+    setattr(holder, name, waiter)
+    try:
+        yield
+    finally:
+        setattr(holder, name, before)
+
+
+def waited_for(text: str) -> None:
+    """Tell whoever wants to know that this thread waits.
+
+    Raises:
+        Cancelled: there is no need to wait any longer.
+    """
+    waiter = _WAITS.here or _Waits.everywhere
+    if waiter is not None:
+        waiter(text)

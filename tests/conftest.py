@@ -1,25 +1,40 @@
 """What all tests share: no screen, folders of their own, and where the data is."""
 
+import itertools
 import os
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
 
+from tests.examples import PROFILE, examples
+
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 os.environ["LC_ALL"] = "C.UTF-8"  # the window speaks English, whatever the desktop does
 
-settings.register_profile("same", derandomize=True)
-settings.load_profile(os.environ.get("HITOFUDE_HYPOTHESIS", "same"))
-"""What a plain run tries is the same each time, so that it fails for a change and not by chance; `default` searches anew."""
+pytest_plugins = ("tests.parallel", "tests.exhaustive")
+
+settings.register_profile("quick", derandomize=True, max_examples=examples(100))
+settings.register_profile("full", derandomize=True)
+settings.load_profile(PROFILE)
 
 ROOT = Path(__file__).resolve().parent.parent
 
 
+@pytest.fixture(scope="session")
+def config_folders(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """New folders for settings, numbered: the usual temporary ones are numbered by looking through all that there are."""
+    base = tmp_path_factory.mktemp("config")
+    return (base / str(k) for k in itertools.count())
+
+
 @pytest.fixture(autouse=True)
-def own_settings(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+def own_settings(config_folders: Iterator[Path], monkeypatch: pytest.MonkeyPatch) -> None:
     """No test reads or changes the settings of the person who runs it."""
-    monkeypatch.setenv("HITOFUDE_CONFIG", str(tmp_path_factory.mktemp("config")))
+    folder = next(config_folders)
+    folder.mkdir()
+    monkeypatch.setenv("HITOFUDE_CONFIG", str(folder))
 
 
 @pytest.fixture

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from app.edit.evaluate import length_of, number_of
-from app.edit.grammar import read_value
-from app.edit.units import ANGLE_UNITS, LENGTH_UNITS
-from app.edit.values import Scope
+import re
+
+_PLAIN = re.compile(r"-?\d{1,7}(\.\d+)?", re.ASCII)
+"""Numbers that need no grammar, whose parser takes as long to import as a small job to run."""
 
 
 def length(text: str, plain: float = 1.0) -> float:
@@ -16,6 +16,13 @@ def length(text: str, plain: float = 1.0) -> float:
     Raises:
         CommandError: not a number, an unknown unit, a division by zero, or beyond 10 km.
     """
+    if _PLAIN.fullmatch(text):
+        return float(text) * plain
+    from app.edit.evaluate import length_of
+    from app.edit.grammar import read_value
+    from app.edit.units import LENGTH_UNITS
+    from app.edit.values import Scope
+
     return float(length_of(read_value(text), Scope(units=LENGTH_UNITS, plain=plain)))
 
 
@@ -25,4 +32,9 @@ def angle(text: str) -> float:
     Raises:
         CommandError: as for `length`.
     """
+    from app.edit.evaluate import number_of
+    from app.edit.grammar import read_value
+    from app.edit.units import ANGLE_UNITS
+    from app.edit.values import Scope
+
     return number_of(read_value(text), Scope(units=ANGLE_UNITS))

@@ -12,6 +12,7 @@ from app import tolerances
 from app.geometry.chain_overlap import repeated
 from app.geometry.chain_pieces import Piece, length_of, with_ends
 from app.geometry.chain_twins import reach_of, twins_met
+from app.geometry.near_points import all_within, groups, pairs_within
 from app.model.curves import Arc, Line, Point
 
 Nodes = NDArray[np.int64]
@@ -39,16 +40,8 @@ def nodes_of(pieces: Sequence[Piece], join_tolerance: float) -> Nodes:
 def _welded(ends: NDArray[np.float64]) -> Nodes:
     if len(ends) == 0:
         return np.zeros(0, np.int64)
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-    from scipy.spatial import cKDTree
-
     points, nodes = np.unique(ends, axis=0, return_inverse=True)
-    pairs = cKDTree(points).query_pairs(tolerances.WELD, output_type="ndarray")
-    if len(pairs):
-        graph = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(points), len(points)))
-        nodes = connected_components(graph, directed=False)[1][nodes.ravel()]
-    return nodes.ravel().astype(np.int64)
+    return groups(len(points), pairs_within(points, tolerances.WELD))[nodes.ravel()]
 
 
 def _join_loose(pieces: Sequence[Piece], ends: NDArray[np.float64], single: Nodes, joined: tuple[Nodes, float]) -> None:
@@ -59,13 +52,11 @@ def _join_loose(pieces: Sequence[Piece], ends: NDArray[np.float64], single: Node
         single: number of each end's point, -1 for circles and for curves that repeat another.
         joined: the numbers of all ends, which change, and the distance within which to join, mm.
     """
-    from scipy.spatial import cKDTree
-
     nodes, reach = joined
     loose = _loose(single)
     if len(loose) == 0:
         return
-    pairs = cKDTree(ends[loose]).query_pairs(reach, output_type="ndarray")
+    pairs = pairs_within(ends[loose], reach)
     gaps = np.hypot(*(ends[loose[pairs[:, 0]]] - ends[loose[pairs[:, 1]]]).T)
     free = set(loose.tolist())
     becomes = np.arange(single.max() + 1)
@@ -76,9 +67,10 @@ def _join_loose(pieces: Sequence[Piece], ends: NDArray[np.float64], single: Node
             free -= {a, b}
     if free:
         points = np.flatnonzero(single >= 0)
-        tree = cKDTree(ends[points])
-        for a in sorted(free):
-            near = [(math.dist(ends[a], ends[b]), int(b)) for b in points[tree.query_ball_point(ends[a], reach)]]
+        left = np.array(sorted(free))
+        place, found = all_within(ends[points], ends[left], reach)
+        for k, a in enumerate(left.tolist()):
+            near = [(math.dist(ends[a], ends[b]), int(b)) for b in points[found[place == k]]]
             allowed = [b for gap, b in sorted(near) if becomes[single[b]] != becomes[single[a]] and _may_meet(pieces, a, b, gap)]
             if allowed:
                 becomes[single[a]] = becomes[single[allowed[0]]]

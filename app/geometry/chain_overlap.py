@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from app import tolerances
 from app.geometry.chain_pieces import Piece, length_of
 from app.geometry.near import near
+from app.geometry.near_points import pairs_within
 from app.geometry.primitives import CX, TURN, X0, X1, R, Rows, boxes, contour_rows, curve_rows, points_at, sweeps
 from app.geometry.primitives import lengths as row_lengths
 from app.model.curves import Circle, Point
@@ -225,8 +226,6 @@ def covered(pieces: Sequence[Piece], nodes: Nodes, overlaps: Sequence[Overlap], 
 
 def twin_contours(contours: Sequence[Contour], reach: float) -> dict[int, int]:
     """Return closed contours that run along an earlier one all the way round, each with that earlier one."""
-    from scipy.spatial import cKDTree
-
     closed = [k for k, contour in enumerate(contours) if contour.closed]
     if len(closed) < 2:
         return {}
@@ -235,7 +234,7 @@ def twin_contours(contours: Sequence[Contour], reach: float) -> dict[int, int]:
     first = np.cumsum([0, *(len(rows[k]) for k in closed[:-1])])
     around = np.hstack([np.minimum.reduceat(every[:, :2], first), np.maximum.reduceat(every[:, 2:], first)])
     twins: dict[int, int] = {}
-    for a, b in sorted(cKDTree(around).query_pairs(4 * reach)):
+    for a, b in pairs_within(around, 4 * reach).tolist():
         kept, other = closed[a], closed[b]
         if kept not in twins and _run_together(rows[kept], rows[other], reach):
             twins.setdefault(other, kept)

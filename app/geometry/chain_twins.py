@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from app import tolerances
 from app.geometry.chain_overlap import same
 from app.geometry.chain_pieces import Piece, length_of
+from app.geometry.near_points import all_within, groups
 
 Nodes = NDArray[np.int64]
 _LONG = 4.0
@@ -37,9 +38,6 @@ def twins_met(pieces: Sequence[Piece], ends: NDArray[np.float64], nodes: Nodes, 
         nodes: (2 n,) number of the point of each end, -1 for circles.
         reach: mm.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     if len(pieces) < 2:
         return nodes
     pairs = [pair for pair in _candidates(ends, nodes, reach) if same(pieces[pair[0]], pieces[pair[1]], reach)]
@@ -49,27 +47,24 @@ def twins_met(pieces: Sequence[Piece], ends: NDArray[np.float64], nodes: Nodes, 
     couples = [couple for met in found if not thin.intersection(met) for couple in met]
     if not couples:
         return nodes
-    a, b = np.array(couples).T
-    count = int(nodes.max()) + 1
-    merged = connected_components(coo_array((np.ones(len(a)), (a, b)), shape=(count, count)), directed=False)[1]
+    merged = groups(int(nodes.max()) + 1, np.array(couples))
     return np.where(nodes >= 0, merged[np.maximum(nodes, 0)], -1).astype(np.int64)
 
 
 def _candidates(ends: NDArray[np.float64], nodes: Nodes, reach: float) -> list[tuple[int, int]]:
     """Return pairs of pieces, not both of closed outlines, whose ends lie within reach and are not the same already."""
-    from scipy.spatial import cKDTree
-
     pairs = nodes.reshape(-1, 2)
     loose = np.flatnonzero((pairs[:, 0] >= 0) & ~_in_simple_loop(pairs))
     if len(loose) == 0:
         return []
     able = np.flatnonzero(pairs[:, 0] >= 0)
     whole = ends.reshape(-1, 4)
-    tree = cKDTree(whole[able])
     found = set()
     for turned in (whole[loose], whole[loose][:, [2, 3, 0, 1]]):
-        for k, near in zip(loose.tolist(), tree.query_ball_point(turned, reach, p=np.inf), strict=True):
-            found |= {(min(j, k), max(j, k)) for j in able[near].tolist() if j != k}
+        place, other = all_within(whole[able], turned, 2 * reach)  # of four numbers, none of which differs by more than reach
+        near = np.abs(turned[place] - whole[able[other]]).max(axis=1, initial=0.0) <= reach
+        couples = zip(loose[place[near]].tolist(), able[other[near]].tolist(), strict=True)
+        found |= {(min(j, k), max(j, k)) for j, k in couples if j != k}
     return sorted((j, k) for j, k in found if set(pairs[j].tolist()) != set(pairs[k].tolist()))
 
 
@@ -85,13 +80,7 @@ def _in_simple_loop(pairs: Nodes) -> NDArray[np.bool_]:
 
 def _groups(pairs: Nodes) -> Nodes:
     """Return for each piece the number of the chain of touching pieces that it is in; 0 for circles too."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    able = pairs[pairs[:, 0] >= 0]
-    count = max(int(pairs.max()) + 1, 1)
-    graph = coo_array((np.ones(len(able)), (able[:, 0], able[:, 1])), shape=(count, count))
-    group = connected_components(graph, directed=False)[1]
+    group = groups(max(int(pairs.max()) + 1, 1), pairs[pairs[:, 0] >= 0])
     return np.where(pairs[:, 0] >= 0, group[np.maximum(pairs[:, 0], 0)], 0).astype(np.int64)
 
 

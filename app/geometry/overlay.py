@@ -12,6 +12,7 @@ from app import tolerances
 from app.geometry.chain_crossings import contacts
 from app.geometry.chain_overlap import near_pairs
 from app.geometry.distance import DistanceField
+from app.geometry.near_points import groups, nearest, pairs_within
 from app.geometry.primitives import (
     CX,
     CY,
@@ -97,28 +98,21 @@ def _boxes_meet(rows: Sequence[Rows], others: Sequence[Rows]) -> NDArray[np.bool
 
 def _once(pieces: Rows) -> Rows:
     """Return pieces without those that are there twice the same way round, where an outline lies along a contour or another."""
-    from scipy.spatial import cKDTree
-
     if len(pieces) < 2:
         return pieces
     places = np.column_stack([pieces[:, :4], points_at(pieces, np.full(len(pieces), 0.5))])
-    pairs = cKDTree(places).query_pairs(20 * tolerances.WELD, output_type="ndarray")
+    pairs = pairs_within(places, 20 * tolerances.WELD)
     kept: Rows = np.delete(pieces, np.unique(pairs.max(axis=1)), axis=0)
     return kept
 
 
 def _meeting(contours: Sequence[Contour]) -> list[int]:
     """Return for each contour the number of the group of contours that meet one another."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     rows = [contour_rows(contour) for contour in contours]
     owner = np.repeat(np.arange(len(rows)), [len(r) for r in rows])
     whole = np.concatenate([np.zeros((0, 8)), *rows])
     _, i, j = contacts(whole, *near_pairs(whole, tolerances.WELD))
-    meet = coo_array((np.ones(len(i), np.bool_), (owner[i], owner[j])), shape=(len(rows), len(rows)))
-    numbers: list[int] = connected_components(meet, directed=False)[1].tolist()
-    return numbers
+    return list(groups(len(rows), np.stack([owner[i], owner[j]], 1)).tolist())
 
 
 def _parted(contours: Sequence[Contour]) -> tuple[Contour, ...]:
@@ -190,25 +184,17 @@ def _turned(pieces: Rows, inside: Callable[[NDArray[np.float64]], NDArray[np.boo
 
 def _twice(points: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which points (n, 2) are there more than once."""
-    from scipy.spatial import cKDTree
-
     if len(points) < 2:
         return np.zeros(len(points), np.bool_)
-    twice: NDArray[np.bool_] = cKDTree(points).query(points, k=2)[0][:, 1] < 10 * tolerances.WELD
+    twice: NDArray[np.bool_] = nearest(points, points, 2)[0][:, 1] < 10 * tolerances.WELD
     return twice
 
 
 def _welded(pieces: Rows) -> tuple[Rows, NDArray[np.int64], NDArray[np.int64]]:
     """Return (pieces, number of the point where each starts, and ends); ends within 10 WELD become one point."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-    from scipy.spatial import cKDTree
-
     count = len(pieces)
     ends = np.concatenate([pieces[:, :2], pieces[:, 2:4]])
-    pairs = cKDTree(ends).query_pairs(10 * tolerances.WELD, output_type="ndarray") if count else np.zeros((0, 2), np.int64)
-    near = coo_array((np.ones(len(pairs), np.bool_), (pairs[:, 0], pairs[:, 1])), shape=(2 * count, 2 * count))
-    number = connected_components(near, directed=False)[1].astype(np.int64)
+    number = groups(2 * count, pairs_within(ends, 10 * tolerances.WELD))
     first = np.unique(number, return_index=True)[1]
     pieces = pieces.copy()
     pieces[:, :2], pieces[:, 2:4] = ends[first[number[:count]]], ends[first[number[count:]]]

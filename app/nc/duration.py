@@ -28,6 +28,10 @@ from app.nc.read.program import EventKind, ModalState, NcProgram
 STILL = 1e-9
 """mm; shorter motions take no time and make no corner."""
 
+TIME_METHOD = ("feeds and accelerations with look-ahead, corners blended as the program says, dwells and tool changes, on this "
+               "machine: {}; no jerk, no stops by hand")
+"""How times are come by, for reports; {} is the machine's title."""
+
 JUMP = 1e-6
 """mm; a motion that begins farther from the end of the one before begins at rest."""
 

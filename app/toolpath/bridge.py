@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import Delaunay, QhullError
 
 from app import tolerances
 from app.geometry.distance import DistanceField
 from app.geometry.offset import Level, Ring
 from app.geometry.primitives import Rows, lengths, points_at
+from app.geometry.triangulation import neighbours
 from app.toolpath.link_rows import Place
 
 
@@ -170,15 +170,11 @@ def level_bridges(rings: Sequence[Ring], some: Sequence[int], groups: Sequence[i
     row = np.repeat(np.arange(len(rows)), counts)
     part = (np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts) + 0.5) / counts[row]
     points = points_at(rows[row], part)
-    try:
-        corners = Delaunay(points).simplices
-    except (QhullError, ValueError):  # fewer than three points, or all on a line
-        return
-    edges = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)
+    edges = neighbours(points)
     ring = owner[row]
     group, region = np.array(groups)[ring], np.array([r.region for r in rings])[ring]
     apart = (group[edges[:, 0]] != group[edges[:, 1]]) & (region[edges[:, 0]] == region[edges[:, 1]])
-    edges = np.unique(edges[apart], axis=0)
+    edges = edges[apart]
     size = np.hypot(*(points[edges[:, 0]] - points[edges[:, 1]]).T)
     order = np.argsort(size, kind="stable")
     if most is not None:

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import Delaunay, QhullError
 
 from app import tolerances
 from app.geometry.distance import DistanceField
 from app.geometry.primitives import Indices, Rows, sweeps
+from app.geometry.triangulation import neighbours
 from app.toolpath import chain_kernels
 from app.toolpath.rest_left import Ground
 from app.toolpath.rest_runs import Chunks, Run
@@ -178,13 +178,9 @@ def _across(spots: tuple[Floats, Indices], corridor: Corridor, longest: float) -
         spots: places (n, 2) and the ring of each; those that follow one another round a ring have their way along it.
     """
     places, ring = spots
-    try:
-        corners = Delaunay(places).simplices
-    except (QhullError, ValueError):  # fewer than three places, or all on a line
-        return np.zeros(0, np.int64), np.zeros(0, np.int64)
-    edges = np.unique(np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1), axis=0)
+    edges = neighbours(places)
     edges = edges[(ring[edges[:, 0]] != ring[edges[:, 1]]) | (edges[:, 1] - edges[:, 0] > 1)]
     ways = np.hstack([places[edges[:, 0]], places[edges[:, 1]]])
     edges, ways = (each[np.hypot(*(ways[:, :2] - ways[:, 2:]).T) <= longest] for each in (edges, ways))
-    edges = edges[corridor.clear(ways)].astype(np.int64)
+    edges = edges[corridor.clear(ways)]
     return edges[:, 0], edges[:, 1]

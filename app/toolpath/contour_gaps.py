@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.spatial import cKDTree
 
+from app.geometry.near_points import nearest
 from app.geometry.offset import Level
 from app.geometry.primitives import TURN, Indices, Rows, lengths, points_at, sweeps
 from app.toolpath.contour_path import Floats, fractions_at, headings_at, left_of
@@ -187,9 +187,8 @@ def _with_corners(found: Sequence[Gap], level: Level) -> list[Gap]:
     if not jump.any() or not found:
         return list(found)
     before, behind, joints, turn = before[jump], behind[jump], joints[jump], turn[jump]
-    at = cKDTree(np.hstack([before, behind]))
     ends = np.array([[*gap.rows[0, :2], *gap.rows[-1, 2:4]] for gap in found])
-    off, which = at.query(ends)
+    off, which = (each[:, 0] for each in nearest(np.hstack([before, behind]), ends, 1))
     result = []
     for gap, far, k in zip(found, off.tolist(), which.tolist(), strict=True):
         if far > _SAME:

@@ -8,8 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
 
 from app.geometry.distance import DistanceField
 from app.geometry.offset import Level, Ring, offset_levels
@@ -214,6 +212,9 @@ def _widest_way(a: Floats, b: Floats, window: tuple[float, int], field: Distance
              (number[1:, :-1], number[:-1, 1:]))
     pairs = np.concatenate([np.stack([one.ravel(), other.ravel()], 1) for one, other in sides])
     pairs = pairs[room[pairs].sum(axis=1) > np.hypot(*(points[pairs[:, 0]] - points[pairs[:, 1]]).T)]
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
+
     graph = coo_matrix((2 * room.max() - room[pairs].min(axis=1), (pairs[:, 0], pairs[:, 1])), (side**2, side**2))
     start, end = (int(np.argmin(np.hypot(*(points - point).T))) for point in (a, b))
     before = breadth_first_order(minimum_spanning_tree(graph), start, directed=False)[1]

@@ -11,8 +11,8 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
+from app.geometry.near_points import all_within
 from app.geometry.primitives import Rows, points_at
 from app.model.operation import Direction
 from app.toolpath.contour_path import headings_at, left_of
@@ -77,10 +77,7 @@ def _reached_by_others(rows: Rows, owner: NDArray[np.int64], radius: float) -> N
     places = _beside(rows, radius)
     if not len(rows):
         return np.zeros(places.shape[:3], np.bool_)
-    middles = cKDTree(points_at(rows, np.full(len(rows), 0.5)))
-    near = middles.query_ball_point(places.reshape(-1, 2), radius)
     own = np.repeat(owner, len(_ASIDE) * 2)
-    counts = np.array([len(each) for each in near])
-    others = owner[np.concatenate([np.zeros(0, np.int64), *near]).astype(np.int64)] != np.repeat(own, counts)
-    reached = np.bincount(np.repeat(np.arange(len(near)), counts), others, len(near)) > 0
+    place, middle = all_within(points_at(rows, np.full(len(rows), 0.5)), places.reshape(-1, 2), radius)
+    reached = np.bincount(place, owner[middle] != own[place], len(own)) > 0
     return reached.reshape(places.shape[:3])

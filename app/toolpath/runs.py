@@ -22,9 +22,9 @@ from itertools import pairwise
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from app.geometry.distance import DistanceField
+from app.geometry.near_points import groups, pairs_within
 from app.geometry.offset import Level, Ring
 from app.geometry.primitives import Rows, lengths, points_at, reversed_rows, sample
 from app.toolpath import runs_kernels, uncut_kernels
@@ -219,19 +219,10 @@ class _Space:
         step = self._radius / 4
         points = [_along(gap.rows, step) for gap in gaps]
         owner = np.repeat(np.arange(len(gaps)), [len(each) for each in points])
-        pairs = cKDTree(np.concatenate(points)).query_pairs(reach + step, output_type="ndarray")
-        group = list(range(len(gaps)))
-
-        def first(k: int) -> int:
-            while group[k] != k:
-                k = group[k]
-            return k
-
-        for a, b in np.unique(np.sort(owner[pairs], axis=1), axis=0):
-            group[first(int(a))] = first(int(b))
+        number = groups(len(gaps), np.unique(owner[pairs_within(np.concatenate(points), reach + step)], axis=0))
         found: dict[int, list[_Gap]] = {}
-        for k, gap in enumerate(gaps):
-            found.setdefault(first(k), []).append(gap)
+        for k, gap in zip(number.tolist(), gaps, strict=True):
+            found.setdefault(k, []).append(gap)
         return list(found.values())
 
     def _spur(self, points: Floats) -> Trip | None:

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.errors import ParameterError
+from app.geometry.near_points import nearest
 from app.geometry.primitives import Indices, reversed_rows
 from app.progress import NO_PROGRESS, Progress
 from app.toolpath.build import Stroke
@@ -153,12 +154,10 @@ class _Tour:
 
     def _near(self) -> Indices:
         """Return (n + 1, m) strokes near each one, -1 where there are fewer: it can go on to these, or come from them."""
-        from scipy.spatial import cKDTree
-
         begins, ends = self._ends[:, :2], self._ends[:, 2:]
         ways = [(ends, begins), (begins, ends)] + ([(ends, ends), (begins, begins)] if self._mirrored else [])
         count = min(_NEAR + 1, self._count)
-        found = np.hstack([np.atleast_2d(cKDTree(there).query(here, count)[1]) for here, there in ways])
+        found = np.hstack([nearest(there, here, count)[1] for here, there in ways])
         found[found == np.arange(self._count)[:, None]] = -1
         found = -np.sort(-found, axis=1)
         found[:, 1:][found[:, 1:] == found[:, :-1]] = -1

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 from PySide6.QtCore import QByteArray, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap
 from PySide6.QtSvg import QSvgRenderer
@@ -14,9 +16,19 @@ SIZE = 20
 _SCALES = (1, 2, 3)
 
 
+@cache
+def _drawing(name: str) -> bytes:
+    return resource("icons", f"{name}.svg").read_bytes()
+
+
 def pixmap(name: str, colour: QColor, scale: int = 1) -> QPixmap:
-    """Return an icon as a picture of 20 x 20 px times `scale`."""
-    data = resource("icons", f"{name}.svg").read_bytes().replace(b"currentColor", colour.name().encode())
+    """Return an icon as a picture of 20 x 20 px times `scale`; each is drawn once, as a window shows some of them many times."""
+    return _pixmap(name, colour.name(), scale)
+
+
+@cache
+def _pixmap(name: str, colour: str, scale: int) -> QPixmap:
+    data = _drawing(name).replace(b"currentColor", colour.encode())
     picture = QPixmap(SIZE * scale, SIZE * scale)
     picture.fill(Qt.GlobalColor.transparent)
     painter = QPainter(picture)
@@ -32,12 +44,13 @@ def icon(name: str, theme: Theme, colour: QColor | None = None) -> QIcon:
     for scale in _SCALES:
         made.addPixmap(pixmap(name, colour or theme.ink, scale), QIcon.Mode.Normal, QIcon.State.Off)
         made.addPixmap(pixmap(name, colour or theme.accent_text, scale), QIcon.Mode.Normal, QIcon.State.On)
-        disabled = pixmap(name, theme.muted, scale)
-        made.addPixmap(_faded(disabled), QIcon.Mode.Disabled, QIcon.State.Off)
+        made.addPixmap(_faded(name, theme.muted.name(), scale), QIcon.Mode.Disabled, QIcon.State.Off)
     return made
 
 
-def _faded(picture: QPixmap) -> QPixmap:
+@cache
+def _faded(name: str, colour: str, scale: int) -> QPixmap:
+    picture = _pixmap(name, colour, scale)
     out = QPixmap(picture.size())
     out.setDevicePixelRatio(picture.devicePixelRatio())
     out.fill(Qt.GlobalColor.transparent)

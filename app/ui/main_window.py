@@ -57,6 +57,7 @@ class MainWindow(QMainWindow):
         super().__init__()
         self.document, self.settings = document, settings
         self.theme = self._theme_for(settings.theme)
+        self._apply_style()
         self.may_close = True
         self.worker = Worker(self)
         self.computation = Computation(document, self.worker)
@@ -122,12 +123,15 @@ class MainWindow(QMainWindow):
             return DARK if QGuiApplication.styleHints().colorScheme() == Qt.ColorScheme.Dark else LIGHT
         return DARK if choice is ThemeChoice.DARK else LIGHT
 
-    def set_theme_choice(self, choice: ThemeChoice) -> None:
-        """Paint everything in the theme that the user or the system chose."""
-        self.theme = self._theme_for(choice)
+    def _apply_style(self) -> None:
         application = QApplication.instance()
         if isinstance(application, QApplication):
             style.apply(application, self.theme, arrow_picture(self.theme))
+
+    def set_theme_choice(self, choice: ThemeChoice) -> None:
+        """Paint everything in the theme that the user or the system chose."""
+        self.theme = self._theme_for(choice)
+        self._apply_style()
         self.actions_.set_theme(self.theme)
         for widget in self.findChildren(QWidget):
             if hasattr(widget, "set_theme"):

@@ -32,9 +32,9 @@ def _warm(progress: Progress) -> None:
     """Load what the first Open and Compute need: an import on the way would make the window stutter."""
     from app.kernels import warm
 
-    warm(progress)
     for engine in _ENGINES:
         import_module(engine)
+    warm(progress)
 
 
 def build() -> tuple[MainWindow, Wiring]:
@@ -46,8 +46,10 @@ def build() -> tuple[MainWindow, Wiring]:
 
 
 def warm_up(window: MainWindow) -> Worker:
-    """Load engines and compiled loops in the background, so that the first Compute does not wait for them."""
+    """Load engines and have inner loops compiled in the background, so that the first Compute waits for little or nothing."""
     warmer = Worker(window)
+    warmer.progress.connect(lambda _, text: window.status.show_waiting(text))
+    warmer.busy_changed.connect(lambda busy: busy or window.status.show_waiting(""))
     warmer.start(_warm, 0)
     return warmer
 

@@ -36,6 +36,7 @@ class StatusBar(QWidget):
         self.unit, self._size, self._shown = muted("mm"), 1.0, (0.0, 0.0, "XY")
         self._step = 0.0
         self.message = Elided(role="muted")
+        self.waiting = muted()
         self.message.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.bar, self.step = QProgressBar(), muted()
         self.cancel = IconButton("cancel", "Cancel the job (Esc)")
@@ -43,6 +44,7 @@ class StatusBar(QWidget):
         self._lay_out()
         self.show_place(0.0, 0.0)
         self.show_progress(None)
+        self.show_waiting("")
         self.cancel.clicked.connect(self.cancelled)
 
     def _toggle(self, text: str) -> QToolButton:
@@ -68,6 +70,7 @@ class StatusBar(QWidget):
         row.addWidget(_separator())
         row.addSpacing(4)
         row.addWidget(self.message, 1)
+        row.addWidget(self.waiting)
         self.bar.setFixedSize(120, 4)
         self.bar.setTextVisible(False)
         self.bar.setRange(0, 1000)
@@ -105,6 +108,11 @@ class StatusBar(QWidget):
             self.message.setProperty("role", role)
             self.message.style().unpolish(self.message)
             self.message.style().polish(self.message)
+
+    def show_waiting(self, text: str) -> None:
+        """Show what goes on in the background, which nobody needs to wait for; "" = nothing."""
+        self.waiting.setText(text)
+        self.waiting.setVisible(bool(text))
 
     def show_progress(self, fraction: float | None, text: str = "") -> None:
         """Show how far the job is, in [0, 1]; None = no job."""

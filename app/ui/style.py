@@ -166,8 +166,15 @@ def palette(theme: Theme) -> QPalette:
 
 
 def apply(app: QApplication, theme: Theme, arrow: str = "") -> None:
-    """Give the whole program the theme's type, palette and style sheet."""
-    app.setStyle("Fusion")
+    """Give the whole program the theme's type, palette and style sheet; where it has them already, nothing is done anew.
+
+    A style sheet is worked out for every widget that there is, so it is cheapest before there are any.
+    """
+    sheet = style_sheet(theme, arrow)
+    if app.styleSheet() == sheet:
+        return
+    if app.style().objectName() != "fusion":
+        app.setStyle("Fusion")
     app.setFont(text_font())
     app.setPalette(palette(theme))
-    app.setStyleSheet(style_sheet(theme, arrow))
+    app.setStyleSheet(sheet)

@@ -15,7 +15,7 @@ from PySide6.QtCore import QObject, Qt, Signal, Slot
 from shiboken6 import isValid
 
 from app.errors import Cancelled, HitofudeError
-from app.progress import Progress
+from app.progress import Progress, told_waits
 
 HEAD_START_S = 0.04
 """Seconds in which the window shows that it computes, before the job competes with it for the interpreter."""
@@ -78,7 +78,7 @@ class _Runner(threading.Thread):
     def __init__(self, work: _Work, worker: Worker) -> None:
         super().__init__(name=f"job {work.job_id}", daemon=True)
         self._work: _Work | None = work
-        self._worker, self._told = worker, 0.0
+        self._worker, self._told, self._fraction = worker, 0.0, 0.0
         self._head_start = worker.head_start_s
 
     def run(self) -> None:
@@ -88,7 +88,7 @@ class _Runner(threading.Thread):
             self._run(work)
 
     def _tell(self, job_id: int, fraction: float, text: str) -> None:
-        now = time.monotonic()
+        self._fraction, now = fraction, time.monotonic()
         if now - self._told >= _TOLD_EVERY_S:
             self._told = now
             self._worker.told.emit(job_id, fraction, text)
@@ -96,8 +96,9 @@ class _Runner(threading.Thread):
     def _run(self, work: _Work) -> None:
         value, error = None, None
         try:
-            with _NO_COLLECTOR:
-                value = work.function(Progress(partial(self._tell, work.job_id), work.cancelled))
+            progress = Progress(partial(self._tell, work.job_id), work.cancelled)
+            with _NO_COLLECTOR, told_waits(lambda text: progress.step(self._fraction, text)):
+                value = work.function(progress)
         except Cancelled:
             return
         except HitofudeError as sentence:

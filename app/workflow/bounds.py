@@ -8,7 +8,6 @@ from math import tan
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from app.dexel.cutter import DRILL_ANGLE, cutter_of
 from app.geometry.distance import DistanceField
@@ -124,6 +123,8 @@ def out_of_holes(rows: Floats, need: Floats, holes: Sequence[Region]) -> tuple[F
         holes: regions that are circles; they may cross one another.
     """
     circles = [each for region in holes for each in region.boundary.primitives if isinstance(each, Circle)]
+    from scipy.spatial import cKDTree  # takes longer to import than most jobs to judge
+
     tree, radius = cKDTree([each.centre for each in circles]), np.array([each.radius for each in circles])
 
     def off(points: Floats) -> Floats:

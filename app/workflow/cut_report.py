@@ -17,12 +17,12 @@ from app.model.finding import Finding, FindingKind, worst_first
 from app.model.motion import Floats, MotionKind
 from app.model.motion_path import lengths
 from app.model.tool import Tool
+from app.nc.duration import TIME_METHOD
 from app.nc.read.program import Severity
 from app.workflow.cut import CutProgram
 from app.workflow.examine import COORDINATES, KINDS, Examined
 from app.workflow.judgement import Judgement, Spot
 from app.workflow.parts import SolidPart
-from app.workflow.report import TIME_METHOD
 from app.workflow.setup import Ready
 from app.workflow.setup_stock import cut_box
 from app.workflow.setup_tools import KnownTool

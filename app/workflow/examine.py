@@ -19,17 +19,14 @@ from app.model.motion import MotionKind
 from app.model.motion_path import anchored, lengths
 from app.model.part import Part
 from app.nc.compare import Differences, compare
-from app.nc.duration import Duration, duration
+from app.nc.duration import TIME_METHOD, Duration, duration
 from app.nc.extent import Extent, extent, misfits
-from app.nc.frame import Frame, frame_text
-from app.nc.posts import load_post
 from app.nc.read.dialect import HABITS, Dialect
 from app.nc.read.guess import guess_dialect
 from app.nc.read.options import ReadOptions, ToolOffset
 from app.nc.read.program import EventKind, NcProgram, Problem, Severity
 from app.nc.read.reader import read_program
 from app.progress import NO_PROGRESS, Progress
-from app.workflow.report import TIME_METHOD
 
 Json = dict[str, Any]
 COORDINATES = "from the zero of the table of work offsets, tool length compensated"
@@ -94,6 +91,9 @@ class Examined:
         Raises:
             InputError: nothing is cut, or it is cut in more than one place of the work.
         """
+        from app.nc.frame import Frame, frame_text
+        from app.nc.posts import load_post
+
         used = [self.program.states[k] for k in np.unique(self.program.motions.state).tolist()]
         if any(any(state.shift) or state.rotation or state.work_offset != "G54" for state in used):
             raise InputError(f"{self.name}: the frame is made for programs that cut under plain G54; this one shifts its zero.")

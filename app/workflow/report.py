@@ -14,6 +14,7 @@ from app.model.job import Job
 from app.model.moves import MoveKind, Program
 from app.model.stock_box import extent, stock_box, work_origin
 from app.model.tool import Tool
+from app.nc.duration import TIME_METHOD
 from app.nc.extent import Extent
 from app.nc.write import blend_mm, writing_tolerance
 from app.toolpath.coverage import STRIP, Coverage, Place
@@ -28,8 +29,6 @@ ENGINE = "exact lines and arcs; pocket rings are levels of one distance field"
 BITMAP_ENGINE = "pixels alone, smoothed into lines and arcs that keep clear of the pixels' squares"
 COVERAGE_METHOD = f"polygons of the emitted moves, arcs as chords within {CHORD:g} mm; strips narrower than {STRIP:g} mm are not counted"
 GOUGE_METHOD = "closed-form distance of every move below Z 0 from every wall, less tool radius and stock to leave"
-TIME_METHOD = ("feeds and accelerations with look-ahead, corners blended as the program says, dwells and tool changes, on this "
-               "machine: {}; no jerk, no stops by hand")
 MOVES_METHOD = ("motions of the control, as the NC text was read back: arcs split and flattened as they are written, cycles step by step; "
                 "where the tool is at the start nobody knows, so the first approach is counted from the clearance position above the "
                 "first XY, and after a tool change from where the tool before was lifted to safe Z")

@@ -13,6 +13,7 @@ from app.files.machine_toml import DEFAULT_MACHINE, load_machine
 from app.model.finding import Finding
 from app.model.motion import MotionKind
 from app.model.moves import Purpose
+from app.nc.duration import TIME_METHOD
 from app.surface.compound import NO_SURFACE, Boundaries, BoundaryKind, Compound
 from app.surface.path import ALLOWED
 from app.workflow.surface import Computed, Family
@@ -21,7 +22,6 @@ from app.workflow.surface_nc import WrittenScene
 ENGINE = "cutters over rational Bezier patches and triangles, exact where they touch; every chord proven"
 GOUGE_METHOD = ("a bound, not a measurement: for each move of the written text a cutter pared by so much is proven to stay clear of every "
                 "surface, all along the move")
-TIME_METHOD = "feeds and accelerations with look-ahead, corners blended as the program says, dwells and tool changes, on this machine: {}"
 _LENGTHS = {"cut": Purpose.CONTOUR, "link": Purpose.LINK, "plunge": Purpose.PLUNGE, "rapid": Purpose.RAPID}
 _KINDS = {"G0": MotionKind.RAPID, "G1": MotionKind.LINE, "G2": MotionKind.ARC_CW, "G3": MotionKind.ARC_CCW}
 

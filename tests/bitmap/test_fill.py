@@ -34,7 +34,7 @@ def test_random_shapes_are_filled_right(kind: str) -> None:
         check(kind, seed)
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("kind", KINDS)
 def test_ten_thousand_random_shapes_are_filled_right(kind: str) -> None:
     for seed in range(10_000 // len(KINDS) + 1):

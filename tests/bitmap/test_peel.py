@@ -73,7 +73,7 @@ def test_with_the_circles_it_is_the_euclidean_threshold(radius: float) -> None:
         assert np.array_equal(correct_by_circles(area, area, radius), exact), "the peels add nothing to the circles"
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 def test_peeling_at_1600() -> None:
     area = part(1600)
     blocks = ndimage.distance_transform_cdt(np.pad(area, 1), "taxicab")[1:-1, 1:-1]

@@ -31,6 +31,7 @@ from tests.dexel.courses import CUTTERS, box_piece, cells_of, course_of, cut, jo
 from tests.dexel.reference import field
 from tests.dexel.test_pieces import SPLINES, spline_motion
 from tests.dexel.test_sweep import ARCS, REDUCED, WALKS, lines, walk
+from tests.examples import examples
 
 SUBPIXEL = 1 / 256
 SHARP = np.array([[-6.03, -5.02, -3], [4.01, -5.02, -4], [4.01, 5.03, -3], [-6.03, 5.03, -7], [-6.03, -5.02, 1.0]])
@@ -265,7 +266,7 @@ def test_it_tells_how_far_it_is_and_stops_when_asked(context: moderngl.Context) 
 place = st.tuples(st.floats(-8, 8), st.floats(-8, 8), st.floats(-9, 1))
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(corners=st.lists(place, min_size=2, max_size=8), cutter=st.sampled_from(sorted(CUTTERS)))
 def test_any_polyline(context: moderngl.Context, corners: list[tuple[float, float, float]], cutter: str) -> None:
     piece, motions = box_piece(cells=150), polyline([*corners, corners[-2], corners[-2]])

@@ -18,6 +18,7 @@ from app.model.motion import MotionKind, Motions
 from app.progress import Progress
 from tests.dexel.courses import CUTTERS, arc, box_piece, course_of, joined, motions_of, polyline
 from tests.dexel.test_sweep import walk
+from tests.examples import examples
 
 TOOLS = {k + 1: cutter for k, cutter in enumerate(CUTTERS.values())}
 
@@ -48,7 +49,7 @@ def assert_alike(got: Field, want: Field) -> None:
 
 
 @given(st.integers(0, 1000), st.integers(1, 60), st.sampled_from([0, 100_000, 400_000, 1 << 24]), st.data())
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 def test_any_state_in_any_order(seed: int, blocks: int, budget: int, data: st.DataObject) -> None:
     piece, courses = box_piece(cells=150), [mixed(seed), mixed(seed + 1, 20)]
     history = History(piece, courses, TOOLS, HistoryOptions(blocks, budget))

@@ -25,6 +25,7 @@ from app.progress import Progress
 from tests.dexel.courses import CUTTERS, arc, box_piece, cells_of, course_of, joined, motions_of, polyline
 from tests.dexel.reference import field, slopes
 from tests.dexel.test_sweep import PLUNGES, REDUCED, WALKS, lines, walk
+from tests.examples import examples
 
 
 @pytest.fixture(scope="module")
@@ -101,7 +102,7 @@ def test_heights_are_those_of_brute_force(ctx: moderngl.Context, name: str, cutt
 place = st.tuples(st.floats(-8, 8), st.floats(-8, 8), st.floats(-9, 1))
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(st.lists(place, min_size=2, max_size=7), st.sampled_from(sorted(CUTTERS)))
 def test_any_polyline_agrees(ctx: moderngl.Context, places: list[tuple[float, float, float]], cutter: str) -> None:
     piece, course = box_piece(cells=64), course_of(polyline(places))

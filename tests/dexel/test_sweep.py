@@ -19,6 +19,7 @@ from app.model.motion import Floats, Motions, Plane
 from app.model.motion_path import arc_paths
 from tests.dexel.courses import CUTTERS, arc, box_piece, cells_of, cut, cut_apart, joined, motions_of, polyline
 from tests.dexel.reference import Path, field, line, slopes
+from tests.examples import examples
 
 TRACED = TrimOptions(trace=True)
 WALL = 50.0
@@ -96,7 +97,7 @@ def test_a_slope_like_the_flank_is_exact(cutter: str) -> None:
 place = st.tuples(st.floats(-8, 8), st.floats(-8, 8), st.floats(-9, 1))
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(st.lists(place, min_size=2, max_size=6), st.sampled_from(sorted(CUTTERS)))
 def test_any_polyline_is_exact(places: list[tuple[float, float, float]], cutter: str) -> None:
     corners = np.array(places)

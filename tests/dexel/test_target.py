@@ -16,6 +16,7 @@ from app.dexel.solid import SolidStock
 from app.dexel.target import MARGIN, RIM, cutter_profile, dilated, solid_target
 from app.dexel.workpiece import Grid
 from tests.dexel.courses import CUTTERS
+from tests.examples import examples
 
 RNG = np.random.default_rng(4)
 GRID = Grid(-1.0, 2.0, 0.1, 40, 60)
@@ -33,7 +34,7 @@ def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> np
 
 
 @given(st.integers(3, 9), st.integers(0, 10_000))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 def test_cells_are_inside_where_the_polygon_holds_their_centre(corners: int, seed: int) -> None:
     rng = np.random.default_rng(seed)
     outer, hole = rng.uniform((-2, 1), (6, 7), (corners, 2)), rng.uniform((0, 3), (3, 5), (3, 2))

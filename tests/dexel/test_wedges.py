@@ -14,6 +14,7 @@ from app.dexel.wedges import ROOM, FacetKind, Side, SweepFacets, Tessellation, f
 from app.model.motion import Floats, MotionKind
 from tests.dexel.courses import CUTTERS, arc, course_of, joined, motions_of, polyline
 from tests.dexel.test_sweep import walk
+from tests.examples import examples
 
 BOTH = Tessellation(0.25, side=Side.BOTH)
 BENT = np.array([[0.0, 0, 0], [4, 0, 1], [6, 3, 0]])
@@ -105,7 +106,7 @@ def test_kept_facets_look_down_and_the_others_up() -> None:
 place = st.tuples(*[st.floats(-9, 9)] * 3)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(st.lists(place, min_size=2, max_size=7), st.floats(0.2, 4.0), st.floats(0.05, 3.0), st.sampled_from([0.0, 0.02, 0.5]))
 def test_no_corner_leaves_what_is_swept(places: list[tuple[float, float, float]], radius: float, facet: float, overlap: float) -> None:
     corners = np.array([*places, places[-1]])

@@ -12,6 +12,7 @@ from app.errors import InputError
 from app.model.curves import Circle
 from app.model.job import Job, Stock
 from app.model.part import Entity, Layer, Part
+from tests.examples import examples
 
 
 @pytest.fixture
@@ -217,7 +218,7 @@ LINES = st.sampled_from(["line 0,0 10,0", "line @0,0 @5,5", "rect 1,1 9,9", "cir
                          "delete", "delete 2", "move @1,1", "undo", "redo", "layer a", "layer b 1", "arc 0,0 5,5 10,0", "nonsense"])
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(st.lists(LINES, max_size=15))
 def test_undoing_everything_leads_back_and_every_log_replays(lines: list[str]) -> None:
     document, again = Document(), Document()

@@ -11,6 +11,7 @@ from app.edit.document import Document
 from app.edit.faults import FaultKind, apart, found_faults
 from app.errors import InputError
 from app.model.curves import Arc, Circle, Line
+from tests.examples import examples
 
 
 def drawn(*lines: str) -> Document:
@@ -121,7 +122,7 @@ def test_many_ends_at_one_place_and_many_copies_are_no_trap() -> None:
     assert len(document.part.entities) == 3001
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(st.integers(0, 10**6))
 def test_a_mended_drawing_has_no_faults_and_nothing_moved_far(seed: int) -> None:
     chance = random.Random(seed)

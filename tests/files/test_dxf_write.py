@@ -15,6 +15,7 @@ from app.geometry.chain import chain
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line
 from app.model.finding import FindingKind
 from app.model.part import Entity, Layer, Part, Units
+from tests.examples import examples
 from tests.files.drawn_parts import apart, arcs, circles, clamped, colours, lines, parts, parts_of, splines, wholes
 
 SAME = 1e-9
@@ -38,7 +39,7 @@ def farthest(part: Part, again: Part) -> float:
 
 
 @given(parts(exact), st.sampled_from([v for v in DxfVersion if v is not DxfVersion.R12]), st.sampled_from(Units))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 def test_out_and_in_again(part: Part, version: DxfVersion, units: Units) -> None:
     part = Part(part.entities, part.layers, units)
     written = dxf_bytes(part, version)
@@ -53,7 +54,7 @@ def test_out_and_in_again(part: Part, version: DxfVersion, units: Units) -> None
 
 
 @given(parts(of_old))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 def test_r12_keeps_lines_arcs_and_circles(part: Part) -> None:
     written = dxf_bytes(part, DxfVersion.R12)
     drawing = read_dxf(written.data, "part.dxf")
@@ -63,7 +64,7 @@ def test_r12_keeps_lines_arcs_and_circles(part: Part) -> None:
 
 
 @given(st.one_of(wholes, parts_of, splines((2, 3, 5), rational=True)))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 def test_r12_has_ellipses_and_splines_within_the_tolerance_and_counted(curve: Curve) -> None:
     written = dxf_bytes(drawn(curve, Line((0, 0), (1, 0))), DxfVersion.R12, 0.005)
     (converted,) = written.converted
@@ -126,7 +127,7 @@ def test_r12_is_in_mm_for_it_cannot_say_otherwise() -> None:
 
 
 @given(colours.filter(bool))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 def test_colours_of_old_are_the_nearest_of_the_index(colour: str) -> None:
     part = Part((Entity(1, Line((0, 0), (1, 0)), "a"),), (Layer("a", colour),))
     (found,) = [layer.colour for layer in back(part, DxfVersion.R2000).layers if layer.name == "a"]

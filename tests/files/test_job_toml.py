@@ -31,6 +31,7 @@ from app.model.operation import (
 )
 from app.model.part import Part, Units
 from app.model.tool import Tool, ToolKind
+from tests.examples import examples
 
 
 def test_the_sample_says_the_defaults(samples: Path) -> None:
@@ -248,7 +249,7 @@ def written(operation: Operation) -> str:
     return "\n".join(["[[operation]]", *lines, ""])
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(st.lists(OPERATIONS, min_size=1, max_size=4))
 def test_operations_are_read_as_they_are_written(operations: list[Operation]) -> None:
     operations = [effective(operation) for operation in operations]

@@ -65,6 +65,6 @@ def test_twenty_kills(tmp_path: Path) -> None:
     check(tmp_path / "plate.hito", 20, 1)
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 def test_two_hundred_kills(tmp_path: Path) -> None:
     check(tmp_path / "plate.hito", 200, 2)

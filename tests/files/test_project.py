@@ -20,6 +20,7 @@ from app.model.curves import Circle
 from app.model.job import Job
 from app.model.part import Part
 from tests.conftest import ROOT
+from tests.examples import examples
 from tests.files.project_cases import jobs, projects
 
 GOLDEN = ROOT / "tests" / "data" / "version1.hito"
@@ -34,7 +35,7 @@ def same(one: Project, other: Project) -> None:
     assert (other.look, other.beside) == (one.look, one.beside)
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150), deadline=None)
 @given(projects())
 def test_every_project_is_read_back_identical(project: Project) -> None:
     data = write_project(project)
@@ -43,7 +44,7 @@ def test_every_project_is_read_back_identical(project: Project) -> None:
     assert write_project(again) == data
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=examples(50), deadline=None)
 @given(jobs())
 def test_a_job_file_in_order_is_read_back_identical(job: Job) -> None:
     """Where nothing is written that a job file refuses for having no effect."""
@@ -164,7 +165,7 @@ def test_bombs_are_refused(data: bytes) -> None:
         read_project("p.hito", data)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(st.data())
 def test_damaged_files_are_told_and_nothing_else_happens(data: st.DataObject) -> None:
     raw = bytearray(TEXT.encode())

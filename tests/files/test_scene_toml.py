@@ -30,6 +30,7 @@ from app.model.scene_shapes import (
     TorusShape,
 )
 from app.model.tool import FeedRow, Tool, ToolKind
+from tests.examples import examples
 
 ZERO, X = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)
 TABLE = SectionCurve(((0.0, 1.0), (2.5, -1.0), (4.0, 0.125)), spacing=Spacing.CHORD_LENGTH, origin=(0.0, 5.0, 0.0), y_axis=(0.0, 0.0, 1.0))
@@ -76,7 +77,7 @@ surfaces = st.builds(Surface, names, st.one_of(st.sampled_from(SHAPES), spheres,
                      line=st.sampled_from(LineType), visible=st.booleans())  # fmt: skip
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(st.lists(surfaces, max_size=4, unique_by=lambda each: each.name))
 def test_any_surfaces_are_read_again(some: list[Surface]) -> None:
     scene = Scene("any", tuple(some))

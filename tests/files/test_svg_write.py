@@ -13,6 +13,7 @@ from app.fit.bezier import pieces_of
 from app.fit.biarc import distances
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from app.model.part import Entity, Layer, Part
+from tests.examples import examples
 from tests.files.drawn_parts import apart, arc, arcs, circles, clamped, lines, parts, parts_of, splines, wholes
 
 SAME = 1e-9
@@ -28,7 +29,7 @@ def drawn(*curves: Curve) -> Part:
 
 
 @given(parts(exact))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 def test_out_and_in_again(part: Part) -> None:
     written = svg_bytes(part)
     again = read_svg(written.data, "part.svg").part
@@ -43,7 +44,7 @@ def test_out_and_in_again(part: Part) -> None:
 
 
 @given(splines((2, 3), rational=True) | splines((4, 5)))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 def test_what_svg_cannot_hold_is_within_the_tolerance_and_counted(spline: Spline) -> None:
     written = svg_bytes(drawn(spline, spline), 0.005)
     (converted,) = written.converted

@@ -12,6 +12,7 @@ from app.errors import InputError
 from app.files.tool_csv import read_tool_csv, write_tool_csv
 from app.files.tool_library import HEADER, ToolLibrary, library_files, load_libraries, own_folder, read_library, write_library
 from app.model.tool import FeedRow, Tool, ToolKind, shape_keys
+from tests.examples import examples
 
 TEXT = st.text(st.characters(codec="utf-8", exclude_categories=["Cs", "Cc"], exclude_characters="\ufeff"), max_size=20).map(str.strip)
 LENGTH = st.floats(0, 500)
@@ -44,7 +45,7 @@ SHARP = Tool(
 FULL = ToolLibrary("Mine", (SHARP, Tool(7, 1 / 3)), "for the router")
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @example(FULL)
 @given(LIBRARIES)
 def test_a_library_is_read_back_to_the_last_bit(library):
@@ -135,7 +136,7 @@ def test_the_starter_libraries_hold_to_the_rule_that_they_state():
         assert tool.flute_length <= tool.overall_length
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @example(FULL, ",")
 @example(FULL, ";")
 @given(LIBRARIES, st.sampled_from([",", ";"]))

@@ -13,6 +13,7 @@ from app.files.tool_tbl import LONGEST_LINE, read_tool_table, write_tool_table
 from app.model.part import Units
 from app.model.tool import Tool
 from app.model.tool_table import TableRow, row_of
+from tests.examples import examples
 from tests.nc.rs274_oracle import RS274, needs_rs274
 
 OFFSET = re.compile(r"USE_TOOL_LENGTH_OFFSET\(([-\d. ]+), ([-\d. ]+), ([-\d. ]+)\)")
@@ -80,7 +81,7 @@ ROW = st.builds(
 )  # fmt: skip
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(st.lists(ROW, min_size=1, max_size=8, unique_by=lambda row: row.number), st.sampled_from([Units.MM, Units.INCH]))
 def test_what_is_written_is_read_back(rows, units):
     text = write_tool_table(rows, units)
@@ -94,7 +95,7 @@ def test_what_is_written_is_read_back(rows, units):
         assert " ".join(meant.remark.split()).startswith(read.remark)
 
 
-@settings(deadline=None, max_examples=12)
+@settings(deadline=None, max_examples=examples(12))
 @given(st.lists(ROW, min_size=2, max_size=4, unique_by=lambda row: row.number))
 def test_linuxcnc_takes_what_is_written(tmp_path_factory, rows):
     folder, text = tmp_path_factory.mktemp("table"), write_tool_table(rows, Units.INCH)

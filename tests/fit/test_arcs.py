@@ -14,6 +14,7 @@ from scipy.interpolate import BSpline
 from app.errors import GeometryError
 from app.fit.arcs import LinesAndArcs, lines_and_arcs
 from app.model.curves import Arc, Circle, Ellipse, Line, Point, Primitive, Spline, reversed_curve
+from tests.examples import examples
 
 UM = 1e-3
 CUBIC = (0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 4.0, 4.0)
@@ -207,7 +208,7 @@ def splines(draw: st.DrawFn) -> Spline:
     return Spline(degree, tuple(points), (*[inner[0]] * degree, *inner, *[inner[-1]] * degree), tuple(weights))
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(splines())
 def test_any_spline_keeps_the_stated_distance_both_ways(curve: Spline) -> None:
     made = lines_and_arcs(curve, 0.01)
@@ -215,7 +216,7 @@ def test_any_spline_keeps_the_stated_distance_both_ways(curve: Spline) -> None:
         check(curve, made, 0.01)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(splines())
 def test_travelled_backwards_it_keeps_its_ends(curve: Spline) -> None:
     back = reversed_curve(curve)

@@ -11,6 +11,7 @@ from scipy.interpolate import BSpline
 from app.errors import InputError
 from app.fit.cubic_near import cubic_near
 from app.model.motion import Nurbs
+from tests.examples import examples
 
 
 def quintic(seed: int, spans: int, size: float = 20.0) -> Nurbs:
@@ -19,7 +20,7 @@ def quintic(seed: int, spans: int, size: float = 20.0) -> Nurbs:
     return Nurbs(rng.normal(0, size, (spans + 5, 3)), np.ones(spans + 5), knots, 5)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(seed=st.integers(0, 10**6), spans=st.integers(1, 8), near=st.floats(1e-4, 1.0))
 def test_ten_thousand_places_lie_as_near_as_is_stated(seed: int, spans: int, near: float) -> None:
     meant = quintic(seed, spans)

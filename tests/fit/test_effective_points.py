@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from app.errors import GeometryError, ParameterError
 from app.fit.effective_points import EffectiveOptions, Ends, PointState, effective_points
+from tests.examples import examples
 
 Floats = NDArray[np.float64]
 
@@ -54,7 +55,7 @@ def wander(seed: int, kind: str, dimensions: int) -> Floats:
 
 @pytest.mark.parametrize("kind", ["line", "curve", "reversal", "steps", "repeats"])
 @given(seed=st.integers(0, 10**6), dimensions=st.sampled_from([2, 3]), epsilon=st.sampled_from([0.003, 0.0123, 0.07]))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 def test_ranges_are_those_of_the_plain_definition(kind: str, seed: int, dimensions: int, epsilon: float) -> None:
     points = wander(seed, kind, dimensions)
     found = effective_points(points, EffectiveOptions(epsilon))

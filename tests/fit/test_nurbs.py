@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from app.fit.nurbs import flattened, flattened_all, nurbs_points
 from app.model.motion import Nurbs
+from tests.examples import examples
 
 
 @st.composite
@@ -31,7 +32,7 @@ def distances(points: np.ndarray, chords: np.ndarray) -> np.ndarray:
     return np.linalg.norm(points[:, None] - start - share[..., None] * along, axis=2).min(axis=1)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(drawn_curves(), st.sampled_from([1.0, 0.1, 0.01]))
 def test_no_point_is_farther_than_the_tolerance(curve: Nurbs, tolerance: float) -> None:
     chords = flattened(curve, tolerance)
@@ -61,7 +62,7 @@ def test_curves_that_stand_still_turn_back_or_are_huge(points: np.ndarray) -> No
     assert distances(nurbs_points(curve, np.linspace(0, 1, 500)), chords).max() <= max(1e-4, 2e-9 * np.ptp(points))
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(st.lists(drawn_curves(), max_size=6))
 def test_many_at_once_are_as_each_by_itself(curves: list[Nurbs]) -> None:
     for curve, chords in zip(curves, flattened_all(curves, 0.1), strict=True):

@@ -15,6 +15,7 @@ from app.fit.fitted import FittedPath
 from app.fit.space_curve import curve_of_motions
 from app.fit.tube import Answer, Tube, judge
 from app.model.motion import MotionKind, Plane
+from tests.examples import examples
 
 Floats = NDArray[np.float64]
 TOLERANCE = 0.02
@@ -98,7 +99,7 @@ def waves(count: int, turns: tuple[int, int], depth: float) -> Floats:
     return np.column_stack([r * np.cos(t), r * np.sin(t), 0 * t])
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(st.integers(500, 6_000), st.integers(2, 9), st.integers(3, 23), st.floats(0.1, 4.0), st.sampled_from([0.005, 0.02, 0.1]))
 def test_free_forms_are_smoother_than_their_points_and_within(count: int, one: int, other: int, depth: float, tolerance: float) -> None:
     points = np.round(waves(count, (one, other), depth), 4)

@@ -14,6 +14,7 @@ from app.fit.space_curve import SpaceCurve, curve_of_motions, curve_of_nurbs, cu
 from app.fit.spheroid import Outline, lies_within
 from app.fit.tube import Answer, Judgement, Tube, judge
 from app.model.motion import MotionKind, Motions, Nurbs, Plane
+from tests.examples import examples
 
 Floats = NDArray[np.float64]
 TOLERANCE = 0.05
@@ -169,7 +170,7 @@ def test_a_barrel_is_narrow_at_the_points_and_wide_between() -> None:
     assert judge(beside, points, Tube(0.002001, 0.05)).answer is Answer.INSIDE
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150), deadline=None)
 @given(st.integers(0, 2**32 - 1), st.integers(2, 12), st.sampled_from([0.02, 0.05, 0.3]))
 def test_what_is_called_inside_is_inside(seed: int, count: int, radius: float) -> None:
     rng = np.random.default_rng(seed)
@@ -189,7 +190,7 @@ def test_what_is_called_inside_is_inside(seed: int, count: int, radius: float) -
         assert worst > radius * (1 - 1e-6), "the obvious feet would have done"
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(st.integers(0, 2**32 - 1), st.floats(0.1, 2.0))
 def test_spheroids_and_signs_agree(seed: int, size: float) -> None:
     rng = np.random.default_rng(seed)

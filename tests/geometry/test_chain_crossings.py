@@ -14,6 +14,7 @@ from app.geometry.chain_crossings import crossings
 from app.model.curves import Arc, Circle, Curve, Line, Point, Primitive
 from app.model.finding import Finding
 from app.model.part import Contour, Entity
+from tests.examples import examples
 
 
 def contour(*primitives: Primitive) -> Contour:
@@ -106,7 +107,7 @@ def test_arc_of_a_contour_may_meet_its_neighbour_again() -> None:
     assert found.counts
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(st.lists(st.tuples(st.integers(-20, 20), st.integers(-20, 20)), min_size=3, max_size=9, unique=True))
 def test_agrees_with_another_library_on_polygons(points: list[tuple[int, int]]) -> None:
     """A ring that shapely calls simple has no finding, and one that is not has one."""

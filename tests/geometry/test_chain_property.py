@@ -15,6 +15,7 @@ from app.geometry.primitives import contour_rows, points_at, signed_area
 from app.model.curves import Arc, Circle, Curve, Line, Point, reversed_curve
 from app.model.finding import FindingKind
 from app.model.part import Contour, Entity
+from tests.examples import examples
 
 TOLERANCE = 0.01
 
@@ -74,7 +75,7 @@ def home_of(contour: Contour) -> tuple[int, int]:
 
 
 @pytest.mark.parametrize("shake", [0.0, 0.003])
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(seed=st.integers(0, 2**32))
 def test_outlines_come_back(shake: float, seed: int) -> None:
     rng = random.Random(seed)
@@ -95,7 +96,7 @@ def test_outlines_come_back(shake: float, seed: int) -> None:
             assert distance_from(ring, points_at(rows, np.full(len(rows), 0.37))) <= 0.006 + 4 * shake
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(seed=st.integers(0, 2**32))
 def test_one_curve_taken_away_leaves_one_open_contour(seed: int) -> None:
     rng = random.Random(seed)
@@ -132,7 +133,7 @@ def scribbles(draw: st.DrawFn) -> list[Curve]:
     return found
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(scribbles(), st.sampled_from([0.0, 1e-3, 0.01, 0.5]))
 def test_any_scribble_gives_sound_contours(curves: list[Curve], tolerance: float) -> None:
     made = chain([Entity(k, curve) for k, curve in enumerate(curves, 1)], tolerance)

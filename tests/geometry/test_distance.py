@@ -10,10 +10,11 @@ from hypothesis import strategies as st
 from app.geometry.distance import DistanceField
 from app.geometry.primitives import boxes, contour_rows, lengths, points_at, sample, signed_area, sweeps, within_half_turn
 from tests import plain_distance
+from tests.examples import examples
 from tests.part_shapes import bulged, circle, random_part
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(st.integers(0, 10**6))
 def test_nearest_equals_plain_distance(seed: int) -> None:
     contours, _ = random_part(seed)
@@ -22,7 +23,7 @@ def test_nearest_equals_plain_distance(seed: int) -> None:
     assert np.allclose(field.nearest(points)[0], plain_distance.distance(points, contours), atol=1e-9)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(st.integers(0, 10**6))
 def test_inside_equals_plain_even_odd(seed: int) -> None:
     contours, _ = random_part(seed)

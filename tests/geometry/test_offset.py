@@ -19,6 +19,7 @@ from app.geometry.region import nest, polygon_contour
 from app.model.part import Contour
 from app.progress import Progress
 from tests import plain_distance
+from tests.examples import examples
 from tests.part_shapes import bulged, circle, fig2, random_part, square
 
 
@@ -124,13 +125,13 @@ def sheared_grid(contours: list[Contour]) -> np.ndarray:
     return np.stack([x * math.cos(0.37) - y * math.sin(0.37), x * math.sin(0.37) + y * math.cos(0.37)], -1).reshape(-1, 2)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(st.integers(0, 10**6))
 def test_random_parts_against_plain_distances(seed: int) -> None:
     check_random(seed)
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("seed", range(1000))
 def test_many_random_parts(seed: int) -> None:
     check_random(seed)

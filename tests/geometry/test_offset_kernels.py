@@ -12,6 +12,7 @@ from app.geometry.distance import DistanceField
 from app.geometry.kernels import DEPTH
 from app.geometry.offset import offset_levels
 from app.geometry.primitives import Primitives, Rows, contour_rows, points_at
+from tests.examples import examples
 from tests.part_shapes import random_star, square
 
 SEEDS = st.integers(0, 10**6)
@@ -30,7 +31,7 @@ def dense(rows: Rows, count: int = 400) -> np.ndarray:
     return np.stack([points_at(rows, np.full(len(rows), f)) for f in np.linspace(0, 1, count)], axis=1)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(SEEDS)
 def test_distance_between_rows_is_that_of_their_nearest_points(seed: int) -> None:
     rows = random_rows(np.random.default_rng(seed))
@@ -44,7 +45,7 @@ def test_distance_between_rows_is_that_of_their_nearest_points(seed: int) -> Non
             assert exact == pytest.approx(offset_clearance_kernels.rows_distance(rows, j, rows, i), abs=1e-9)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(SEEDS, st.floats(0.05, 3))
 def test_every_row_that_comes_nearer_to_a_piece_is_a_candidate(seed: int, level: float) -> None:
     rng = np.random.default_rng(seed)

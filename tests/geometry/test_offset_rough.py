@@ -83,7 +83,7 @@ def test_bad_drawings_keep_lines_and_arcs_that_measure_right(seed: int) -> None:
     check(seed)
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("first", range(0, 1000, 50))
 def test_a_thousand_bad_drawings(first: int) -> None:
     for seed in range(first, first + 50):

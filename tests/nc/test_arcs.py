@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.nc.arcs import ArcRules, MeantArc, Piece, written_pieces
+from tests.examples import examples
 
 MM4 = ArcRules(4, 4, 2e-4, math.radians(355), 0.002, 1e5, 0.02)
 MM3 = ArcRules(3, 3, 1e-3, math.radians(355), 0.002, 1e5, 0.02)
@@ -66,7 +67,7 @@ signed = st.one_of(st.floats(1e-4, math.tau), st.just(math.tau), st.floats(1e-9,
 
 
 @RULES
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=examples(400), deadline=None)
 @given(
     x=st.floats(-500, 500), y=st.floats(-500, 500), radius=st.one_of(st.floats(1e-4, 0.1), st.floats(0.1, 100), st.floats(100, 1e7)),
     angle=st.floats(-math.pi, math.pi), sweep=signed, ccw=st.booleans(),

@@ -25,6 +25,7 @@ from app.nc.read.options import ReadOptions
 from app.nc.read.program import NcProgram
 from app.nc.read.reader import read_program
 from app.nc.write import NcFile, write_files, writing_tolerance
+from tests.examples import examples
 from tests.nc.programs import Path, job, two_tools
 from tests.nc.test_drilling import Holes
 
@@ -260,7 +261,7 @@ def mutations(draw: st.DrawFn) -> tuple[str, int, str]:
     return name, number, "".join(lines)
 
 
-@settings(max_examples=600, deadline=None)
+@settings(max_examples=examples(600), deadline=None)
 @given(mutations())
 def test_every_single_change_is_caught_or_changes_nothing(mutation: tuple[str, int, str]) -> None:
     name, number, changed = mutation

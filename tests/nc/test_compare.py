@@ -16,6 +16,7 @@ from app.nc.read.dialect import Dialect
 from app.nc.read.options import ReadOptions
 from app.nc.read.program import Event, EventKind, ModalState, NcProgram
 from app.nc.read.reader import read_program
+from tests.examples import examples
 from tests.nc.motion_programs import Course
 
 TOLERANCE = 1e-3
@@ -231,7 +232,7 @@ def zigzag(count: int) -> Motions:
     return Motions(points[:-1], points[1:], nowhere, small + np.uint8(MotionKind.LINE), small, line * 0, feeds, line, line * 0)
 
 
-@settings(deadline=None, max_examples=12)
+@settings(deadline=None, max_examples=examples(12))
 @given(st.integers(0, 2**32), st.integers(1, 12))
 def test_every_changed_point_is_found_and_nothing_else(seed, changes):
     motions, rng = zigzag(4000), random.Random(seed)
@@ -250,7 +251,7 @@ def test_every_changed_point_is_found_and_nothing_else(seed, changes):
     assert all(item.distance > TOLERANCE / 4 for item in paths)
 
 
-@settings(deadline=None, max_examples=12)
+@settings(deadline=None, max_examples=examples(12))
 @given(st.integers(0, 2**32))
 def test_points_rounded_anew_and_lines_split_are_no_difference(seed):
     rng, motions = np.random.default_rng(seed), zigzag(3000)

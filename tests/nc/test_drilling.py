@@ -15,6 +15,7 @@ from app.nc.posts import load_post, post_names
 from app.nc.read.options import ReadOptions
 from app.nc.read.reader import read_program
 from app.nc.write import NcFile, write_files
+from tests.examples import examples
 from tests.nc.programs import Path, job
 from tests.nc.rs274_oracle import canonical_calls, exact_motions
 
@@ -191,7 +192,7 @@ holes = st.tuples(
 
 @POSTS
 @pytest.mark.parametrize("units", [Units.MM, Units.INCH], ids=["mm", "inch"])
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(rows=st.lists(holes, min_size=1, max_size=8))
 def test_random_holes(name: str, units: Units, rows: list[tuple[str, int, int, float, float, float]]) -> None:
     path = Holes(feed=150.0)

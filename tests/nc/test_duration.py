@@ -14,6 +14,7 @@ from app.model.motion import Motions, Nurbs, Plane
 from app.model.motion_path import lengths
 from app.nc.duration import duration
 from app.nc.read.program import Event, EventKind, ModalState, NcProgram
+from tests.examples import examples
 from tests.nc.motion_programs import Course, machine
 
 
@@ -69,7 +70,7 @@ def test_turns_and_helices_count_whole() -> None:
     assert seconds(helix) == pytest.approx(math.hypot(10 * math.pi, 3) / 1 + 1 / 100, rel=1e-3)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(st.lists(st.floats(0.01, 30), min_size=1, max_size=30), st.floats(10, 20000), st.sampled_from(["G61", "G64"]))
 def test_a_chain_of_collinear_pieces_is_one_move(pieces: list[float], feed: float, path: str) -> None:
     chain, whole = Course(feed=feed), Course(feed=feed)
@@ -140,7 +141,7 @@ def test_chords_of_unlike_lengths_are_not_faster_than_the_arc_either(seed: int) 
     assert arc * 0.9995 <= seconds(chords, ModalState(path="G64", path_tolerance=0.5)) <= arc * 1.03
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(st.lists(st.tuples(st.floats(-0.9, 0.9), st.floats(0.02, 8), st.integers(1, 6)), min_size=2, max_size=25), st.floats(100, 9000))
 def test_a_bent_path_takes_as_long_however_its_straight_pieces_are_split(legs: list[tuple[float, float, int]], feed: float) -> None:
     whole, split, angle = Course(feed=feed), Course(feed=feed), 0.3

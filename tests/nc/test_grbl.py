@@ -15,6 +15,7 @@ from app.model.part import Part, Units
 from app.model.tool import Tool
 from app.nc.posts import load_post
 from app.nc.write import write_files, write_program
+from tests.examples import examples
 from tests.nc.grbl_syntax import LINE, grbl_errors
 from tests.nc.programs import Path, job, two_tools
 from tests.nc.test_write_motion import arc_steps, line_steps, random_path
@@ -99,7 +100,7 @@ def test_it_never_leaves_the_path() -> None:
 
 
 @UNITS
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(steps=st.lists(st.one_of(arc_steps, line_steps), min_size=1, max_size=40))
 def test_random_lines_and_arcs_are_taken(units: Units, steps: list[tuple[object, ...]]) -> None:
     (file,) = write_files(random_path(steps).program(), job(out_units=units), GRBL)

@@ -18,6 +18,7 @@ from app.nc.nurbs import nurbs_blocks
 from app.nc.posts import load_post, post_names
 from app.nc.read.options import ReadOptions
 from app.nc.read.reader import read_program
+from tests.examples import examples
 from tests.nc.rs274_oracle import canonical_calls, exact_motions
 
 UNITS = pytest.mark.parametrize("units", [Units.MM, Units.INCH], ids=["mm", "inch"])
@@ -122,7 +123,7 @@ def curves(draw: st.DrawFn, flat: bool) -> Nurbs:
 
 
 @UNITS
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(meant=curves(flat=False))
 def test_fanuc_reads_the_same_curve(units: Units, meant: Nurbs) -> None:
     seen = along(read_back(text_of(meant, "fanuc", units), "fanuc"))
@@ -131,7 +132,7 @@ def test_fanuc_reads_the_same_curve(units: Units, meant: Nurbs) -> None:
 
 
 @UNITS
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(meant=curves(flat=True))
 def test_linuxcnc_reads_the_same_curve(units: Units, meant: Nurbs) -> None:
     seen = driven_back(text_of(meant, "linuxcnc", units))
@@ -142,7 +143,7 @@ def test_linuxcnc_reads_the_same_curve(units: Units, meant: Nurbs) -> None:
 
 
 @UNITS
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=examples(10), deadline=None)
 @given(meant=curves(flat=True))
 def test_linuxcnc_drives_along_it(units: Units, meant: Nurbs) -> None:
     """The interpreter's points are the written pieces' own, at even parameters; it lets no piece out."""

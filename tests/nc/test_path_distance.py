@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.nc.path_distance import Polyline, farthest, leash
+from tests.examples import examples
 
 
 def path(*points: tuple[float, ...]) -> Polyline:
@@ -47,7 +48,7 @@ def test_a_path_without_length_is_as_far_as_the_other_goes():
 PLACES = st.lists(st.tuples(*[st.integers(-20, 20)] * 2), min_size=2, max_size=9).filter(lambda places: len(set(places)) > 1)
 
 
-@settings(deadline=None, max_examples=80)
+@settings(deadline=None, max_examples=examples(80))
 @given(PLACES, PLACES)
 def test_a_leash_is_never_shorter_than_the_least_one(one, other):
     a, b = path(*one), path(*other)
@@ -56,7 +57,7 @@ def test_a_leash_is_never_shorter_than_the_least_one(one, other):
     assert leash(a, b) >= farthest(a, b).distance - 1e-9
 
 
-@settings(deadline=None, max_examples=80)
+@settings(deadline=None, max_examples=examples(80))
 @given(PLACES, st.integers(0, 2**32))
 def test_pieces_that_are_cut_anew_and_moved_a_little_need_as_long_a_leash_as_they_are_moved(places, seed):
     rng = np.random.default_rng(seed)

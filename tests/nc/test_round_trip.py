@@ -16,6 +16,7 @@ from app.nc.check import Meant, check
 from app.nc.post import Coolant, Numbers, Post
 from app.nc.posts import load_post, post_names
 from app.nc.write import write_files
+from tests.examples import examples
 from tests.nc.programs import Path, job
 from tests.nc.test_write_motion import arc_steps, line_steps, random_path
 
@@ -69,7 +70,7 @@ def test_pieces_of_a_circle_end_where_their_rounded_points_are() -> None:
 
 
 @POSTS
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(data=st.data(), path=paths(), task=jobs())
 def test_written_and_read_back_it_is_the_same(name: str, data: st.DataObject, path: Path, task: Job) -> None:
     post = data.draw(variants(load_post(name)))

@@ -14,6 +14,7 @@ from app.model.part import Units
 from app.nc.post import ArcCentre, Numbers
 from app.nc.posts import load_post
 from app.nc.write import write_program
+from tests.examples import examples
 from tests.nc.programs import Path, job, two_tools
 from tests.nc.rs274_oracle import assert_same_motion
 
@@ -99,7 +100,7 @@ def random_path(steps: list[tuple[object, ...]], path: Path | None = None) -> Pa
 
 
 @UNITS
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(steps=st.lists(st.one_of(arc_steps, line_steps), min_size=1, max_size=60))
 def test_random_lines_and_arcs(units: Units, steps: list[tuple[object, ...]]) -> None:
     check(random_path(steps), units)

@@ -13,6 +13,7 @@ from scipy.spatial import cKDTree
 from app.model.tool import Tool, ToolKind
 from app.surface.drop_cutter import NONE, drop
 from app.surface.facets import Facets
+from tests.examples import examples
 
 TOOLS = {
     "ball": Tool(1, 6.0, ToolKind.BALL),
@@ -79,7 +80,7 @@ def sampled(triangles: np.ndarray, count: int) -> np.ndarray:
     return np.asarray(a + s[None, :, None] * (b - a) + u[None, :, None] * (c - a)).reshape(-1, 3)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(seed=st.integers(0, 10**6), name=st.sampled_from(sorted(TOOLS)), flat=st.booleans())
 def test_random_triangles_against_dense_sampling(seed: int, name: str, flat: bool) -> None:
     rng = np.random.default_rng(seed)

@@ -15,6 +15,7 @@ from app.model.scene_shapes import (
     SphereShape,
     TorusShape,
 )
+from tests.examples import examples
 from tests.surface.surface_places import anywhere, built, places, spline_of
 
 CLOSE = 1e-12
@@ -96,7 +97,7 @@ turns = st.tuples(*[st.floats(-360, 360)] * 3)
 moves = st.tuples(*[st.floats(-1000, 1000)] * 3)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(turns, moves)
 def test_placing_keeps_lengths(turn: tuple[float, float, float], move: tuple[float, float, float]) -> None:
     shape = TorusShape((5.0, 0.0, 0.0), 10.0, 3.0)

@@ -30,6 +30,7 @@ from app.toolpath.advise_time import Plan, distances, times
 from app.toolpath.compute import compute, regions_of
 from app.toolpath.flat import region_shapes
 from app.workflow.written import write_and_check
+from tests.examples import examples
 from tests.part_shapes import bulged, circle, fig2, random_part, square
 
 QUARTER = math.tan(math.pi / 8)
@@ -230,7 +231,7 @@ def check_widths(contours: list[Contour], crossing: bool) -> None:
         assert whole(eroded, len(region.islands))
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(st.integers(0, 10**6))
 @example(15)  # whose largest disc touches tips alone
 @example(373)
@@ -238,7 +239,7 @@ def test_random_parts(seed: int) -> None:
     check_widths(*random_part(seed))
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(st.integers(0, 10**6))
 def test_a_tool_that_clears_leaves_nothing_but_corners(seed: int) -> None:
     contours, crossing = random_part(seed)

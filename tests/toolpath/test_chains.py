@@ -22,6 +22,7 @@ from app.toolpath.chains import chains
 from app.toolpath.rest_left import Ground
 from app.toolpath.rest_runs import Chunks, Run
 from tests import plain_distance
+from tests.examples import examples
 from tests.part_shapes import circle, random_part, square
 
 
@@ -99,7 +100,7 @@ def test_a_whole_ring_is_a_run() -> None:
     assert stroke.closed and lengths(stroke.rows).sum() == pytest.approx(4 * 17)
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=examples(8), deadline=None)
 @given(st.integers(0, 10**6))
 def test_random_parts(seed: int) -> None:
     contours, _ = random_part(seed - seed % 5 + seed % 3)
@@ -111,7 +112,7 @@ def test_random_parts(seed: int) -> None:
     check(chains(chunks, found, corridor, 300.0), chunks, found, contours, radius)
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=examples(8), deadline=None)
 @given(st.integers(0, 10**6), st.floats(5.0, 300.0))
 def test_runs_keep_their_sense_and_the_tool_lifts_no_more_often_for_it(seed: int, longest: float) -> None:
     contours = [square(40), circle(4, 12, 12), circle(4, 28, 28)]

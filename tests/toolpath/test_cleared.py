@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from app.geometry.primitives import contour_rows
 from app.model.tool import Tool, ToolKind
 from app.toolpath.cleared import Cleared, flat_radius
+from tests.examples import examples
 from tests.part_shapes import circle
 
 TOOL = Tool(1, 6.0)
@@ -24,7 +25,7 @@ def at(*heights: float) -> np.ndarray:
     return np.array(heights)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(st.integers(0, 10**6))
 def test_a_way_is_clear_where_discs_of_the_path_cover_it(seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -16,6 +16,7 @@ from app.model.operation import ContourOperation, Cut
 from app.model.part import Contour
 from app.toolpath.compute import compute
 from tests import plain_distance
+from tests.examples import examples
 from tests.part_shapes import bulged, square
 from tests.toolpath.contour_jobs import about, contour_job, outside, rows_of
 
@@ -38,7 +39,7 @@ def test_in_right_angles_the_rim_touches_the_corner() -> None:
     assert len(ways) == 8 and ways[::2, :2] == pytest.approx(ways[1::2, 2:4]) and ways[::2, 2:4] == pytest.approx(ways[1::2, :2])
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(st.floats(math.radians(25), math.radians(125)), st.floats(1, 4), st.floats(0, 0.5))
 def test_at_any_angle_the_way_is_as_long_as_the_bisector_says(angle: float, diameter: float, leave: float) -> None:
     tip = polygon_contour([(0, 0), (60, 0), (60 * math.cos(angle), 60 * math.sin(angle))])

@@ -21,6 +21,7 @@ from app.toolpath.depth import pass_heights
 from app.toolpath.depth_ways import keeps_off_walls
 from app.toolpath.entry import Ground
 from app.workflow.make import export
+from tests.examples import examples
 from tests.part_shapes import circle, square
 from tests.toolpath.emitting import TOOL, contour_operation, emitted, lifts, loop, path, setting_of
 from tests.workflow.test_random_jobs import random_job
@@ -165,7 +166,7 @@ def test_every_pass_cuts_all_of_every_stroke() -> None:
     assert moves.lengths()[moves.purpose == Purpose.POCKET].sum() == pytest.approx(3 * sum(lengths(s.rows).sum() for s in strokes))
 
 
-@settings(max_examples=4, deadline=None, phases=(Phase.explicit, Phase.generate))
+@settings(max_examples=examples(4), deadline=None, phases=(Phase.explicit, Phase.generate))
 @given(st.integers(1000, 10**6), st.sampled_from(EntryKind))
 def test_random_jobs_are_cut_without_a_rapid_in_metal_or_a_gouge(seed: int, kind: EntryKind) -> None:
     job = random_job(seed)

@@ -28,6 +28,7 @@ from app.toolpath.compute import compute
 from app.toolpath.engagement import engagement, look
 from app.toolpath.engagement_places import chain_begins, places
 from app.toolpath.flat import move_rows
+from tests.examples import examples
 from tests.nc.programs import Path, job, square
 from tests.part_shapes import fig2
 
@@ -65,7 +66,7 @@ def test_a_slot_in_full_stock_takes_the_whole_diameter() -> None:
     assert found.above(0.99) > 0.9 and found.above(1.0) == 0
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(st.floats(0, math.tau), st.floats(0.02, D - 0.02), st.booleans(), st.floats(-1, 1))
 def test_a_side_pass_takes_its_stepover(angle: float, step: float, left: bool, shift: float) -> None:
     path = along(along(Path(), angle, shift), angle, shift + step if left else shift - step, -4, 8)

@@ -22,6 +22,7 @@ from app.toolpath.compute import compute
 from app.toolpath.engagement import engagement
 from app.toolpath.engagement_feed import LEAST_FEED, followed, most_engaged
 from app.toolpath.flat import move_rows
+from tests.examples import examples
 from tests.nc.programs import Path, job, square
 
 FEED, R = 600.0, 3.0
@@ -182,7 +183,7 @@ steps = st.lists(st.tuples(st.floats(-30, 30), st.floats(-30, 30), st.floats(-3,
                  min_size=3, max_size=12)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(steps, st.floats(0.1, 0.9), st.sampled_from([0.7, 2.0, 6.0]))
 def test_whatever_the_path_it_stays_and_is_slowed_once(steps: list[tuple[float, float, float, str]], limit: float, diameter: float) -> None:
     path = Path().into_work(0, 0)

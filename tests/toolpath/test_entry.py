@@ -19,6 +19,7 @@ from app.model.part import Contour
 from app.toolpath.build import Label
 from app.toolpath.setting import Setting
 from tests import plain_distance
+from tests.examples import examples
 from tests.part_shapes import circle, random_star, square
 from tests.toolpath.emitting import contour_operation, dense, emitted, loop, path, setting_of
 
@@ -74,7 +75,7 @@ def test_no_way_in_falls_faster_than_a_plunge_nor_is_faster_than_the_feed() -> N
             assert np.all(moves.feed[chosen] * fall <= 200 + 1e-9) and np.all(moves.feed[chosen] <= 300 + 1e-9)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(st.integers(0, 10**6))
 def test_no_way_in_comes_nearer_to_a_wall_than_the_cutter_may(seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -23,6 +23,7 @@ from app.toolpath.contour_path import headings_at, keep_clear
 from app.toolpath.lead import Around, Run, about_leads, about_overlaps, corners_of, runs
 from app.toolpath.side import wall_paths
 from tests import plain_distance
+from tests.examples import examples
 from tests.part_shapes import circle, fig2, random_part, square
 from tests.toolpath.contour_jobs import about, contour_job, outside, rows_of, sheet_of
 
@@ -146,7 +147,7 @@ def test_without_leads_there_is_no_overlap() -> None:
     assert run.stop - run.start == pytest.approx(run.path.length)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(st.floats(0.05, 3), st.floats(0.1, 20), st.floats(-math.pi, math.pi), st.floats(-0.5, 0.5))
 def test_keep_clear_agrees_with_dense_sampling(need: float, reach: float, angle: float, off: float) -> None:
     contours = fig2()

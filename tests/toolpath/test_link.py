@@ -20,6 +20,7 @@ from app.toolpath.build import Stroke, started_at
 from app.toolpath.link import Manner, link
 from app.toolpath.pocket import pocket_distances, without_empty
 from tests import plain_distance
+from tests.examples import examples
 from tests.part_shapes import circle, fig2, random_part, square
 
 
@@ -73,7 +74,7 @@ def test_a_narrow_neck_makes_two_strokes() -> None:
     assert len(strokes) == 2
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(st.integers(0, 10**6))
 def test_random_parts(seed: int) -> None:
     contours, crossing = random_part(seed)

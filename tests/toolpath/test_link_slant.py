@@ -26,6 +26,7 @@ from app.toolpath.sheets import Sheet
 from app.toolpath.uncut import uncut
 from tests import plain_distance
 from tests.conftest import ROOT
+from tests.examples import examples
 from tests.part_shapes import fig2, random_part
 
 R = 1.0
@@ -57,7 +58,7 @@ def test_bridges_are_less_than_two_hundredths_of_the_path_and_nothing_is_left(na
     assert nothing_left(made, sheet)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(st.integers(0, 10**6), st.sampled_from(list(Direction)), st.booleans())
 def test_random_parts(seed: int, direction: Direction, outside_in: bool) -> None:
     contours, crossing = random_part(seed)

@@ -20,6 +20,7 @@ from app.toolpath.compute import compute
 from app.toolpath.contour_path import Path
 from app.toolpath.open_line import clear_parts, line_paths
 from tests import plain_distance
+from tests.examples import examples
 from tests.part_shapes import circle, fig2, square
 from tests.toolpath.contour_jobs import about, contour_job, rows_of, sheet_of
 
@@ -80,7 +81,7 @@ def test_a_loop_is_opened_at_a_clamp_in_one_piece() -> None:
         assert not path.closed and path.length == pytest.approx(160 - 9, abs=0.1)
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(st.floats(0, math.tau), st.floats(-12, 12), st.floats(0.5, 6))
 def test_parts_are_clear_and_nothing_clear_is_lost(angle: float, off: float, radius: float) -> None:
     along, aside = np.array([math.cos(angle), math.sin(angle)]), np.array([-math.sin(angle), math.cos(angle)])

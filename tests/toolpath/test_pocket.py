@@ -63,7 +63,7 @@ def test_the_default_stepover_of_fig2_saves_three_tenths_of_the_path() -> None:
     assert chosen.linked <= MOST_LINKED
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 def test_the_default_stepover_of_many_islands_saves_two_tenths_of_the_path() -> None:
     path = ROOT / "tests" / "data" / "dxf" / "complex.dxf"
     chosen, share = ratio(regions_of(Job(read_drawing(path.name, path.read_bytes(), None, ()).part))[0])

@@ -23,6 +23,7 @@ from app.model.tool import Tool
 from app.toolpath.compute import compute
 from app.toolpath.flat import grown, lines, move_rows, region_shapes
 from tests import plain_distance
+from tests.examples import examples
 from tests.part_shapes import circle, random_part, square
 
 FINE = 5e-4
@@ -222,7 +223,7 @@ def test_runs_keep_the_direction_that_is_asked_for(contours: list[Contour], tool
     assert kept >= least * against
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=examples(8), deadline=None)
 @given(st.integers(0, 10**6))
 def test_random_parts(seed: int) -> None:
     contours, _ = random_part(seed - seed % 5 + seed % 3)  # none that cross: polygons are no oracle where walls touch themselves

@@ -24,6 +24,7 @@ from app.toolpath.pocket import pocket_distances, without_empty
 from app.toolpath.runs import NOTHING, Filling, between, fill, gaps_of
 from app.toolpath.uncut import uncut
 from tests import plain_distance
+from tests.examples import examples
 from tests.part_shapes import circle, fig2, random_part, square
 
 
@@ -123,14 +124,14 @@ def test_a_tip_between_two_corners_of_inner_rings_is_not_forgotten() -> None:
     assert left_by_polygons(fig2(), 3.0, link(levels, field, Manner(), filling), 3.0) == 0
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=examples(8), deadline=None)
 @given(st.integers(0, 10**6), st.floats(1.0, 2.0), st.booleans())
 def test_random_parts_are_covered_in_one_stroke_an_area_and_no_wall_is_touched(seed: int, share: float, outside_in: bool) -> None:
     check_random_part(seed, share, outside_in)
 
 
-@pytest.mark.long
-@settings(max_examples=300, deadline=None)
+@pytest.mark.exhaustive
+@settings(max_examples=examples(300), deadline=None)
 @given(st.integers(0, 10**6), st.floats(1.0, 2.0), st.booleans())
 def test_many_random_parts_are_covered(seed: int, share: float, outside_in: bool) -> None:
     check_random_part(seed, share, outside_in)

@@ -19,6 +19,7 @@ from app.model.operation import ContourOperation, Cut, Side
 from app.model.part import Contour
 from app.toolpath.compute import compute
 from tests import plain_distance
+from tests.examples import examples
 from tests.part_shapes import circle, fig2, square
 from tests.toolpath.contour_jobs import about, contour_job, outside, rows_of
 
@@ -174,7 +175,7 @@ def test_each_depth_pass_goes_over_the_tabs() -> None:
     assert sorted(set(moves.end[over, 2].round(6))) == [-5, -4, -2]
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=examples(8), deadline=None)
 @given(st.integers(1, 12), st.floats(0.5, 12), st.floats(0.5, 8), st.sampled_from([LeadKind.ARC, LeadKind.NONE]))
 def test_no_cut_at_the_floor_comes_into_a_tab(count: int, width: float, diameter: float, kind: LeadKind) -> None:
     operation = replace(outside(tabs=Tabs(count, width=width), lead=Lead(kind)), cut=Cut(2, 4.0, 4.0, entry=PLUNGE))

@@ -27,6 +27,7 @@ from app.toolpath.contour import contour_strokes
 from app.toolpath.link import Manner, link
 from app.toolpath.pocket import pocket_distances, without_empty
 from app.toolpath.tour import in_short_order, travel_mm
+from tests.examples import examples
 
 Before = list[tuple[int, int]]
 
@@ -107,14 +108,14 @@ def test_greedy_walks_into_the_trap_and_the_tour_does_not() -> None:
     assert check(strokes, (0, 0), [], False) == pytest.approx(3 + 11)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(st.integers(0, 10**6), st.integers(1, 6), st.booleans(), st.integers(0, 4))
 def test_a_few_strokes_are_in_the_shortest_order(seed: int, count: int, closed: bool, how_many: int) -> None:
     strokes, before = random_strokes(seed, count, closed), random_rules(seed, count, how_many)
     assert check(strokes, (5, 5), before, False) == pytest.approx(shortest(strokes, (5, 5), before, False))
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=examples(15), deadline=None)
 @given(st.integers(0, 10**6), st.integers(1, 5), st.integers(0, 2))
 def test_a_few_strokes_that_may_be_turned_are_in_the_shortest_order(seed: int, count: int, how_many: int) -> None:
     strokes, before = random_strokes(seed, count, False), random_rules(seed, count, how_many)
@@ -126,7 +127,7 @@ def test_eight_strokes_are_in_the_shortest_order() -> None:
     assert check(strokes, (0, 0), [], False) == pytest.approx(shortest(strokes, (0, 0), [], False))
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(st.integers(0, 10**6), st.integers(10, 120), st.booleans(), st.booleans(), st.integers(0, 60))
 def test_many_strokes(seed: int, count: int, closed: bool, reversible: bool, how_many: int) -> None:
     strokes = random_strokes(seed, count, closed)

@@ -20,6 +20,7 @@ from app.progress import Progress
 from app.toolpath.pocket import pocket_distances, without_empty
 from app.toolpath.uncut import Uncut, uncut
 from tests import plain_distance
+from tests.examples import examples
 from tests.part_shapes import circle, random_part, square
 
 
@@ -80,7 +81,7 @@ def test_it_can_be_stopped() -> None:
         uncut(field, levels[0], 1.0, paths(levels, 1.0), Progress(cancelled=stop))
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=examples(15), deadline=None)
 @given(st.integers(0, 10**6))
 def test_every_point_that_is_left_lies_in_a_square(seed: int) -> None:
     contours, _ = random_part(seed)

@@ -3,25 +3,24 @@
 import pytest
 
 from app.ui.computation import State
-from app.ui.start import build
+from tests.ui.one_window import OneWindow
 
 WAIT_MS = 20_000
 
 
+@pytest.fixture(scope="module")
+def one_window(qapp):
+    """The window that a module's tests share as long as none leaves anything behind."""
+    shared = OneWindow()
+    yield shared
+    shared.close()
+
+
 @pytest.fixture
-def wiring(qtbot):
-    window, made = build()
-    window.resize(1280, 800)
-    with qtbot.waitActive(window):
-        window.show()
-        window.activateWindow()
-    yield made
-    window.worker.finish(20.0)
-    made.document.load(made.document.job)
-    made.language.control.text = ""
-    window.scene.document.setModified(False)
-    window.close()
-    window.deleteLater()
+def wiring(qtbot, one_window):
+    """A window as it is when the program starts."""
+    yield one_window.lend(qtbot)
+    one_window.take_back()
 
 
 @pytest.fixture

@@ -18,7 +18,7 @@ from tests.conftest import ROOT
 PROMISED_S = 30.0
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("wait_s", [11.0, 19.0, 26.0])
 def test_a_killed_window_loses_less_than_was_promised(tmp_path: Path, wait_s: float) -> None:
     path = tmp_path / "plate.hito"

@@ -9,7 +9,7 @@ SLACK = 4
 """A shared machine may be this much slower before the test fails; what was measured is printed either way."""
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 def test_no_gap_on_the_window_thread_while_the_largest_sample_computes(qapp, capsys):
     gaps = measure_gaps(DRAWING)
     with capsys.disabled():
@@ -18,7 +18,7 @@ def test_no_gap_on_the_window_thread_while_the_largest_sample_computes(qapp, cap
     assert gaps["after"] < SLACK * WANTED_MS
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 def test_window_is_usable_soon(capsys):
     took = min(measure_usable() for _ in range(3))
     with capsys.disabled():

@@ -80,7 +80,7 @@ def test_random_parts_are_not_gouged(seed: int) -> None:
     check_no_gouge(job_of(contours, float(rng.choice([0, 1, 1.5])), float(rng.choice([1, 2, 3])), rng.choice([None, 0.9])), 400)
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("points", [400, 1600])
 @pytest.mark.parametrize("seed", range(500))
 def test_500_random_parts_are_not_gouged(seed: int, points: int) -> None:

@@ -10,6 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from app.workflow.clearance import curve_distance, nearest_on
+from tests.examples import examples
 
 numbers = st.floats(-10, 10).map(lambda value: round(value, 3))
 points = st.tuples(numbers, numbers)
@@ -49,7 +50,7 @@ def spacing(points: np.ndarray) -> float:
     return float(np.max(np.hypot(*np.diff(points, axis=0).T)))
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150), deadline=None)
 @given(curves, curves)
 def test_distance_is_that_of_dense_points(first: tuple[float, ...], second: tuple[float, ...]) -> None:
     assume(first[:2] != first[2:4] or first[7] != 0)

@@ -70,7 +70,7 @@ def test_no_gouge_and_no_rapid_in_material(name: str) -> None:
     assert report["rapids_in_material"] == []
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] if name in SLOW_TO_READ else []) for name in DRAWINGS])
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.exhaustive] if name in SLOW_TO_READ else []) for name in DRAWINGS])
 def test_the_control_accepts_the_program_and_moves_as_it_means(name: str) -> None:
     this = made(name)
     assert_same_motion(this.program.moves, this.nc, this.job)

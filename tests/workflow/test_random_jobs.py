@@ -63,7 +63,7 @@ def random_job(seed: int) -> Job:
     )
 
 
-@pytest.mark.parametrize("seed", [*range(24), *(pytest.param(seed, marks=pytest.mark.long) for seed in range(24, 500))])
+@pytest.mark.parametrize("seed", [*range(24), *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in range(24, 500))])
 def test_a_random_job(seed: int) -> None:
     try:
         made = export(random_job(seed))

@@ -23,6 +23,7 @@ from app.fit.space_curve import curve_of_motions
 from app.fit.tube import Answer, Tube, judge
 from app.nc.posts import load_post
 from app.workflow.smooth import Form, SmoothOptions, smooth
+from tests.examples import examples
 from tests.workflow.test_smooth_oracle import WAYS, closed, eight, helix, noisy, paired, program, quantised, twisted
 from tests.workflow.written_curves import Floats, along, moves_of, off
 
@@ -171,7 +172,7 @@ def test_scale_place_turn_sense_and_cuts_change_nothing_but_what_rounding_decide
     name=st.sampled_from(sorted(FITS)),
     backward=st.booleans(),
 )
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 def test_any_path_keeps_its_bound_and_its_shape_wherever_it_lies(
     waves: list[tuple[float, float, float]], count: int, angle: float, scale: float, name: str, backward: bool
 ) -> None:

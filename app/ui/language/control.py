@@ -207,7 +207,9 @@ class TextControl(QObject):
 
     def _follow(self, change: Change) -> None:
         if Change.LOADED in change:
-            self._kept[self._path] = (self.page.text, self.page.replaces)
+            self._kept.pop(self._path, None)
+            if self.page.text or self.page.replaces:
+                self._kept[self._path] = (self.page.text, self.page.replaces)
             if self._document.path != self._path:
                 text, replaces = self._kept.get(self._document.path, ("", False))
                 self._done = ""

@@ -5,6 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.nc.read.cycles import CYCLE_WORDS
+from tests.examples import examples
 from tests.nc.read.cycles_driver import Block, assert_same, assert_same_text, interpreted, program, read
 
 PLANES = ("G17", "G18", "G19")
@@ -46,7 +47,7 @@ def drawn_words(draw: st.DrawFn, code: str, plane: str, full: bool) -> dict[str,
     return words
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150), deadline=None)
 @given(st.data(), st.sampled_from([1, -1]), st.sampled_from(["G20", "G21"]))
 def test_any_cycles(data: st.DataObject, spindle: int, units: str) -> None:
     assert_same(data.draw(drawn_blocks(spindle)), spindle, units)

@@ -13,13 +13,14 @@ from app.nc.read.program import NcProgram
 from app.nc.read.run import Run
 from app.progress import NO_PROGRESS
 from tests.conftest import ROOT
+from tests.examples import examples
 from tests.nc.read.judged import judged
 from tests.nc.read.nc_texts import damaged, grammatical
 from tests.nc.read.plain_oracle import rows_of, same_bits
 
 texts = st.one_of(grammatical.map(str.encode), damaged(), damaged(), st.binary(max_size=300))
-short = settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
-minutes = settings(max_examples=20_000, deadline=None, suppress_health_check=list(HealthCheck))
+short = settings(max_examples=examples(150), deadline=None, suppress_health_check=list(HealthCheck))
+minutes = settings(max_examples=examples(20_000), deadline=None, suppress_health_check=list(HealthCheck))
 
 
 class Core(Run):
@@ -52,7 +53,7 @@ def test_random_texts(text: bytes, dialect: Dialect) -> None:
     assert_lane_and_core_agree(text, dialect)
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 @minutes
 @given(texts, st.sampled_from(Dialect))
 def test_random_texts_for_minutes(text: bytes, dialect: Dialect) -> None:

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from app.nc.read.columns import Columns
 from app.nc.read.lane import Plain, plain_blocks
+from tests.examples import examples
 from tests.nc.read.plain_oracle import Oracle, lane, same_bits
 
 START, END, CENTRE = slice(0, 3), slice(3, 6), slice(6, 9)
@@ -155,13 +156,13 @@ plains = st.builds(
 )  # fmt: skip
 
 
-@settings(max_examples=300)
+@settings(max_examples=examples(300))
 @given(st.lists(lines(), max_size=20), plains)
 def test_random_lines_mean_the_same_to_the_last_bit(texts: list[str], plain: Plain) -> None:
     _assert_same(texts, plain)
 
 
-@settings(max_examples=150)
+@settings(max_examples=examples(150))
 @given(st.lists(arcs(), max_size=8), plains)
 def test_random_arcs_mean_the_same_to_the_last_bit(texts: list[str], plain: Plain) -> None:
     plain.absolute, plain.bare_scale = False, plain.scale

@@ -12,6 +12,7 @@ from app.nc.read.notes import notes
 from app.nc.read.notes_own import Notes
 from app.nc.read.program import StockNote, ToolNote
 from tests.conftest import ROOT
+from tests.examples import examples
 
 IN = 25.4
 MM, INCH = "G21\nG0 X1\n", "G20\nG0 X1\n"
@@ -226,7 +227,7 @@ PARTS = [
 ]  # fmt: skip
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=examples(400), deadline=None)
 @given(st.lists(st.sampled_from(PARTS), max_size=60).map("".join))
 def test_nonsense_gives_sane_notes_or_none(text: str) -> None:
     found, box, _ = notes(text.encode())

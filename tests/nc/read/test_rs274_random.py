@@ -4,6 +4,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from tests.examples import examples
 from tests.nc.read.rs274_motions import OPTIONS, assert_same, read_program, rs274
 
 lengths = st.decimals(-40, 40, places=2).map(str)
@@ -80,14 +81,14 @@ turning = st.lists(st.one_of(moves, turned, flow, others), min_size=1, max_size=
 """Work offsets that are turned: without G92, whose part in a turn LinuxCNC forgets, and without upright arcs."""
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(40), deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.one_of(programs, turning))
 def test_random_programs(text: str) -> None:
     assert_as_linuxcnc(text)
 
 
-@pytest.mark.long
-@settings(max_examples=3000, deadline=None, suppress_health_check=list(HealthCheck))
+@pytest.mark.exhaustive
+@settings(max_examples=examples(3000), deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.one_of(programs, turning))
 def test_many_random_programs(text: str) -> None:
     assert_as_linuxcnc(text)

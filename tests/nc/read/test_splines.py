@@ -12,6 +12,7 @@ from app.model.motion import Nurbs, Plane
 from app.nc.read.fault import Fault
 from app.nc.read.reader import read_program
 from app.nc.read.splines import OpenFanucNurbs, OpenNurbs, check_plane, cubic, first_offset, quadratic, second_offset
+from tests.examples import examples
 from tests.nc.rs274_oracle import exact_motions
 
 START = (1.0, 2.0, 3.0)
@@ -44,7 +45,7 @@ def assert_read(curve: Nurbs, program: str, line: int) -> None:
         assert getattr(read, name) == pytest.approx(getattr(curve, name), abs=1e-9)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(st.lists(st.tuples(place, place, weight), min_size=2, max_size=8), weight, st.integers(0, 9), st.booleans())
 def test_nurbs_of_control_points(points: list[tuple[float, float, float]], first: float, order: int, increments: bool) -> None:
     order = min(order, len(points) + 1)
@@ -69,7 +70,7 @@ def test_the_first_block_may_hold_a_control_point_already() -> None:
     assert_driven(curve, "G5.2 X4 Y6 P2 L4\nX7 Y6 P.5 L3\nX9 Y2 P1\nG5.3", 6)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(st.tuples(*[place] * 10))
 def test_cubics_go_on_smoothly(n: tuple[float, ...]) -> None:
     middle, end = (n[0], n[1], 3.0), (n[2], n[3], 3.0)
@@ -85,7 +86,7 @@ def test_a_cubic_goes_on_after_other_motions() -> None:
     assert_driven(one, "G5 X9 Y9 I1 J1 P-2 Q3\nG1 X0 Y0\nG5 X5 Y0 P-1 Q1", 5)
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=examples(10), deadline=None)
 @given(place, place, place, place)
 def test_quadratics(x: float, y: float, i: float, j: float) -> None:
     assert_driven(quadratic(START, (x, y, 3.0), (i, j)), f"G5.1 X{x} Y{y} I{i} J{j}", 3)

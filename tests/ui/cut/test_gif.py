@@ -9,6 +9,7 @@ from PySide6.QtCore import QBuffer, QByteArray
 from PySide6.QtGui import QImage, QImageReader
 
 from app.ui.cut.gif import changed, gif_chunks
+from tests.examples import examples
 
 WIDTH, HEIGHT = 90, 70
 
@@ -81,7 +82,7 @@ def test_a_picture_of_many_colours_keeps_them_nearly():
     assert error.mean() < 1.5 and error.max() < 10
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(st.integers(1, 40), st.integers(1, 40), st.integers(1, 4), st.integers(0, 2**32 - 1))
 def test_pictures_of_any_size_and_change_come_back(width, height, count, seed):
     noise = np.random.default_rng(seed)

@@ -14,6 +14,7 @@ from app.ui.cut.patch import Patch, patch_of
 from app.ui.cut.picture import CutPicture
 from app.ui.cut.relief import REACH, relief, relief_part
 from app.ui.cut.scene import CutScene
+from tests.examples import examples
 from tests.ui.cut import pictures
 from tests.ui.cut.pictures import INKS, LOOK, SIZE
 
@@ -49,7 +50,7 @@ def cut_deeper(heights, floor=-7.5):
     return after
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(st.integers(1, 90), st.integers(1, 90), st.data())
 def test_the_relief_of_a_part_is_that_of_the_whole(rows, columns, data):
     heights = wavy(rows, columns)

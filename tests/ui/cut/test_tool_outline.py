@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from app.dexel.cutter import cutter_of
 from app.model.tool import Tool, ToolKind
 from app.ui.cut.tool_outline import Part, outline_of
+from tests.examples import examples
 
 HOLDER = ((0.0, 10.0), (20.0, 10.0), (20.0, 16.0), (32.0, 16.0))
 SHAPES = {
@@ -75,7 +76,7 @@ def test_a_cones_flutes_end_with_it_and_known_ones_end_on_it():
 LENGTHS = st.one_of(st.just(0.0), st.floats(0.5, 90.0))
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(st.sampled_from(list(ToolKind)), LENGTHS, LENGTHS, LENGTHS, LENGTHS, st.sampled_from([(), HOLDER]))
 @example(ToolKind.BALL, 0.0, 0.0, 1.5, 0.0, HOLDER)
 def test_every_tool_is_one_closed_outline(kind, flutes, overall, stick_out, shank, holder):

@@ -1,0 +1,118 @@
+"""Which points lie near which, and what hangs together through that.
+
+Trees and graphs of scipy where there are many points. Importing those takes longer than a whole small job, so a few points are
+compared with one another.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+FEW = 100_000
+"""Distances that are sooner worked out than a tree is imported."""
+
+
+def pairs_within(points: Floats, reach: float) -> Indices:
+    """Return the pairs (m, 2) of points within a distance of one another, the lower index first, in order.
+
+    Args:
+        points: (n, d).
+        reach: mm.
+    """
+    if len(points) ** 2 <= FEW:
+        near = np.triu(_distances(points, points) <= reach, 1)
+        return np.argwhere(near).astype(np.int64)
+    from scipy.spatial import cKDTree
+
+    pairs = cKDTree(points).query_pairs(reach, output_type="ndarray")
+    ordered: Indices = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))].astype(np.int64)
+    return ordered
+
+
+def all_within(points: Floats, places: Floats, reach: float) -> tuple[Indices, Indices]:
+    """Return (place, point), each (m,), of all points within a distance of places; by place, then by point.
+
+    Args:
+        points: (n, d).
+        places: (k, d).
+        reach: mm.
+    """
+    if len(points) * len(places) <= FEW:
+        place, point = np.nonzero(_distances(places, points) <= reach)
+        return place.astype(np.int64), point.astype(np.int64)
+    from scipy.spatial import cKDTree
+
+    found = cKDTree(points).query_ball_point(places, reach, return_sorted=True)
+    place = np.repeat(np.arange(len(places)), [len(each) for each in found])
+    return place, np.concatenate([np.zeros(0, np.int64), *found]).astype(np.int64)
+
+
+def nearest(points: Floats, places: Floats, count: int) -> tuple[Floats, Indices]:
+    """Return (distance, index), each (k, count), of the points nearest to places, the nearest first.
+
+    Args:
+        points: (n, d).
+        places: (k, d).
+        count: 1 to n.
+    """
+    if len(points) * len(places) <= FEW:
+        distance = _distances(places, points)
+        order = np.argsort(distance, axis=1, kind="stable")[:, :count]
+        return np.take_along_axis(distance, order, 1), order.astype(np.int64)
+    from scipy.spatial import cKDTree
+
+    far, which = cKDTree(points).query(places, np.arange(1, count + 1))
+    return far, which.astype(np.int64)
+
+
+def groups(count: int, pairs: Indices) -> Indices:
+    """Return (count,) the number of the group of each of `count` things, numbered by the first of each.
+
+    Args:
+        count: how many.
+        pairs: (m, 2) of things that belong together.
+    """
+    if len(pairs) > FEW // 20:
+        from scipy.sparse import coo_array
+        from scipy.sparse.csgraph import connected_components
+
+        joined = coo_array((np.ones(len(pairs), np.bool_), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
+        number: Indices = connected_components(joined, directed=False)[1].astype(np.int64)
+    else:
+        number = _merged(count, pairs)
+    return _by_first(number)
+
+
+def _by_first(number: Indices) -> Indices:
+    """Return group numbers given anew in the order in which the groups first appear."""
+    _, first, inverse = np.unique(number, return_index=True, return_inverse=True)
+    rank = np.empty(len(first), np.int64)
+    rank[np.argsort(first)] = np.arange(len(first))
+    return rank[inverse]
+
+
+def _merged(count: int, pairs: Indices) -> Indices:
+    head = list(range(count))
+
+    def first(k: int) -> int:
+        while head[k] != k:
+            head[k] = head[head[k]]
+            k = head[k]
+        return k
+
+    for a, b in pairs.tolist():
+        one, other = first(a), first(b)
+        head[max(one, other)] = min(one, other)
+    return np.array([first(k) for k in range(count)], np.int64)
+
+
+def _distances(places: Floats, points: Floats) -> Floats:
+    """Return (k, n) distances; each coordinate's difference is taken first, so that places far from zero lose nothing."""
+    square = np.zeros((len(places), len(points)))
+    for axis in range(points.shape[1]):
+        square += (places[:, axis, None] - points[None, :, axis]) ** 2
+    return np.sqrt(square)

@@ -1,0 +1,196 @@
+"""The folder that keeps machine code from start to start: only what this user wrote is read, and what is damaged is thrown away.
+
+An entry is one file: a check sum, then a pickle. Unpickling runs code, so an entry counts only in a folder, and as a file,
+that belongs to this user and that nobody else may write.
+"""
+
+from __future__ import annotations
+
+import atexit
+import hashlib
+import os
+import shutil
+import stat
+import sys
+import tempfile
+import time
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+
+import platformdirs
+
+UNUSED_DAYS = 30
+"""What no start has asked for in so many days is removed: the leftovers of older versions."""
+
+FOLDER_VARIABLE = "HITOFUDE_KERNELS"
+"""Names the folder for the processes that compile for another one."""
+
+_MAGIC = b"hitofude kernel 1\n"
+_SUM = hashlib.sha256().digest_size
+_DAY_S = 86400.0
+_STALE_PART_S = 3600.0  # no entry takes an hour to write, so its writer was killed
+_OTHERS_MAY_WRITE = stat.S_IWGRP | stat.S_IWOTH
+
+
+class Store:
+    """Entries by name, in one folder or, where nothing can be written, nowhere.
+
+    Attributes:
+        folder: where they are; None: nothing is kept.
+    """
+
+    def __init__(self, folder: Path | None, kept: bool = True) -> None:
+        self.folder = folder
+        self._silent = False
+        if folder is None:
+            self._say("no folder for it can be written")
+        elif not kept:
+            self._say(f"{folder.parent} lasts only as long as this run")
+
+    def path(self, name: str) -> Path | None:
+        """Return where an entry is or would be."""
+        return None if self.folder is None else self.folder / name
+
+    def has(self, name: str) -> bool:
+        """Return whether there is an entry; it may turn out to be damaged."""
+        path = self.path(name)
+        return path is not None and path.exists()
+
+    def read(self, name: str) -> bytes | None:
+        """Return an entry's content, or None where there is none that is whole; a damaged one is removed."""
+        path = self.path(name)
+        if path is None:
+            return None
+        try:
+            data = _read_own(path)
+        except OSError:
+            return None
+        content = data[len(_MAGIC) + _SUM :]
+        if data.startswith(_MAGIC) and hashlib.sha256(content).digest() == data[len(_MAGIC) : len(_MAGIC) + _SUM]:
+            return content
+        self.drop(name)
+        return None
+
+    def drop(self, name: str) -> None:
+        """Remove an entry that is of no use."""
+        path = self.path(name)
+        if path is not None:
+            with suppress(OSError):
+                path.unlink()
+
+    def write(self, name: str, content: bytes) -> bool:
+        """Keep an entry; where that fails say so once and return False."""
+        path = self.path(name)
+        if path is None:
+            return False
+        try:
+            handle, part = tempfile.mkstemp(prefix=f"{name}.", suffix=".part", dir=path.parent)  # mode 0600
+            try:
+                with os.fdopen(handle, "wb") as file:
+                    file.write(_MAGIC + hashlib.sha256(content).digest() + content)
+                os.replace(part, path)
+            except BaseException:
+                with suppress(OSError):
+                    os.unlink(part)
+                raise
+        except OSError as error:
+            self._say(f"{path.parent}: {error.strerror or error}")
+            return False
+        return True
+
+    def sweep(self) -> None:
+        """Remove what nobody has used for `UNUSED_DAYS`, here and in the folders of other versions, and what killed runs left."""
+        if self.folder is None:
+            return
+        now = time.time()
+        for path in list(self.folder.parent.rglob("*")):
+            with suppress(OSError):
+                status = path.lstat()
+                if not stat.S_ISDIR(status.st_mode):
+                    kept_s = _STALE_PART_S if path.suffix == ".part" else UNUSED_DAYS * _DAY_S
+                    if now - max(status.st_atime, status.st_mtime) > kept_s:
+                        path.unlink()
+        for folder in sorted((path for path in self.folder.parent.rglob("*") if path.is_dir()), reverse=True):
+            if folder != self.folder:
+                with suppress(OSError):
+                    folder.rmdir()  # fails, as it should, where something is left in it
+
+    def _say(self, why: str) -> None:
+        if not self._silent and sys.stderr is not None:
+            print(f"hitofude: compiled inner loops cannot be kept ({why}), so every start compiles them anew", file=sys.stderr)
+        self._silent = True
+
+
+def _read_own(path: Path) -> bytes:
+    """Return the bytes of a file of this user, and note that it was used.
+
+    Raises:
+        OSError: it is not there, or somebody else's.
+    """
+    handle = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0))
+    with os.fdopen(handle, "rb") as file:
+        status = os.fstat(handle)
+        if not _is_own(status):
+            raise PermissionError(f"{path} belongs to somebody else")
+        if time.time() - status.st_mtime > _DAY_S:
+            with suppress(OSError):
+                os.utime(path)  # file systems may not note when files are read
+        return file.read()
+
+
+def _is_own(status: os.stat_result) -> bool:
+    return not hasattr(os, "geteuid") or (status.st_uid == os.geteuid() and not status.st_mode & _OTHERS_MAY_WRITE)
+
+
+def _own_folder(folder: Path) -> bool:
+    """Make a folder of this user's alone, or say whether there is one: no link, not somebody else's, not open to others."""
+    try:
+        with suppress(FileExistsError):
+            folder.mkdir(mode=0o700)
+        status = folder.lstat()
+        if not stat.S_ISDIR(status.st_mode) or (hasattr(os, "geteuid") and status.st_uid != os.geteuid()):
+            return False
+        if status.st_mode & _OTHERS_MAY_WRITE:
+            folder.chmod(stat.S_IMODE(status.st_mode) & ~_OTHERS_MAY_WRITE)  # ours, but made with a generous umask
+    except OSError:
+        return False
+    return os.access(folder, os.W_OK | os.X_OK)
+
+
+def _all_own(base: Path, *names: str) -> Path | None:
+    """Return base/names…, every folder of which from `base` on is this user's own, or None."""
+    with suppress(OSError):
+        base.parent.mkdir(parents=True, exist_ok=True)
+    folder = base
+    for name in ("", *names):
+        folder = folder / name
+        if not _own_folder(folder):
+            return None
+    return folder
+
+
+def open_store(version: str) -> Store:
+    """Return the store of one version of compiler and processor, in the first place that is safe and can be written.
+
+    That is the user's cache folder; else one in the temporary folder that is this user's alone; else a fresh one, removed
+    when the program ends.
+    """
+    own = f"hitofude-{os.geteuid()}" if hasattr(os, "geteuid") else "hitofude"
+    for base in (Path(platformdirs.user_cache_dir("hitofude")), Path(tempfile.gettempdir()) / own):
+        folder = _all_own(base, "kernels", version)
+        if folder is not None:
+            return Store(folder)
+    try:
+        fresh = Path(tempfile.mkdtemp(prefix="hitofude-"))
+    except OSError:
+        return Store(None)
+    atexit.register(shutil.rmtree, fresh, ignore_errors=True)
+    return Store(_all_own(fresh, "kernels", version), kept=False)
+
+
+@cache
+def store(version: str) -> Store:
+    """Return this process's store: the one that the process which started this one names, or see `open_store`."""
+    named = os.environ.get(FOLDER_VARIABLE)
+    return Store(Path(named)) if named else open_store(version)
