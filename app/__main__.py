@@ -32,7 +32,7 @@ def main() -> int:
         return _open(arguments[1:])
     if len(arguments) == 1 and not arguments[0].startswith("-") and Path(arguments[0]).suffix:
         return _open(arguments)
-    _end(command_line(arguments))
+    return _end(command_line(arguments))
 
 
 def _end(status: int) -> NoReturn:

@@ -25,8 +25,8 @@ def warm(progress: Progress = NO_PROGRESS) -> tuple[str, ...]:
     Raises:
         Cancelled: the job was asked to stop.
     """
-    from app.jit.compilers import compilers
     from app.jit.compiled import REGISTERED
+    from app.jit.compilers import compilers
 
     for name in kernel_modules():
         progress.step(0.0)

@@ -109,8 +109,13 @@ def test_qt_stays_in_the_window() -> None:
 
 
 def test_only_kernel_files_know_the_compiler() -> None:
-    others = [path for path in FILES if "kernels" not in path.stem and path.stem != "jit"]
+    others = [path for path in FILES if "kernels" not in path.stem and room_of(module_name(path)) != "jit"]
     assert not offenders(others, lambda path: {name for name in imports(path) if name.split(".")[0] in COMPILER or name == "app.jit"})
+
+
+def test_only_one_file_of_the_compiler_s_room_imports_it() -> None:
+    importing = {path.name for path in FILES if {name.split(".")[0] for name in imports(path)} & COMPILER}
+    assert importing == {"numba_door.py"}
 
 
 def test_every_room_is_in_the_table() -> None:
@@ -173,4 +178,5 @@ def test_the_window_opens_without_heavy_libraries() -> None:
 
 
 def test_kernel_modules_know_no_window() -> None:
-    assert not modules_after("import app.kernels; app.kernels.warm()") & QT
+    code = "import app.kernels, importlib\nfor name in app.kernels.kernel_modules(): importlib.import_module(name)"
+    assert not modules_after(code) & (QT | COMPILER)

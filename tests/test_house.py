@@ -2,7 +2,6 @@
 
 import json
 import os
-import shutil
 import stat
 import subprocess
 import sys
@@ -116,24 +115,6 @@ def test_every_kernel_file_is_warmed() -> None:
     using = {path for path in (ROOT / "app").rglob("*.py") if "import kernel\n" in path.read_text("utf-8")}
     assert using
     assert {".".join(path.relative_to(ROOT).with_suffix("").parts) for path in using} <= set(kernel_modules())
-
-
-def test_a_kernel_that_calls_a_changed_kernel_of_another_file_is_compiled_again(tmp_path: Path) -> None:
-    room = tmp_path / "app" / "room"
-    room.mkdir(parents=True)
-    for path in ("__init__.py", "jit.py", "errors.py"):
-        shutil.copy(ROOT / "app" / path, tmp_path / "app")
-    inner, outer = room / "inner_kernels.py", room / "outer_kernels.py"
-    header = "from app.jit import kernel\n"
-    outer.write_text(f'{header}from app.room.inner_kernels import f\n@kernel("int64(int64)")\ndef g(x):\n    return f(x)\n')
-    answers = []
-    for added in (1, 100):
-        inner.write_text(f'{header}@kernel("int64(int64)")\ndef f(x):\n    return x + {added}\n')
-        code = "from app.room.outer_kernels import g; print(g(0))"
-        environment = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"} | {"XDG_CACHE_HOME": str(tmp_path)}
-        done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=120)
-        answers.append(done.stdout.strip() or done.stderr)
-    assert answers == ["1", "100"]
 
 
 def test_warming_reports_and_stops_when_asked() -> None:

@@ -25,7 +25,6 @@ def checkout(tmp_path: Path) -> Path:
     shutil.copy(ROOT / "pyproject.toml", root)
     (root / "app" / "__init__.py").touch()
     (root / "app" / "__main__.py").write_text(SAY_WHAT_CAME)
-    (root / "app" / "kernels.py").write_text("import sys; print('kernels compiled', file=sys.stderr)\n")
     python = root / ".venv" / "bin" / "python"
     python.write_text(f'#!/bin/sh\nPYTHONPATH="{root}" exec "{sys.executable}" "$@"\n')
     python.chmod(0o755)
@@ -60,16 +59,6 @@ def test_a_folder_named_app_where_it_is_called_does_not_matter(checkout: Path, t
     (tmp_path / "app" / "__main__.py").write_text("print('wrong')")
     (tmp_path / "app" / "__init__.py").touch()
     assert call(checkout / "hitofude", "make", folder=tmp_path).stdout == f"make|{tmp_path}\n"
-
-
-def test_kernels_are_compiled_once_and_again_when_they_change(checkout: Path, tmp_path: Path) -> None:
-    first = call(checkout / "hitofude", "make", folder=tmp_path)
-    second = call(checkout / "hitofude", "make", folder=tmp_path)
-    changed = checkout / "app" / "kernels.py"
-    newer = changed.stat().st_mtime + 10
-    os.utime(changed, (newer, newer))
-    third = call(checkout / "hitofude", "make", folder=tmp_path)
-    assert ["kernels compiled" in run.stderr for run in (first, second, third)] == [True, False, True]
 
 
 def test_a_newer_pyproject_is_installed_again(checkout: Path, tmp_path: Path) -> None:

@@ -18,8 +18,8 @@ from functools import cache
 from pathlib import Path
 
 from app.jit import numba_door
-from app.jit.compiler_process import DONE
 from app.jit.compiled import REGISTERED, Kernel
+from app.jit.compiler_process import DONE
 from app.jit.store import FOLDER_VARIABLE, Store, store
 from app.progress import waited_for
 

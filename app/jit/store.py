@@ -27,7 +27,6 @@ FOLDER_VARIABLE = "HITOFUDE_KERNELS"
 """Names the folder for the processes that compile for another one."""
 
 _MAGIC = b"hitofude kernel 1\n"
-_SUM = hashlib.sha256().digest_size
 _DAY_S = 86400.0
 _STALE_PART_S = 3600.0  # no entry takes an hour to write, so its writer was killed
 _OTHERS_MAY_WRITE = stat.S_IWGRP | stat.S_IWOTH
@@ -66,8 +65,8 @@ class Store:
             data = _read_own(path)
         except OSError:
             return None
-        content = data[len(_MAGIC) + _SUM :]
-        if data.startswith(_MAGIC) and hashlib.sha256(content).digest() == data[len(_MAGIC) : len(_MAGIC) + _SUM]:
+        head, content = data[: _HEAD_SIZE], data[_HEAD_SIZE:]
+        if head == _head(name, content):
             return content
         self.drop(name)
         return None
@@ -88,7 +87,7 @@ class Store:
             handle, part = tempfile.mkstemp(prefix=f"{name}.", suffix=".part", dir=path.parent)  # mode 0600
             try:
                 with os.fdopen(handle, "wb") as file:
-                    file.write(_MAGIC + hashlib.sha256(content).digest() + content)
+                    file.write(_head(name, content) + content)
                 os.replace(part, path)
             except BaseException:
                 with suppress(OSError):
@@ -120,6 +119,14 @@ class Store:
         if not self._silent and sys.stderr is not None:
             print(f"hitofude: compiled inner loops cannot be kept ({why}), so every start compiles them anew", file=sys.stderr)
         self._silent = True
+
+
+def _head(name: str, content: bytes) -> bytes:
+    """Return what an entry begins with: an entry under another name is of as little use as a damaged one."""
+    return _MAGIC + hashlib.sha256(name.encode() + b"\n" + content).digest()
+
+
+_HEAD_SIZE = len(_head("", b""))
 
 
 def _read_own(path: Path) -> bytes:

@@ -15,14 +15,14 @@ if not {"avx2", "+avx2"} & set(re.split(r"[, ]", numba.core.codegen.get_host_cpu
     print("no vectors here")
 runs = [getattr(run_kernels, name) for name in dir(run_kernels) if name.endswith("_run")]
 for run in (*runs, trace_kernels.ball_trace):
-    name, code = run.__name__, next(iter(run.inspect_asm().values()))
+    name, code = run.__name__, next(iter(run.for_callers().inspect_asm().values()))
     own = code.split("cpython")[0]
     print(name, len(re.findall(r"v?sqrtps", own)) + len(re.findall(r"vrsqrt14ps", own)), len(re.findall(r"v?sqrtss", own)))
 """
 
 
 def test_runs_take_roots_of_vectors(tmp_path: Path) -> None:
-    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
+    environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path)}
     done = subprocess.run([sys.executable, "-c", LOOK], cwd=ROOT, env=environment, capture_output=True, text=True, check=True, timeout=200)
     assert "no vectors" not in done.stdout
     for line in done.stdout.splitlines():
