@@ -49,7 +49,7 @@ def warm_up(window: MainWindow) -> Worker:
     """Load engines and have inner loops compiled in the background, so that the first Compute waits for little or nothing."""
     warmer = Worker(window)
     warmer.progress.connect(lambda _, text: window.status.show_waiting(text))
-    warmer.busy_changed.connect(lambda busy: busy or window.status.show_waiting(""))
+    warmer.busy_changed.connect(lambda _: window.status.show_waiting(""))
     warmer.start(_warm, 0)
     return warmer
 

@@ -1,0 +1,97 @@
+"""Few points compared with one another and many by trees and graphs: the same answers."""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from app.geometry import near_points, triangulation
+from app.geometry.near_points import all_within, groups, nearest, pairs_within
+from app.geometry.triangulation import neighbours
+from tests.examples import examples
+
+SOME = settings(max_examples=examples(60), deadline=None)
+places = st.integers(1, 4).flatmap(lambda d: arrays(np.float64, st.tuples(st.integers(1, 30), st.just(d)), elements=st.integers(-5, 5)))
+pairs = st.integers(1, 30).flatmap(lambda n: st.tuples(st.just(n), st.lists(st.tuples(*[st.integers(0, n - 1)] * 2), max_size=40)))
+
+
+def both(monkeypatch: pytest.MonkeyPatch, ask):
+    """The answer for few points, and that for many."""
+    few = ask()
+    with monkeypatch.context() as patch:
+        patch.setattr(near_points, "FEW", 0)
+        return few, ask()
+
+
+@SOME
+@given(points=places, reach=st.sampled_from([0.0, 1.0, 1.5, 3.0]))
+def test_pairs(points, reach: float) -> None:
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        few, many = both(monkeypatch, lambda: pairs_within(points, reach))
+    assert few.tolist() == many.tolist()
+    assert few.tolist() == [[j, k] for j, k in combinations(range(len(points)), 2) if np.linalg.norm(points[j] - points[k]) <= reach]
+
+
+@SOME
+@given(points=places, reach=st.sampled_from([0.0, 1.0, 2.5]), shift=st.integers(-2, 2))
+def test_all_within(points, reach: float, shift: int) -> None:
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        few, many = both(monkeypatch, lambda: all_within(points, points[::2] + shift, reach))
+    assert [each.tolist() for each in few] == [each.tolist() for each in many]
+
+
+@SOME
+@given(points=places, shift=st.floats(0.1, 0.4))
+def test_nearest(points, shift: float) -> None:
+    points, count = np.unique(points, axis=0), 2
+    if len(points) < count:
+        return
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        few, many = both(monkeypatch, lambda: nearest(points, points + shift, count)[0])
+    assert few == pytest.approx(many, abs=1e-12)
+    which = nearest(points, points + shift, count)[1]
+    assert np.linalg.norm(points[which] - (points + shift)[:, None], axis=2) == pytest.approx(few, abs=1e-12)
+
+
+@SOME
+@given(given_pairs=pairs)
+def test_groups_are_numbered_by_their_first(given_pairs) -> None:
+    count, joined = given_pairs
+    ask = lambda: groups(count, np.array(joined, np.int64).reshape(-1, 2))  # noqa: E731 (asked twice)
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        few, many = both(monkeypatch, ask)
+    assert few.tolist() == many.tolist()
+    assert all(few[a] == few[b] for a, b in joined)
+    assert list(dict.fromkeys(few.tolist())) == list(range(few.max() + 1))
+
+
+@pytest.mark.parametrize("offset", [0.0, 3000.0])
+def test_a_triangulation_is_the_same_whoever_makes_it(monkeypatch: pytest.MonkeyPatch, offset: float) -> None:
+    points = np.random.default_rng(3).uniform(0, 50, (300, 2)) + offset
+    few = neighbours(points)
+    monkeypatch.setattr(triangulation, "FEW", 0)
+    assert few.tolist() == neighbours(points).tolist()
+
+
+@pytest.mark.parametrize("points", [[], [[0, 0]], [[0, 0], [1, 1]], [[0, 0], [1, 1], [2, 2]], [[1, 2], [1, 2], [1, 2]]])
+def test_what_has_no_triangle_has_no_neighbours(monkeypatch: pytest.MonkeyPatch, points) -> None:
+    for _ in range(2):
+        assert neighbours(np.array(points, np.float64).reshape(-1, 2)).shape == (0, 2)
+        monkeypatch.setattr(triangulation, "FEW", -1)
+
+
+def test_the_shortest_tree_of_a_grid_is_among_its_neighbours() -> None:
+    """Of four points on a circle either diagonal may be taken, but never a side be left out."""
+    axis = np.arange(12.0)
+    points = np.stack(np.meshgrid(axis, axis), -1).reshape(-1, 2)
+    edges = {tuple(edge) for edge in neighbours(points).tolist()}
+    sides = {(j, k) for j, k in combinations(range(len(points)), 2) if np.hypot(*(points[j] - points[k])) == 1}
+    assert sides <= edges and len(edges) == len(sides) + 11 * 11
+
+
+def test_a_point_that_is_there_twice_is_one_of_the_two() -> None:
+    edges = neighbours(np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0], [4.0, 0.0]]))
+    assert len(edges) == 3 and set(edges.ravel().tolist()) in ({0, 1, 2}, {0, 2, 3})

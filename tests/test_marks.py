@@ -1,0 +1,52 @@
+"""Every test has one mark: it runs each time, or with `--all`; and no room of the house goes without tests that run each time."""
+
+from collections import Counter
+from pathlib import PurePosixPath
+
+import pytest
+
+from tests.conftest import ROOT
+from tests.exhaustive import COLLECTED, parameters_of
+from tests.families import KEPT
+from tests.parallel import ON_A_SCREEN, group_of
+
+
+@pytest.fixture
+def collected(pytestconfig: pytest.Config) -> dict[str, bool]:
+    """Every test of this run before any was left out, and whether it is exhaustive; of all tests where all are asked for."""
+    return pytestconfig.stash[COLLECTED]
+
+
+def room_of(nodeid: str) -> str:
+    return PurePosixPath(nodeid.split("::")[0]).parts[1]
+
+
+def test_default_and_exhaustive_tests_together_are_all(request: pytest.FixtureRequest, collected: dict[str, bool]) -> None:
+    chosen = {item.nodeid for item in request.session.items if item.get_closest_marker("benchmark") is None}
+    if request.config.option.markexpr == "not exhaustive and not benchmark":
+        assert chosen == {nodeid for nodeid, exhaustive in collected.items() if not exhaustive}
+    else:
+        assert chosen <= set(collected)
+    assert request.node.nodeid in collected
+
+
+def test_every_room_has_tests_that_run_each_time(collected: dict[str, bool]) -> None:
+    every, quick = Counter(map(room_of, collected)), Counter(room_of(nodeid) for nodeid, exhaustive in collected.items() if not exhaustive)
+    slow = {room: (quick[room], count) for room, count in every.items() if quick[room] < min(count, max(1, count // 2))}
+    assert not {room: counts for room, counts in slow.items() if room not in ("test_wheel.py", "benchmarks")}
+
+
+def test_every_family_that_is_named_is_there_and_keeps_members(collected: dict[str, bool]) -> None:
+    files = {nodeid.split("::")[0] for nodeid in collected}
+    members: dict[str, set[str]] = {}
+    for nodeid in collected:
+        members.setdefault(nodeid.split("[")[0], set()).add(parameters_of(nodeid))
+    named = {name: kept for name, kept in KEPT.items() if name.split("::")[0] in files}
+    assert {name: kept - members.get(name, set()) for name, kept in named.items()} == {name: set() for name in named}
+    assert all(len(kept) < len(members[name]) for name, kept in named.items()), "a family of which all members run needs no entry"
+
+
+def test_files_and_screens_stay_together() -> None:
+    assert group_of("tests/a/test_b.py::test_c[x/y]") == "tests/a/test_b.py"
+    assert {group_of(f"{place}::test") for place in ON_A_SCREEN} == {"screen"}
+    assert all((ROOT / place).exists() for place in ON_A_SCREEN)

@@ -1,0 +1,72 @@
+"""The wheel is the whole program: put into an empty environment it makes a program and opens a window, far from the source."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.conftest import ROOT
+
+pytestmark = pytest.mark.exhaustive
+
+OPEN_AND_CLOSE = """
+import sys
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication
+import app.ui.start as start
+began = start.begin
+def begin(wiring, path):
+    began(wiring, path)
+    def look():
+        if wiring.computation.made is not None:
+            print("moves", len(wiring.computation.made.program.moves), start.__file__)
+            wiring.document.load(wiring.document.job)
+            wiring.window_.close()
+    timer = QTimer(wiring.window_, interval=50)
+    timer.timeout.connect(look)
+    timer.start()
+start.begin = begin
+sys.exit(start.start())
+"""
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An environment that holds the wheel and what it depends on, and nothing else."""
+    folder = tmp_path_factory.mktemp("wheel")
+    source = folder / "source"
+    shutil.copytree(ROOT, source, ignore=shutil.ignore_patterns(".*", "tests", "__pycache__"))
+    pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "-q"]
+    made = subprocess.run([*pip, "wheel", "--no-deps", "-w", str(folder), str(source)], capture_output=True, text=True, timeout=300)
+    if made.returncode and "No matching distribution" in made.stderr:
+        pytest.skip("there is no package index to take the build back end from")
+    assert made.returncode == 0, made.stderr
+    (wheel,) = folder.glob("*.whl")
+    shutil.rmtree(source)
+    subprocess.run([sys.executable, "-m", "venv", str(folder / "venv")], check=True, timeout=120)
+    python = folder / "venv" / "bin" / "python"
+    subprocess.run([str(python), "-m", "pip", "--disable-pip-version-check", "-q", "install", str(wheel)], check=True, timeout=600)
+    return folder / "venv" / "bin"
+
+
+def run(folder: Path, *command: str) -> subprocess.CompletedProcess[str]:
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=300)
+
+
+def test_make_writes_the_program(installed: Path, tmp_path: Path) -> None:
+    shutil.copy(ROOT / "resources" / "samples" / "fig2.dxf", tmp_path)
+    done = run(tmp_path, str(installed / "hitofude"), "make", "fig2.dxf", "-o", "fig2.ngc", "--post", "grbl")
+    assert done.returncode == 0, done.stderr
+    assert sorted(path.name for path in tmp_path.glob("*.ngc")) == ["fig2_1_T1.ngc", "fig2_2_T2.ngc"]
+
+
+def test_the_window_opens_with_its_sample_and_computes_it(installed: Path, tmp_path: Path) -> None:
+    done = run(tmp_path, str(installed / "python"), "-c", OPEN_AND_CLOSE)
+    assert done.returncode == 0, done.stderr
+    word, moves, where = done.stdout.split()
+    assert word == "moves" and int(moves) > 100
+    assert Path(where).is_relative_to(installed.parent)
