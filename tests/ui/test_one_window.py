@@ -54,7 +54,7 @@ def change_a_label(wiring: Wiring) -> None:
 
 
 def disable_an_action(wiring: Wiring) -> None:
-    wiring.window_.actions_["compute"].setEnabled(False)
+    wiring.window_.actions_["about"].setEnabled(False)
 
 
 @pytest.mark.parametrize("leave", [hide_the_side, remember_something, change_a_label, disable_an_action])
