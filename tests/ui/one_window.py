@@ -10,6 +10,7 @@ from app.edit.document import Document
 from app.settings import Settings, ThemeChoice
 from app.ui.canvas.modes import CanvasTool
 from app.ui.canvas.view import View as CanvasView
+from app.ui.fade import FADE_MS
 from app.ui.start import build
 from app.ui.views import View
 from app.ui.wiring import Wiring
@@ -100,6 +101,7 @@ def reset(wiring: Wiring, view: CanvasView) -> None:
     wiring.log.lines.clear()
     window.command_line.log.show_lines(wiring.log.lines)
     wiring.showing.show_view(View.DRAW)
+    window.views.fade._run.setCurrentTime(FADE_MS)
     window.resize(*SIZE)
     window.status.show_message("Not computed")
     _settle()
@@ -121,6 +123,7 @@ def _forget_habits(wiring: Wiring) -> None:
     line._at = 0
     runner._last, runner.cursor = CanvasTool.LINE, (0.0, 0.0)
     runner._desk.numbers.clear()
+    wiring.language.lines._line = ""
 
 
 def _forget_changes(wiring: Wiring) -> None:

@@ -8,7 +8,6 @@ import pytest
 from PySide6.QtCore import Qt
 
 from app.ui.canvas.modes import CanvasTool
-from app.ui.views import View
 from app.ui.wiring import Wiring
 from tests.conftest import ROOT
 from tests.ui.one_window import OneWindow
@@ -27,22 +26,21 @@ def draw(qtbot, wiring: Wiring) -> None:
     wiring.window_.canvas.set_tool(CanvasTool.CIRCLE)
     qtbot.keyClicks(wiring.window_.command_line.edit, "10,10")
     qtbot.keyClick(wiring.window_.command_line.edit, Qt.Key.Key_Return)
-    wiring.showing.show_view(View.NC)
 
 
 def test_after_drawing_and_typing_the_window_is_as_new(qtbot, own: OneWindow) -> None:
     first = own.lend(qtbot)
     draw(qtbot, first)
     own.take_back()
-    assert own.left == []
+    assert "\n".join(own.left) == ""
     again = own.lend(qtbot)
     assert again is first and own.made == 1
     assert not again.document.part.entities and not again.document.undo_name
-    assert again.log.lines == [] and again.showing.view is View.DRAW
+    assert again.log.lines == []
 
 
-def hide_the_side(wiring: Wiring) -> None:
-    wiring.window_.side.hide()
+def hide_the_menus(wiring: Wiring) -> None:
+    wiring.window_.menuBar().hide()
 
 
 def remember_something(wiring: Wiring) -> None:
@@ -57,7 +55,7 @@ def disable_an_action(wiring: Wiring) -> None:
     wiring.window_.actions_["about"].setEnabled(False)
 
 
-@pytest.mark.parametrize("leave", [hide_the_side, remember_something, change_a_label, disable_an_action])
+@pytest.mark.parametrize("leave", [hide_the_menus, remember_something, change_a_label, disable_an_action])
 def test_what_reset_does_not_know_of_is_seen_and_ends_the_window(qtbot, own: OneWindow, leave) -> None:
     first = own.lend(qtbot)
     leave(first)

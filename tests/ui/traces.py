@@ -6,7 +6,7 @@ Two windows with the same traces behave alike, so a window that shows those of a
 from __future__ import annotations
 
 import enum
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import FunctionType, MethodType
@@ -31,8 +31,8 @@ from app.ui.wiring import Wiring
 _SIMPLE = (bool, int, float, str, bytes, Path, enum.Enum, type(None))
 _UNTOLD = {
     "next_id", "_next_id", "_told", "revision", "_revision", "_threads", "__weakref__", "_began", "_since", "job_id", "_job_id",
-    "_generation", "_taken",  # counters that only ever go on: nothing is decided by where they start
-    "scene_ms", "_scene_view", "_way", "_opacity", "_turn",  # how the last picture was painted, and moved to its place
+    "_generation", "_taken", "_last",  # counters that only ever go on: nothing is decided by where they start
+    "scene_ms", "_scene_view", "_way", "_opacity", "_turn", "due",  # how the last picture was painted, and moved to its place
 }
 
 
@@ -89,8 +89,11 @@ def _below(root: QObject, way: str) -> Iterator[tuple[QObject, str]]:
     yield root, f"<{way}>"
     if isinstance(root, QWidget) and root.isHidden() and root.parent() is not None:
         return
-    for k, child in enumerate(root.children()):
-        yield from _below(child, f"{way}/{k}{type(child).__name__}")
+    count: Counter[str] = Counter()  # by kind: what is raised comes last among its parent's children
+    for child in root.children():
+        kind = type(child).__name__
+        count[kind] += 1
+        yield from _below(child, f"{way}/{kind}{count[kind]}")
 
 
 def _states(each: QObject) -> Iterator[tuple[str, object]]:
