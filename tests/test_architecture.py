@@ -87,6 +87,7 @@ def offenders(paths: list[Path], rule: Callable[[Path], object]) -> dict[str, ob
     return {str(path.relative_to(ROOT)): wrong for path in paths if (wrong := rule(path))}
 
 
+@pytest.mark.exhaustive
 def test_rooms_know_only_what_lies_before_them() -> None:
     def strangers(path: Path) -> set[str]:
         room = room_of(module_name(path))
@@ -138,6 +139,7 @@ def test_files_are_short() -> None:
     assert not offenders(PYTHON_FILES, lambda path: max(0, len(path.read_text("utf-8").splitlines()) - 400))
 
 
+@pytest.mark.exhaustive
 def test_functions_are_short() -> None:
     def long(path: Path) -> dict[str, int]:
         return {node.name: size for node in functions_of(path) if (size := (node.end_lineno or 0) - node.lineno + 1) > 50}

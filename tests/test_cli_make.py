@@ -45,6 +45,7 @@ def refused(capsys: pytest.CaptureFixture[str], *arguments: object) -> str:
     return shown.err
 
 
+@pytest.mark.exhaustive
 def test_the_whole_command(out: Path, tmp_path: Path) -> None:
     done = run("make", FIG2, "-o", out, "--report", tmp_path / "r.json", "--image", tmp_path / "i.svg", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
@@ -101,6 +102,7 @@ def test_a_full_stdout_is_told_and_keeps_the_status(out: Path) -> None:
     assert "the summary could not be printed" in done.stderr
 
 
+@pytest.mark.exhaustive
 def test_findings_give_exit_status_1(out: Path, data: Path) -> None:
     done = run("make", data / "dxf/forms.dxf", "-o", out, "--pocket-tool=60", "--contour-tool=40")
     assert done.returncode == 1

@@ -89,6 +89,7 @@ def test_the_program_says_where_it_comes_to_another_surface(tmp_path: Path) -> N
     assert read_program(text.encode()).error is None
 
 
+@pytest.mark.exhaustive
 def test_surfaces_then_cut_then_smooth_then_cut_is_clean_and_keeps_the_boundaries(tmp_path: Path) -> None:
     files = written(tmp_path, BALLS.replace("pitch = 0.5", "scallop = 0.005"))
     smooth, first, second = (tmp_path / name for name in ("smooth.ngc", "first.json", "second.json"))
@@ -107,6 +108,7 @@ def test_surfaces_then_cut_then_smooth_then_cut_is_clean_and_keeps_the_boundarie
     assert len(after.splitlines()) < len(before.splitlines()) / 3
 
 
+@pytest.mark.exhaustive
 def test_one_report_tells_the_whole_way_from_surfaces_to_the_cut_of_the_smoothed_program(tmp_path: Path) -> None:
     scene, report = tmp_path / "scene.toml", tmp_path / "r.json"
     scene.write_text(BALLS.replace("pitch = 0.5", "scallop = 0.02"))
@@ -132,6 +134,7 @@ def test_a_loop_without_a_report_is_refused(tmp_path: Path, capsys: pytest.Captu
     assert not (tmp_path / "a.ngc").exists()
 
 
+@pytest.mark.exhaustive
 def test_a_cut_too_deep_into_a_surface_is_a_gouge_of_that_depth(tmp_path: Path) -> None:
     files = written(tmp_path)
     lines = files["ngc"].read_text().splitlines()

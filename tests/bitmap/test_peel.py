@@ -103,6 +103,7 @@ def test_peeling_ends_where_kept_ends_alone_are_left() -> None:
     assert not list(peels(turns[-1], 3, keep_ends=True))
 
 
+@pytest.mark.exhaustive
 def test_an_offset_keeps_its_distance_from_every_outside_pixel() -> None:
     free = part(400)
     distance = np.sqrt(squared_distance(free, ~free))

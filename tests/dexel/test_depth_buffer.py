@@ -248,6 +248,7 @@ def test_a_tool_that_nobody_knows_and_facets_that_are_none(context: moderngl.Con
         drawn(context, piece, motions, CUTTERS["flat"], Tessellation(1e-5))
 
 
+@pytest.mark.exhaustive
 def test_it_tells_how_far_it_is_and_stops_when_asked(context: moderngl.Context) -> None:
     piece, course, told = box_piece(cells=100), course_of(polyline(walk(5, 400, 0.8, 1.0))), []
     stop = threading.Event()

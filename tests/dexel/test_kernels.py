@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from tests.conftest import ROOT
 
 LOOK = """
@@ -21,6 +23,7 @@ for run in (*runs, trace_kernels.ball_trace):
 """
 
 
+@pytest.mark.exhaustive
 def test_runs_take_roots_of_vectors(tmp_path: Path) -> None:
     environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path)}
     done = subprocess.run([sys.executable, "-c", LOOK], cwd=ROOT, env=environment, capture_output=True, text=True, check=True, timeout=200)

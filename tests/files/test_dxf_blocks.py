@@ -162,6 +162,7 @@ def test_huge_array_is_refused_at_once() -> None:
     assert time.process_time() - started < 5
 
 
+@pytest.mark.exhaustive
 def test_doubling_blocks_are_refused_within_bounds() -> None:
     document = new()
     document.blocks.new("B0").add_line((0, 0), (1, 0))

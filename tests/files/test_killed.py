@@ -61,6 +61,7 @@ def check(path: Path, times: int, seed: int) -> None:
     assert document.part.entities[-1].curve == Circle((float(before - 1), 0.0), 1.5)
 
 
+@pytest.mark.exhaustive
 def test_twenty_kills(tmp_path: Path) -> None:
     check(tmp_path / "plate.hito", 20, 1)
 

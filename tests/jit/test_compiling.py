@@ -91,6 +91,7 @@ def test_what_is_loaded_alone_is_loaded_without_what_it_calls(program: Path) -> 
     assert set(entries(program)) == {"outer"}
 
 
+@pytest.mark.exhaustive
 def test_a_kernel_is_compiled_again_when_one_that_it_calls_has_changed_in_another_file(program: Path) -> None:
     run(program, SHORT)
     inner = program / "app" / "room" / "inner_kernels.py"
@@ -118,6 +119,7 @@ def test_an_inner_kernel_has_no_door_for_python(program: Path) -> None:
     assert "called by kernels alone" in done.stdout
 
 
+@pytest.mark.exhaustive
 def test_processes_that_fill_the_cache_at_once_all_get_what_they_want(program: Path) -> None:
     code = "from app.room.outer_kernels import outer; from app.room.inner_kernels import inner; print(outer(1.0), inner(1.0))"
     started = [subprocess.Popen(**command(program, code), stdout=subprocess.PIPE, stderr=subprocess.PIPE) for _ in range(4)]
@@ -156,6 +158,7 @@ print(outer(1.0))
     assert done.split()[-1] == "4.0"
 
 
+@pytest.mark.exhaustive
 def test_the_command_line_says_once_that_it_is_the_first_time_only(tmp_path: Path) -> None:
     (tmp_path / "t.ngc").write_text("G21\nG1 X1 F100\nM2\n")
     environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path)}
@@ -169,6 +172,7 @@ def test_the_command_line_says_once_that_it_is_the_first_time_only(tmp_path: Pat
     assert told[1] == []
 
 
+@pytest.mark.exhaustive
 def test_a_kernel_that_cannot_be_compiled_stops_nothing_else(tmp_path: Path) -> None:
     """The program is copied, one of its kernels is broken, and one that comes behind it in the order of names is asked for."""
     for name in ("app", "resources"):

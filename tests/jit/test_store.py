@@ -31,6 +31,7 @@ def store_at(folder: Path) -> Store:
     return Store(folder)
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("damage", DAMAGES)
 def test_a_damaged_entry_is_removed_and_compiled_anew(program: Path, damage: str) -> None:
     run(program, SHORT)

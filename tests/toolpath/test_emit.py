@@ -166,6 +166,7 @@ def test_every_pass_cuts_all_of_every_stroke() -> None:
     assert moves.lengths()[moves.purpose == Purpose.POCKET].sum() == pytest.approx(3 * sum(lengths(s.rows).sum() for s in strokes))
 
 
+@pytest.mark.exhaustive
 @settings(max_examples=examples(4), deadline=None, phases=(Phase.explicit, Phase.generate))
 @given(st.integers(1000, 10**6), st.sampled_from(EntryKind))
 def test_random_jobs_are_cut_without_a_rapid_in_metal_or_a_gouge(seed: int, kind: EntryKind) -> None:

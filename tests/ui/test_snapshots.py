@@ -12,6 +12,7 @@ SAME, OTHER = 0.06, 0.30
 """Share of a picture that may differ: where the fonts are those of the pictures, and where they are not. A panel is a tenth."""
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize(("theme", "size"), KINDS, ids=[f"{theme.value}-{size[0]}" for theme, size in KINDS])
 def test_every_state_looks_as_it_is_kept(qtbot, tmp_path, theme: ThemeChoice, size: tuple[int, int]) -> None:
     window, wiring = build()

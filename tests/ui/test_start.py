@@ -72,6 +72,7 @@ def test_a_program_named_on_the_command_line_is_shown(data, tmp_path):
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.exhaustive
 def test_window_closed_while_computing_ends_cleanly(data, tmp_path):
     drawing = str(data / "dxf" / "complex.dxf")
     done = hitofude("open", drawing, before=f"exec({CLOSE_WHILE_COMPUTING!r})", QT_QPA_PLATFORM="offscreen", HITOFUDE_CONFIG=str(tmp_path))

@@ -40,6 +40,7 @@ def test_first_start_shows_the_sample_computed(computed):
     assert not computed.document.modified
 
 
+@pytest.mark.exhaustive
 def test_changed_tool_makes_the_paths_out_of_date_until_f5(qtbot, computed):
     panel, before = computed.window_.panel, computed.computation.made
     panel.choose(Subject(SubjectKind.TOOL, 1))
@@ -120,6 +121,7 @@ def test_cancel_is_answered_within_0_2_s(qtbot, wiring, data):
     assert not wiring.window_.status.bar.isVisible()
 
 
+@pytest.mark.exhaustive
 def test_answer_for_a_job_that_has_changed_is_dropped(qtbot, computed):
     before = computed.computation.made
     computed.computation.start()

@@ -189,6 +189,7 @@ def test_what_is_left_without_rest_machining_is_told() -> None:
     assert any("names no units" in finding["text"] for finding in this.report.data["findings"])
 
 
+@pytest.mark.exhaustive
 def test_every_region_that_no_tool_fits_is_named_and_counts() -> None:
     this = make("forms.dxf", drawing("forms.dxf").read_bytes(), MakeOptions(pocket_diameter=60, contour_diameter=40))
     uncut = [region["number"] for region in this.report.data["regions"] if region["cut_mm"] == 0]
@@ -266,6 +267,7 @@ def test_a_wrong_option_names_itself() -> None:
         make("fig2.dxf", data, MakeOptions(layers=("walls",)))
 
 
+@pytest.mark.exhaustive
 def test_cancel_is_heard_in_every_stage() -> None:
     class Stop:
         def __init__(self, at: int) -> None:

@@ -116,6 +116,7 @@ def test_a_click_on_the_plot_marks_and_centres_the_place(qtbot, smooth) -> None:
     assert f"line {spot.line}" in view.deviation.figures.text() and "mm apart" in view.deviation.figures.text()
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("theme", ["theme_dark", "theme_light"])
 def test_the_plot_counts_in_mm_in_every_theme(qtbot, smooth, theme) -> None:
     for name in (theme, "theme_dark", theme):

@@ -86,6 +86,7 @@ def test_computing_anew_leaves_the_other_program_where_it_is(qtbot, opened):
     assert wiring.cutting.cut.cut is wiring.computation.made.cut
 
 
+@pytest.mark.exhaustive
 def test_the_own_program_written_to_a_file_is_compared_with_the_drawing(qtbot, opened, computed):
     wiring = opened(computed.computation.made.nc.text, "own.ngc")
     assert not wiring.window_.cut_form.isVisible()

@@ -10,6 +10,7 @@ import pytest
 from tests.conftest import ROOT
 
 
+@pytest.mark.exhaustive
 @pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="a window with OpenGL needs an X server; install xvfb and xauth")
 def test_a_real_window_shows_the_cut_by_its_own_opengl():
     command = ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24", sys.executable, "-m", "tests.ui.cut.on_screen"]

@@ -59,6 +59,7 @@ def test_it_stands_at_its_end_and_shows_no_tool(page):
     assert page.transport.clock.text() == f"{exact_clock(player.timeline.total)} / {exact_clock(player.timeline.total)}"
 
 
+@pytest.mark.exhaustive
 def test_anywhere_at_once(qtbot, page):
     player, end = page.player, page.player.shown.picture.heights.copy()
     for motion in (60, 100, 3, len(player.timeline) - 2):
@@ -77,6 +78,7 @@ def test_anywhere_at_once(qtbot, page):
     assert np.array_equal(player.shown.picture.heights, end)
 
 
+@pytest.mark.exhaustive
 def test_light_and_colours_are_those_of_the_moment(qtbot, page):
     player, view = page.player, page.view
     for colour in (CutColour.DEPTH, CutColour.TOOL, CutColour.MOVE):
@@ -93,6 +95,7 @@ def vars_of(picture):
     return {name: getattr(picture, name) for name in picture.__dataclass_fields__}
 
 
+@pytest.mark.exhaustive
 def test_colours_chosen_on_the_way_are_of_the_moment(qtbot, page):
     player, view = page.player, page.view
     player.go(50)
@@ -108,6 +111,7 @@ def test_colours_chosen_on_the_way_are_of_the_moment(qtbot, page):
     assert shades.min() > 127  # metal is left there, on the scale from gouged to left
 
 
+@pytest.mark.exhaustive
 def test_keys_step_to_lines_moves_and_tools(qtbot, page):
     player, timeline = page.player, page.player.timeline
     press(page, Qt.Key.Key_Home)
@@ -130,6 +134,7 @@ def test_keys_step_to_lines_moves_and_tools(qtbot, page):
     assert player.at_end
 
 
+@pytest.mark.exhaustive
 def test_findings_are_stepped_to(qtbot, page):
     player = page.player
     player.marks = (Mark(30, EntryColour.ACCIDENT), Mark(90, EntryColour.GOUGE))
@@ -145,6 +150,7 @@ def test_findings_are_stepped_to(qtbot, page):
     assert player.at.motion == 90
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("pace", list(Pace))
 def test_it_plays_to_the_end_and_back(qtbot, page, pace):
     player = page.player
@@ -167,6 +173,7 @@ def test_it_plays_to_the_end_and_back(qtbot, page, pace):
     assert shows(page, 0)
 
 
+@pytest.mark.exhaustive
 def test_within_a_long_move_the_tool_goes_on(qtbot, page):
     player, timeline = page.player, page.player.timeline
     long = int(np.argmax(np.where(timeline.volume > 0, timeline.ends - timeline.begins, 0)))
@@ -236,6 +243,7 @@ def test_times_are_told_to_a_tenth() -> None:
     assert [exact_clock(each) for each in (0, 61.27, 3599.99, 3725)] == ["0:00.0", "1:01.2", "59:59.9", "1:02:05"]
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("form", list(RecordForm))
 def test_it_is_recorded(qtbot, computed, page, tmp_path, form):
     page.player.go(50)
@@ -260,6 +268,7 @@ def test_it_is_recorded(qtbot, computed, page, tmp_path, form):
     assert np.array_equal(page.view.picture.heights, before)
 
 
+@pytest.mark.exhaustive
 def test_a_rest_is_looked_at_closer_at_its_own_moment(qtbot, computed, page):
     player, view = page.player, page.view
     player.go(60)

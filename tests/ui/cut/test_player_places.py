@@ -18,6 +18,7 @@ from tests.ui.cut.test_player import page, settle
 __all__ = ["page"]
 
 
+@pytest.mark.exhaustive
 def test_a_cut_that_was_computed_anew_is_looked_at_closer_without_a_nudge(qtbot, computed, page):
     view = page.view
     view.look_now(replace(view.camera, scale=12 * view.camera.scale))
@@ -28,6 +29,7 @@ def test_a_cut_that_was_computed_anew_is_looked_at_closer_without_a_nudge(qtbot,
     qtbot.waitUntil(lambda: view.detail is not None and page.player.timeline is not None, timeout=30_000)
 
 
+@pytest.mark.exhaustive
 def test_what_is_not_seen_is_not_played_and_nothing_piles_up(qtbot, computed, page):
     player = page.player
     player.set_pace(Pace.MOVES, 60.0)
@@ -47,6 +49,7 @@ def test_what_is_not_seen_is_not_played_and_nothing_piles_up(qtbot, computed, pa
     assert np.array_equal(data, page.view.picture.heights)
 
 
+@pytest.mark.exhaustive
 def test_a_new_scene_shows_the_moment_too(qtbot, page):
     page.player.go(30)
     settle(qtbot, page)
@@ -58,6 +61,7 @@ def test_a_new_scene_shows_the_moment_too(qtbot, page):
     assert np.mean(np.any(before != after, axis=2)) < 1e-3
 
 
+@pytest.mark.exhaustive
 def test_the_clock_goes_on_while_the_control_waits_but_not_for_long(qtbot, page):
     player, timeline = page.player, page.player.timeline
     wait = timeline.wait_at(0.0)
@@ -112,6 +116,7 @@ def test_playing_begins_where_one_was_sent_to(qtbot, page):
     player.pause()
 
 
+@pytest.mark.exhaustive
 def test_frames_do_not_plot_the_way_anew(qtbot, page, monkeypatch):
     page.transport.plot.grab()
     monkeypatch.setattr(Timeline, "sampled", lambda *_: pytest.fail("plotted anew"))
@@ -121,6 +126,7 @@ def test_frames_do_not_plot_the_way_anew(qtbot, page, monkeypatch):
         page.transport.plot.grab()
 
 
+@pytest.mark.exhaustive
 def test_recording_is_asked_for_from_any_view_and_one_at_a_time(qtbot, computed, page, tmp_path):
     computed.showing.show_view(View.NC)
     computed.window_.actions_["record"].trigger()

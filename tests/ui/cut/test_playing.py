@@ -44,6 +44,7 @@ def at(image, view, place, aside=0):
     return image[point.y(), point.x() + aside]
 
 
+@pytest.mark.exhaustive
 def test_the_tool_is_shown_in_the_colour_of_its_cuts_by_day_and_by_night(qtbot, view):
     middle = (TIP[0], TIP[1], TIP[2] + 6.0)
     bare = rest(qtbot, view)
@@ -58,6 +59,7 @@ def test_the_tool_is_shown_in_the_colour_of_its_cuts_by_day_and_by_night(qtbot, 
     assert np.array_equal(rest(qtbot, view), bare)
 
 
+@pytest.mark.exhaustive
 def test_a_tool_that_moves_sixty_times_a_second_is_painted_coarsely_and_finely_once_it_rests(qtbot, view):
     stirred, rested, painted = [], [], []
     view.painting.stirred.connect(lambda: stirred.append(True))

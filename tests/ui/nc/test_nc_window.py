@@ -141,6 +141,7 @@ def test_text_with_an_error_is_shown_up_to_there(qtbot, wiring, data):
     assert nc.pane.text.current == 4
 
 
+@pytest.mark.exhaustive
 def test_foreign_program_leaves_the_job_alone_and_goes_back(qtbot, computed, data):
     job, made = computed.document.job, computed.computation.made
     nc = open_file(qtbot, computed, data / "nc" / "test_pycam.ngc")
@@ -163,6 +164,7 @@ def test_the_path_of_the_jobs_program_is_that_of_its_text(computed):
     assert end == pytest.approx(made.program.moves.end[40], abs=1e-4)
 
 
+@pytest.mark.exhaustive
 def test_changed_job_says_that_the_program_is_old(qtbot, computed):
     computed.document.run("circle 150,50 10")
     computed.showing.show_view(View.NC)
@@ -277,6 +279,7 @@ def test_restart_that_cannot_be_safe_says_why(qtbot, wiring, tmp_path):
     assert nc.shown.source.path == path
 
 
+@pytest.mark.exhaustive
 def test_a_post_with_a_file_for_each_tool_offers_its_files(qtbot, computed):
     computed.document.change_job("Change post", replace(computed.document.job, post="grbl"))
     computed.compute()
@@ -302,6 +305,7 @@ def test_cutter_compensation_takes_the_diameters_of_the_jobs_tools(qtbot, wiring
     assert abs(nc.shown.program.motions.end[2, 1]) == pytest.approx(radius)
 
 
+@pytest.mark.exhaustive
 def test_cancelled_reading_leaves_what_was_shown(qtbot, wiring, small, tmp_path):
     path = tmp_path / "long.ngc"
     path.write_bytes(long_program(100_000)[0])

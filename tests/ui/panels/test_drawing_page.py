@@ -143,6 +143,7 @@ def test_a_closed_contour_tells_its_area(page, document):
     assert "Area" not in page.properties.figures
 
 
+@pytest.mark.exhaustive
 def test_many_curves_are_added_up_while_the_window_lives(qtbot, page, document):
     document.run("spline 0,100 3,104 5,106 7,102; array 40 40 @20,20 5")
     select(page, document, *(e.id for e in document.part.entities if e.id >= 5))

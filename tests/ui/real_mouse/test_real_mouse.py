@@ -44,6 +44,7 @@ def job(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.exhaustive
 def test_few_clicks_and_typed_values_are_enough(job: Path) -> None:
     counts = json.loads((job / "counts.json").read_text("utf-8"))
     assert counts["wrong"] == "" and 0 < counts["clicks"] + counts["typed"] <= MOST_CLICKS

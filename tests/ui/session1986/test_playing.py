@@ -1,6 +1,7 @@
 """However much there is to show, it does not take for ever."""
 
 import numpy as np
+import pytest
 from PySide6.QtCore import QObject
 
 from app.ui.session1986.playing import LEAST_MS, LONGEST_S, Listing, Playing
@@ -30,6 +31,7 @@ def test_stills_are_shown_in_order_to_the_last(qtbot) -> None:
     assert heads == [("301 A step", "1/3"), ("302 A step", "2/3"), ("307 A step", "3/3")]
 
 
+@pytest.mark.exhaustive
 def test_a_listing_of_any_length_scrolls_through_in_seconds(qtbot) -> None:
     home, screen = QObject(), Screen()
     listing = Listing(screen, home)

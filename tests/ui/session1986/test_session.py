@@ -13,6 +13,7 @@ from tests.ui.conftest import WAIT_MS
 CTRL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
 
 
+@pytest.mark.exhaustive
 def test_a_whole_session_by_keys(qtbot, operator) -> None:
     shown: list[int] = []
     operator.session.playing.changed.connect(lambda: shown.append(int(operator.screen.head[0].split()[0])))

@@ -89,6 +89,7 @@ def test_space_plays_to_the_end_and_pauses(qtbot, staged):
     assert not view.player.playing
 
 
+@pytest.mark.exhaustive
 def test_pixels_have_their_codes_colours_and_say_what_they_are(qtbot, staged):
     view = staged.window_.views.stages
     view.show_stage(view.film.seek_step(206, -1))

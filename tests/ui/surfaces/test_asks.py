@@ -90,6 +90,7 @@ def test_passes_and_tools_that_are_added_are_computed() -> None:
     assert len(computed(text).families) == 2
 
 
+@pytest.mark.exhaustive
 def test_a_new_scene_is_computed() -> None:
     result = computed(NEW_SCENE)
     assert len(result.families[0].planes.offsets) > 20
@@ -112,6 +113,7 @@ def test_curves_of_a_drawing_are_taken_as_they_are_drawn() -> None:
     assert len(drawn_sections(part(), (4,))) == 1
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("kind", FROM_CURVES)
 def test_surfaces_of_drawn_curves(kind: str) -> None:
     curves = drawn_sections(part(), (1, 2, 3))

@@ -51,6 +51,7 @@ def said(wiring):
     return read_scene("mine.toml", wiring.window_.scene.text.encode())
 
 
+@pytest.mark.exhaustive
 def test_a_number_in_the_panel_changes_the_text_the_picture_and_the_verdict(qtbot, opened):
     window, panel = opened.window_, opened.window_.scene_side.panel
     assert window.status.badge.property("verdict") == Level.OK.value
@@ -65,6 +66,7 @@ def test_a_number_in_the_panel_changes_the_text_the_picture_and_the_verdict(qtbo
     assert window.status.badge.text() != verdict
 
 
+@pytest.mark.exhaustive
 def test_what_is_looked_at_stays_while_the_scene_changes(qtbot, opened):
     canvas, panel = opened.window_.views.surfaces.canvas, opened.window_.scene_side.panel
     canvas.zoom_by(2.5)
@@ -95,6 +97,7 @@ def test_undo_and_redo_go_through_panel_and_text(qtbot, opened):
     assert not window.actions_["undo"].isEnabled()  # nothing was drawn
 
 
+@pytest.mark.exhaustive
 def test_a_wrong_line_is_marked_and_what_was_right_stays(qtbot, opened):
     window, text = opened.window_, opened.window_.scene_side.text
     shown = window.views.surfaces.shown
@@ -128,6 +131,7 @@ def test_a_file_that_is_wrong_is_opened_all_the_same_so_that_it_can_be_mended(qt
     assert not wiring.window_.views.empty.isVisible()
 
 
+@pytest.mark.exhaustive
 def test_surfaces_are_added_moved_switched_and_removed(qtbot, opened):
     panel = opened.window_.scene_side.panel
     count = len(said(opened).surfaces)
@@ -177,6 +181,7 @@ def test_a_tool_keeps_its_passes_under_another_number(qtbot, opened):
     assert said(opened).passes[0].tool == 7
 
 
+@pytest.mark.exhaustive
 def test_curves_of_the_drawing_become_a_surface(qtbot, opened):
     window = opened.window_
     with qtbot.waitSignal(opened.scenes.failed) as told:
@@ -191,6 +196,7 @@ def test_curves_of_the_drawing_become_a_surface(qtbot, opened):
     assert said(opened).surfaces[-1].shape.kind == "ruled"
 
 
+@pytest.mark.exhaustive
 def test_save_writes_the_text_and_samples_are_not_written_over(qtbot, opened, tmp_path):
     window, panel = opened.window_, opened.window_.scene_side.panel
     panel.choose(("passes", 0))
@@ -241,6 +247,7 @@ def test_the_program_is_shown_in_the_nc_view(qtbot, opened):
     assert "Scene" in window.views.nc.pane.text.text.line(0)
 
 
+@pytest.mark.exhaustive
 def test_the_cut_is_shown_beside_the_surfaces(qtbot, opened):
     window = opened.window_
     window.actions_["scene_cut"].trigger()
@@ -250,6 +257,7 @@ def test_the_cut_is_shown_beside_the_surfaces(qtbot, opened):
     assert not [entry for entry in window.cut_panel.entries if entry.counts and "gouge" in entry.title.lower()]
 
 
+@pytest.mark.exhaustive
 def test_a_new_scene_is_computed_and_has_no_file(qtbot, wiring):
     wiring.window_.actions_["scene_new"].trigger()
     proven(qtbot, wiring)
