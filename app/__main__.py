@@ -73,7 +73,7 @@ def _window(path: Path | None) -> int:
             raise
         return _refuse(f"the window needs libraries that are missing here ({error}); install them, on Debian or Ubuntu with: "
                        f"apt-get install {_LIBRARIES}")
-    return start(path)
+    return _end(start(path))
 
 
 def _refuse(sentence: str) -> int:

@@ -9,7 +9,6 @@ from tests.conftest import ROOT
 from tests.exhaustive import COLLECTED, FAMILIES, parameters_of
 from tests.parallel import ON_A_SCREEN, group_of
 
-
 FEWEST = 5
 
 

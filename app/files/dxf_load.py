@@ -56,6 +56,7 @@ def _refuse_others(data: bytes, name: str) -> None:
 
 
 def _load_sound(data: bytes) -> Any:
+    import ezdxf  # noqa: F401 (the whole before its parts: else, while another thread imports it too, parts are found half made)
     from ezdxf.document import Drawing
     from ezdxf.filemanagement import read
     from ezdxf.lldxf.encoding import decode_dxf_unicode

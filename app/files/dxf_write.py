@@ -54,6 +54,7 @@ def dxf_bytes(part: Part, version: DxfVersion = DxfVersion.R2010, tolerance: flo
     Raises:
         GeometryError: a curve cannot be followed in R12.
     """
+    import ezdxf  # noqa: F401 (the whole before its parts, as in `dxf_load`)
     from ezdxf.filemanagement import new
 
     part, old = part.with_entities(part.entities), version is DxfVersion.R12

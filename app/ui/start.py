@@ -23,7 +23,7 @@ from app.ui.wiring import Wiring
 from app.ui.worker import Worker
 
 _ENGINES = (
-    "ezdxf.recover", "shapely", "scipy.sparse.csgraph", "scipy.spatial", "cv2",
+    "ezdxf", "ezdxf.recover", "shapely", "scipy.sparse.csgraph", "scipy.spatial", "cv2",
     "app.files.dxf", "app.toolpath.compute", "app.workflow.make",
 )
 
@@ -83,7 +83,7 @@ def start(path: Path | None = None) -> int:
     sys.excepthook = partial(_tell_mistake, window)
     window.show()
     warmer = warm_up(window)
-    QTimer.singleShot(0, partial(begin, wiring, path))
+    QTimer.singleShot(0, window, partial(begin, wiring, path))
     status = application.exec()
     warmer.finish()
     return status

@@ -2,6 +2,8 @@
 
 import io
 import random
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +13,7 @@ import pytest
 from app.errors import HitofudeError, InputError
 from app.files.dxf import read_dxf
 from app.geometry.chain import chain
+from tests.conftest import ROOT
 
 
 @pytest.mark.parametrize(("data", "what"), [
@@ -155,3 +158,30 @@ def test_extreme_numbers_go_through_chaining(data: Path, seed: int) -> None:
         return
     for contour in chain(drawing.part.entities).contours:
         assert contour.closed == (contour.primitives[0].start == contour.primitives[-1].end)
+
+
+def test_threads_that_read_the_first_drawings_at_once_do_not_find_the_library_half_made(samples) -> None:
+    """The window does so when it opens: its engines are loaded on one thread and the drawing is read on another."""
+    code = f"""
+import threading
+from importlib import import_module
+from pathlib import Path
+data = Path({str(samples / "fig2.dxf")!r}).read_bytes()
+from app.files.dxf_load import load
+told, together = [], threading.Barrier(4)
+def read():
+    together.wait()
+    told.append(load(data, "fig2.dxf")[1])
+def engine():
+    together.wait()
+    import_module("ezdxf")
+    import_module("ezdxf.recover")
+    told.append(0)
+threads = [threading.Thread(target=task) for task in (read, engine, read, engine)]
+for thread in threads: thread.start()
+for thread in threads: thread.join()
+print(told)
+"""
+    for _ in range(3):
+        done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=60)
+        assert (done.stdout.strip(), done.stderr) == ("[0, 0, 0, 0]", "")

@@ -124,6 +124,7 @@ def _forget_habits(wiring: Wiring) -> None:
     runner._last, runner.cursor = CanvasTool.LINE, (0.0, 0.0)
     runner._desk.numbers.clear()
     wiring.language.lines._line = ""
+    wiring.recovering._timer.stop()
 
 
 def _forget_changes(wiring: Wiring) -> None:

@@ -49,7 +49,7 @@ class HistorySection(Section):
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Keep the step where the document stands in sight."""
         super().resizeEvent(event)
-        QTimer.singleShot(0, self._reveal)
+        QTimer.singleShot(0, self, self._reveal)
 
     def _reveal(self) -> None:
         self.list.scrollToItem(self.list.currentItem())

@@ -86,7 +86,7 @@ class DrawingPage(QScrollArea):
     def show_section(self, section: Section) -> None:
         """Bring a section into sight, and give it the keyboard."""
         self.refresh()
-        QTimer.singleShot(0, lambda: self._reveal(section))
+        QTimer.singleShot(0, self, lambda: self._reveal(section))
 
     def _reveal(self, section: Section) -> None:
         self.ensureWidgetVisible(section, 0, 0)

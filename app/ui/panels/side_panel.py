@@ -116,7 +116,7 @@ class SidePanel(QScrollArea):
         self.refresh()
         if opened:
             self.library.search.setFocus(Qt.FocusReason.OtherFocusReason)
-            QTimer.singleShot(0, self._fit_library)
+            QTimer.singleShot(0, self, self._fit_library)
 
     def switch_advice(self) -> None:
         """Show "Which tool?" in the place of the properties, or these again."""
@@ -132,7 +132,7 @@ class SidePanel(QScrollArea):
         if not self.library.isHidden():
             others = self._inner.sizeHint().height() - self.library.area.height()
             self.library.fit_into(self.viewport().height() - others)
-            QTimer.singleShot(0, self._show_library)
+            QTimer.singleShot(0, self, self._show_library)
 
     def _show_library(self) -> None:
         self.ensureWidgetVisible(self.library, 0, 0)

@@ -102,7 +102,7 @@ class Tube(QWidget):
         """Take the keys back from what is underneath."""
         super().focusOutEvent(event)
         if self.isVisible() and event.reason() is Qt.FocusReason.OtherFocusReason:
-            QTimer.singleShot(0, self.setFocus)
+            QTimer.singleShot(0, self, self.setFocus)
 
     def focusNextPrevChild(self, onwards: bool) -> bool:  # noqa: N802 (Qt's name)
         """Keep Tab: it puts the cross hair."""
