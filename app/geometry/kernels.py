@@ -165,28 +165,6 @@ def nearest(rows, order, nodes, x, y, limit):
     return best, row
 
 
-@kernel("boolean(float64[:, ::1], int64[::1], float64[:, ::1], float64, float64, float64)")
-def any_nearer(rows, order, nodes, x, y, limit):
-    """Return whether some row is nearer to a point than `limit`; quicker than `nearest`, as any one will do."""
-    leaves = (len(nodes) + 1) // 2
-    stack = np.empty(64, np.int64)
-    stack[0], top = 0, 1
-    while top > 0:
-        top -= 1
-        k = stack[top]
-        if box_distance(nodes, k, x, y) >= limit:
-            continue
-        if k < leaves - 1:
-            stack[top], stack[top + 1] = 2 * k + 2, 2 * k + 1
-            top += 2
-            continue
-        first = (k - leaves + 1) * LEAF
-        for place in range(first, min(first + LEAF, len(order))):
-            if point_distance(rows, order[place], x, y) < limit:
-                return True
-    return False
-
-
 @kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64[::1], int64[::1])")
 def nearest_many(rows, order, nodes, points, limit, distances, found):
     """Write the distance and the row nearest to each point (m, 2)."""
