@@ -14,7 +14,7 @@ from app.model.part import Units
 from app.model.tool import Tool
 from app.model.tool_table import TableRow, row_of
 from tests.examples import examples
-from tests.nc.rs274_oracle import RS274, needs_rs274
+from tests.nc.rs274_oracle import RS274, needs_rs274, own_home
 
 OFFSET = re.compile(r"USE_TOOL_LENGTH_OFFSET\(([-\d. ]+), ([-\d. ]+), ([-\d. ]+)\)")
 PLACE = re.compile(r"STRAIGHT_TRAVERSE\(([-\d.]+), ")
@@ -32,7 +32,8 @@ def control(folder: Path, table: bytes, number: int) -> tuple[tuple[float, ...],
     needs_rs274()
     (folder / "tool.tbl").write_bytes(table)
     (folder / "in.ngc").write_text(f"G21\nT{number} M6\nG43 H{number}\nG49\nG0 X[#5410 * 1000]\nM2\n")
-    run = subprocess.run([RS274, "-g", "-t", "tool.tbl", "-v", "scratch.var", "in.ngc"], cwd=folder, capture_output=True, text=True)
+    command = [RS274, "-g", "-t", "tool.tbl", "-v", "scratch.var", "in.ngc"]
+    run = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=own_home(str(folder)))
     if "not found in the tool table" in run.stderr:
         return None
     assert run.returncode == 0, run.stderr

@@ -11,7 +11,7 @@ from pathlib import Path
 from app.model.motion import MotionKind
 from app.nc.read.cycles import Point
 from app.nc.read.reader import read_program
-from tests.nc.rs274_oracle import KINDS, RS274, needs_rs274
+from tests.nc.rs274_oracle import KINDS, RS274, needs_rs274, own_home
 
 CALL = re.compile(r"^\s*\d+ N(\d+|\.+)\s+(\w+)\((.*)\)\s*$", re.M)
 START = (1.0, 2.0, 3.0)
@@ -54,7 +54,7 @@ def interpreted(text: str) -> Run:
         (Path(folder) / "in.ngc").write_text(text, "utf-8")
         (Path(folder) / "tool.tbl").write_text("T1 P1 Z0.0 D0.1\n")
         command = [str(RS274), "-g", "-t", "tool.tbl", "-v", "scratch.var", "in.ngc"]
-        run = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60)
+        run = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60, env=own_home(folder))
     calls = [(number, name, arguments.split(",")) for number, name, arguments in CALL.findall(run.stdout)]
     motions = [_motion(int(number), name, arguments) for number, name, arguments in calls if name in KINDS]
     place = re.search(r"^N(\d+)", run.stderr, re.M)
