@@ -110,13 +110,14 @@ class StatusBar(QWidget):
             self.message.style().polish(self.message)
 
     def show_waiting(self, text: str) -> None:
-        """Show what goes on in the background, which nobody needs to wait for; "" = nothing."""
+        """Show what goes on in the background, which nobody needs to wait for, where no job tells of itself; "" = nothing."""
         self.waiting.setText(text)
-        self.waiting.setVisible(bool(text))
+        self.waiting.setVisible(bool(text) and self.step.isHidden())
 
     def show_progress(self, fraction: float | None, text: str = "") -> None:
         """Show how far the job is, in [0, 1]; None = no job."""
         for widget in (self.step, self.bar, self.cancel):
             widget.setVisible(fraction is not None)
+        self.waiting.setVisible(fraction is None and bool(self.waiting.text()))
         self.bar.setValue(round(1000 * (fraction or 0.0)))
         self.step.setText(text)
