@@ -59,8 +59,15 @@ def names_in(node: ast.AST) -> list[str]:
     return []
 
 
-def imports(path: Path) -> set[str]:
-    return {name for node in ast.walk(tree_of(path)) for name in names_in(node)}
+@cache
+def nodes_of(path: Path) -> tuple[ast.AST, ...]:
+    """All of a file, walked once for all rules."""
+    return tuple(node for node in ast.walk(tree_of(path)) if isinstance(node, ast.Import | ast.ImportFrom | ast.FunctionDef))
+
+
+@cache
+def imports(path: Path) -> frozenset[str]:
+    return frozenset(name for node in nodes_of(path) for name in names_in(node))
 
 
 def imports_at_start(path: Path) -> set[str]:
@@ -132,7 +139,7 @@ def test_no_import_cycles() -> None:
 
 
 def functions_of(path: Path) -> list[ast.FunctionDef]:
-    return [node for node in ast.walk(tree_of(path)) if isinstance(node, ast.FunctionDef)]
+    return [node for node in nodes_of(path) if isinstance(node, ast.FunctionDef)]
 
 
 def test_files_are_short() -> None:
