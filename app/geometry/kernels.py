@@ -18,6 +18,20 @@ DEPTH = 64
 """Nodes that wait at most while a tree is walked."""
 
 
+@kernel("float64[:, ::1](float64[:, ::1], int64, int64)")
+def enlarged(table, count, room):
+    """Return a table with room for so many rows, which begins with the first `count` rows of another.
+
+    Row by row and number by number: assigning one slice to another has the compiler bring along the message for slices that do not
+    fit, and text with it, which takes two seconds to compile.
+    """
+    larger = np.empty((room, table.shape[1]))
+    for k in range(count):
+        for c in range(table.shape[1]):
+            larger[k, c] = table[k, c]
+    return larger
+
+
 @kernel("boolean(float64[:, ::1], int64, float64, float64)", counts=False)
 def in_sector(rows, j, x, y):
     """Return whether the centre of arc j sees a point in a direction in which it sees the arc."""
@@ -89,8 +103,10 @@ def spread(v):
 def build_tree(boxes):
     """Return (order of the rows, boxes of the nodes) for boxes (n, 4); n > 0."""
     n = len(boxes)
-    x0, y0 = boxes[:, 0].min(), boxes[:, 1].min()
-    size = max(boxes[:, 2].max() - x0, boxes[:, 3].max() - y0, 1e-12)
+    x0, y0, x1, y1 = boxes[0, 0], boxes[0, 1], boxes[0, 2], boxes[0, 3]
+    for i in range(1, n):
+        x0, y0, x1, y1 = min(x0, boxes[i, 0]), min(y0, boxes[i, 1]), max(x1, boxes[i, 2]), max(y1, boxes[i, 3])
+    size = max(x1 - x0, y1 - y0, 1e-12)
     codes = np.empty(n, np.int64)
     for i in range(n):
         u = int((boxes[i, 0] + boxes[i, 2] - 2 * x0) / 2 / size * 65535)
@@ -101,8 +117,8 @@ def build_tree(boxes):
     while leaves * LEAF < n:
         leaves *= 2
     nodes = np.empty((2 * leaves - 1, 4))
-    nodes[:, :2] = INF
-    nodes[:, 2:] = -INF
+    for k in range(len(nodes)):
+        nodes[k, 0], nodes[k, 1], nodes[k, 2], nodes[k, 3] = INF, INF, -INF, -INF
     for place in range(n):
         k, i = leaves - 1 + place // LEAF, order[place]
         nodes[k, 0], nodes[k, 1] = min(nodes[k, 0], boxes[i, 0]), min(nodes[k, 1], boxes[i, 1])

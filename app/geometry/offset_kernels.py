@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from app.geometry.kernels import point_distance
+from app.geometry.kernels import enlarged, point_distance
 from app.jit import kernel
 
 CUSP = 1e-7  # radians; a turn this near to a half turn is one
@@ -184,9 +184,7 @@ def cut(shape, rows, j, level, u0, u1, cuts):
 def push(blocked, count, u0, u1):
     """Add a part to those that are blocked, which stay sorted by where they begin."""
     if count == len(blocked):
-        larger = np.empty((2 * count, 2))
-        larger[:count] = blocked
-        blocked = larger
+        blocked = enlarged(blocked, count, 2 * count)
     at = count
     while at > 0 and blocked[at - 1, 0] > u0:
         blocked[at, 0], blocked[at, 1] = blocked[at - 1, 0], blocked[at - 1, 1]

@@ -48,8 +48,8 @@ def tree_over(rows, boxes, order):
     while leaves < used:
         leaves *= 2
     nodes, capsules = np.empty((2 * leaves - 1, 4)), np.empty((used, 5))
-    nodes[:, :2] = INF
-    nodes[:, 2:] = -INF
+    for k in range(len(nodes)):
+        nodes[k, 0], nodes[k, 1], nodes[k, 2], nodes[k, 3] = INF, INF, -INF, -INF
     for place in range(len(order)):
         k, i = leaves - 1 + place // LEAF, order[place]
         if i >= 0:

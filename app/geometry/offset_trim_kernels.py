@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 
-from app.geometry.kernels import DEPTH, LEAF, point_distance
+from app.geometry.kernels import DEPTH, LEAF, enlarged, point_distance
 from app.geometry.offset_kernels import SHORTEST, block, cut, element, length_of, push
 from app.geometry.offset_tree_kernels import tree_over
 from app.jit import kernel
@@ -181,9 +181,7 @@ def _keep_rest(blocked, blocks, e, limits, pieces, count):
         begin, end = (blocked[k, 0], blocked[k, 1]) if k < blocks else (limits[1], limits[1])
         if begin - at > limits[2]:
             if count == len(pieces):
-                larger = np.empty((2 * count, 3))
-                larger[:count] = pieces
-                pieces = larger
+                pieces = enlarged(pieces, count, 2 * count)
             pieces[count, 0], pieces[count, 1], pieces[count, 2] = e, at, begin
             count += 1
         at = max(at, end)

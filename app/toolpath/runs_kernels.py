@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from app.geometry.kernels import nearest, query_box
+from app.geometry.kernels import enlarged, nearest, query_box
 from app.geometry.offset_kernels import blocked_parts
 from app.jit import kernel
 from app.toolpath.uncut_kernels import beyond
@@ -19,7 +19,7 @@ def _shape(rows, k, shape):
     """Write row k as `offset_kernels` takes shapes: a line (0, ax, ay, bx, by) or an arc (1, cx, cy, radius, start, sweep)."""
     if rows[k, 7] == 0.0:
         shape[0] = 0.0
-        shape[1:5] = rows[k, :4]
+        shape[1], shape[2], shape[3], shape[4] = rows[k, 0], rows[k, 1], rows[k, 2], rows[k, 3]
         shape[5] = 0.0
         return
     shape[0], shape[1], shape[2], shape[3] = 1.0, rows[k, 4], rows[k, 5], rows[k, 6]
@@ -53,9 +53,7 @@ def uncovered(rows, paths, order, nodes, around, reach):
         least = SHORTEST / max(length, SHORTEST)
         blocked, blocks = blocked_parts(shape, paths, near, query_box(order, nodes, around, box, near), limits)
         if count + blocks + 1 > len(found):
-            larger = np.empty((2 * len(found) + blocks, 3))
-            larger[:count] = found[:count]
-            found = larger
+            found = enlarged(found, count, 2 * len(found) + blocks)
         at = 0.0
         for b in np.argsort(blocked[:blocks, 0]):
             if blocked[b, 0] - at > least:
@@ -83,9 +81,8 @@ def squares_beyond(rows, order, nodes, gaps, gap_order, gap_nodes, path, path_or
         squares: (m, 3) to begin with.
     """
     found, count = np.empty((256, 4)), 0
-    stack = np.empty((len(squares) + 256, 3))
-    stack[:len(squares)] = squares
     top = len(squares)
+    stack = enlarged(squares, top, top + 256)
     while top > 0:
         top -= 1
         x, y, half = stack[top, 0], stack[top, 1], stack[top, 2]
@@ -99,16 +96,12 @@ def squares_beyond(rows, order, nodes, gaps, gap_order, gap_nodes, path, path_or
             continue
         if half <= limits[1] or (half <= 4 * limits[1] and cut >= far and inside >= far):
             if count == len(found):
-                larger = np.empty((2 * count, 4))
-                larger[:count] = found
-                found = larger
+                found = enlarged(found, count, 2 * count)
             found[count, 0], found[count, 1], found[count, 2], found[count, 3] = x, y, half, gap
             count += 1
             continue
         if top + 4 > len(stack):
-            more = np.empty((2 * len(stack), 3))
-            more[:len(stack)] = stack
-            stack = more
+            stack = enlarged(stack, top, 2 * len(stack))
         for k in range(4):
             stack[top, 0], stack[top, 1], stack[top, 2] = x + half * (k % 2 - 0.5), y + half * (k // 2 - 0.5), half / 2
             top += 1

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from app.geometry.kernels import INF, LEAF, box_distance, crossings, nearest, point_distance
+from app.geometry.kernels import INF, LEAF, box_distance, crossings, enlarged, nearest, point_distance
 from app.jit import kernel
 
 OUTSIDE, INSIDE, UNKNOWN = 0.0, 1.0, 2.0
@@ -89,7 +89,7 @@ def undecided(rows, order, nodes, frame, frame_order, frame_nodes, path, path_or
     found, count = np.empty((256, 5)), 0
     stack = np.empty((len(squares) + 256, 4))
     for k in range(len(squares)):
-        stack[k, :3], stack[k, 3] = squares[k], UNKNOWN
+        stack[k, 0], stack[k, 1], stack[k, 2], stack[k, 3] = squares[k, 0], squares[k, 1], squares[k, 2], UNKNOWN
     top = len(squares)
     while top > 0:
         top -= 1
@@ -103,17 +103,13 @@ def undecided(rows, order, nodes, frame, frame_order, frame_nodes, path, path_or
             continue
         if half <= limits[2] or (cut > far and reach <= -far):
             if count == len(found):
-                larger = np.empty((2 * count, 5))
-                larger[:count] = found
-                found = larger
+                found = enlarged(found, count, 2 * count)
             found[count, 0], found[count, 1], found[count, 2], found[count, 3], found[count, 4] = x, y, half, cut, reach
             count += 1
             continue
         side = stack[top, 3]
         if top + 4 > len(stack):
-            more = np.empty((2 * len(stack), 4))
-            more[:len(stack)] = stack
-            stack = more
+            stack = enlarged(stack, top, 2 * len(stack))
         for k in range(4):
             stack[top, 0] = x + half * (k % 2 - 0.5)
             stack[top, 1] = y + half * (k // 2 - 0.5)

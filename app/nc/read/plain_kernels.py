@@ -159,7 +159,8 @@ def _reach(lengths, shift, absolute, start, given, end):
 def _write(columns, row, start, end, centre, feed, numbers):
     """Write a motion. numbers: kind, plane, line, state."""
     starts, ends, centres, kinds, planes, turns, feeds, lines, states = columns
-    starts[row], ends[row], centres[row] = start, end, centre
+    for axis in range(3):
+        starts[row, axis], ends[row, axis], centres[row, axis] = start[axis], end[axis], centre[axis]
     kinds[row], planes[row], lines[row], states[row] = numbers
     turns[row] = numbers[0] >= _CW
     feeds[row] = 0.0 if numbers[0] == _RAPID else feed
@@ -204,7 +205,8 @@ def run_plain(data, factors, modes, places, columns):
             _write(columns, count, position, end, centre, new_feed, (kind, plane, line, state))
             for axis in range(3):
                 known[axis] = count if known[axis] < 0 and absolute != 0 and given[axis] != _ABSENT else known[axis]
-            position[:] = end
+            for axis in range(3):
+                position[axis] = end[axis]
             motion, count = kind, count + 1
         feed, offset, line, lines_left = new_feed, following, line + 1, lines_left - 1
     return offset, line, count, motion, feed
