@@ -100,7 +100,9 @@ def assemble(rows, following, out, order, starts):
         at = first
         while not seen[at]:
             seen[at] = True
-            out[count], order[count] = rows[at], at
+            for c in range(8):
+                out[count, c] = rows[at, c]
+            order[count] = at
             count += 1
             at = following[at]
     starts[rings] = count

@@ -36,17 +36,21 @@ class _Plan:
         wanted: entries to compile, by name in the order of their turn: a kernel behind all that it calls.
         done: entries that are in the store, or that cannot be; given: that a process has.
         failed: why, by entry.
+        rooms: modules of which something was waited for: more of these is likely to be wanted next.
     """
 
     wanted: dict[str, Kernel] = field(default_factory=dict)
     done: set[str] = field(default_factory=set)
     given: set[str] = field(default_factory=set)
     failed: dict[str, str] = field(default_factory=dict)
+    rooms: set[str] = field(default_factory=set)
 
     def ask(self, kernels: Iterable[Kernel], kept: Store, first: bool) -> None:
         """Add kernels and what they call, before all others or behind them."""
         asked: dict[str, Kernel] = {}
         for kernel in kernels:
+            if first:
+                self.rooms.add(kernel.__module__)
             for each in _with_callees(kernel, set()):
                 if each.entry not in self.done and (first or each.entry not in self.wanted):
                     if kept.has(each.entry):
@@ -56,12 +60,14 @@ class _Plan:
         self.wanted = asked | self.wanted if first else self.wanted | asked
 
     def next(self) -> Kernel | None:
-        """Take the first whose callees are there; None where all wait for others, or nothing is left."""
-        for entry, kernel in self.wanted.items():
-            if entry not in self.done and entry not in self.given and all(each.entry in self.done for each in kernel.callees):
-                self.given.add(entry)
-                return kernel
-        return None
+        """Take one whose callees are there, the likeliest to be wanted soon; None where all wait for others, or nothing is left."""
+        left = (kernel for entry, kernel in self.wanted.items() if entry not in self.done and entry not in self.given)
+        ready = [kernel for kernel in left if all(each.entry in self.done for each in kernel.callees)]
+        if not ready:
+            return None
+        chosen = next((kernel for kernel in ready if kernel.__module__ in self.rooms), ready[0])
+        self.given.add(chosen.entry)
+        return chosen
 
     @property
     def over(self) -> bool:
