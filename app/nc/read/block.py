@@ -113,7 +113,6 @@ class Block:
         values: of every letter but G, M and N.
         whole: letters whose number has no decimal point.
         codes: G and M codes by group; coolant may be two. unknown: codes of no group.
-        used: letters that something has taken.
     """
 
     values: dict[str, float] = field(default_factory=dict)
@@ -121,6 +120,10 @@ class Block:
     codes: dict[Group, str] = field(default_factory=dict)
     coolant: list[str] = field(default_factory=list)
     unknown: list[str] = field(default_factory=list)
+
+    def copy(self) -> Block:
+        """Return the block as it is now: carrying it out takes words away."""
+        return Block(dict(self.values), set(self.whole), dict(self.codes), list(self.coolant), list(self.unknown))
 
     def has(self, letters: str) -> bool:
         """Tell whether any of the letters is there."""

@@ -21,6 +21,7 @@ from app.nc.read.options import ReadOptions
 from app.nc.read.places import Cursor, Places
 from app.nc.read.program import EventKind, FeedMode, NcProgram, Problem, Severity
 from app.nc.read.settings import before_motion, set_once
+from app.nc.read.steps import Step, Watch
 from app.nc.read.text import Text, code_of, column_of
 from app.progress import Progress
 
@@ -51,8 +52,8 @@ class Run:
         stopped: whether the reading ended at the line of `stop_at`. inside: ... within a subroutine or a loop.
     """
 
-    def __init__(self, data: bytes, options: ReadOptions, progress: Progress) -> None:
-        """Stand before the first line."""
+    def __init__(self, data: bytes, options: ReadOptions, progress: Progress, watch: Watch | None = None) -> None:
+        """Stand before the first line; with a watch every block is done by itself, and told to it."""
         self._text, self._options, self._progress = Text(data), options, progress
         self._control = Control(options)
         self._habits = self._control.habits
@@ -63,6 +64,7 @@ class Run:
         self._problems: list[Problem] = []
         self._furthest, self._told = -1, 0
         self._stop = len(self._text.data) + 1
+        self._watch = watch
         self.stopped = self.inside = False
 
     @property
@@ -132,7 +134,7 @@ class Run:
             return False
         self._count()
         longest = flow.next.offset + self._options.limits.line_length + 1
-        if _PLAIN.match(self._text.data, flow.next.offset, longest) is not None and self._plain_lines():
+        if self._watch is None and _PLAIN.match(self._text.data, flow.next.offset, longest) is not None and self._plain_lines():
             return True
         flow.here, self._control.line = flow.next, flow.next.line
         flow.next = Cursor(self._text.line_end(flow.here.offset) + 1, flow.here.line + 1)
@@ -187,11 +189,21 @@ class Run:
             if (self._flow.nested or at.offset < self._furthest) and len(self._kept) < MOST_KEPT:
                 self._kept[at.offset] = line
         if isinstance(line, Parsed):
-            return self._execute(block_of(line, self._control.parameters))
+            return self._done(line)
         if not line or line.startswith("%"):
             return not line
         rest = self._jump(line)
-        return not rest or self._execute(block_of(self._parse(rest), self._control.parameters))
+        return not rest or self._done(self._parse(rest))
+
+    def _done(self, parsed: Parsed) -> bool:
+        """Do a line's block; False at the end of the program."""
+        control, block = self._control, block_of(parsed, self._control.parameters)
+        if self._watch is None:
+            return self._execute(block)
+        line, before, row, said = control.line, control.modal, control.row, block.copy()
+        goes_on = self._execute(block)
+        self._watch(Step(line, parsed, said, (before, control.modal), control.motion, control.feed, (row, control.row)))
+        return goes_on
 
     def _understood(self, at: Cursor) -> Parsed | str:
         """Return a line in words, or its code: "" where there is nothing to do, or what begins with % or is a jump."""
