@@ -136,6 +136,8 @@ def _no_motion(control: Control, block: Block) -> None:
 
 def _arc(control: Control, block: Block) -> None:
     code = control.motion
+    if control.stray is not None:
+        raise Fault("the move just after cutter compensation (G40) must be straight, not an arc.", letter="g")
     u, v, w = control.modal.plane.axes
     if not block.has(AXES + ROTARY + "ijkr"):
         raise Fault(f"{code} needs its end or its centre.", letter="g")
@@ -245,6 +247,10 @@ def _mismatch(control: Control) -> tuple[float, float]:
 
 def _probe(control: Control, block: Block) -> None:
     """Take the way to a probe's goal as fed all along: where it will stop nobody knows."""
+    if not block.has(AXES + ROTARY):
+        raise Fault(f"{control.motion} needs axis words: where to look for the work.", letter="g")
+    if block.has(AXES) and not block.has(ROTARY) and math.dist(control.at, control.target(block)) == 0.0:
+        raise Fault(f"{control.motion} begins where it ends, so it can probe nothing.", letter="g")
     control.warn(f"{control.motion} stops where the probe touches; it is shown up to its end.", "g")
     _line(control, block)
 

@@ -19,6 +19,7 @@ from app.nc.read.moves import move
 from app.nc.read.notes import notes
 from app.nc.read.options import ReadOptions
 from app.nc.read.places import Cursor, Places
+from app.nc.read.polar import check_polar, turn_polar_into_axes
 from app.nc.read.program import EventKind, FeedMode, NcProgram, Problem, Severity
 from app.nc.read.settings import before_motion, set_once
 from app.nc.read.steps import Step, Watch
@@ -38,6 +39,7 @@ _PLAIN = re.compile(rb"(?:[ \txyzijkrfnXYZIJKRFN0-9.+\-]+|[gG][ \t]*0?[0-3](?![ 
 """A line that the lane may know how to do."""
 
 _LEADER = re.compile(rb"[ \t\n\v\f\0]*%")
+_CLOSED = re.compile(rb"^[ \t]*%[ \t]*$", re.MULTILINE)
 _PERCENT = re.compile(rb"^[ \t]*%", re.MULTILINE)
 _O_WORD = re.compile(r"/?(?:n[0-9.]+)?[o:]")
 _PROGRAM_NUMBER = re.compile(r"^(/?(?:n[0-9.]+)?)[o:]")
@@ -64,7 +66,7 @@ class Run:
         self._problems: list[Problem] = []
         self._furthest, self._told = -1, 0
         self._stop = len(self._text.data) + 1
-        self._watch = watch
+        self._watch, self._opened = watch, False
         self.stopped = self.inside = False
 
     @property
@@ -96,13 +98,15 @@ class Run:
                     break
             else:
                 self._miss_end()
+            if self._control.compensation is not None and not self.stopped:
+                self._control.compensation.flush(self._control.columns)
         except Fault as fault:
             self._problems.append(self._located(fault, Severity.ERROR))
         except RecursionError:
             self._problems.append(self._located(Fault("the block is too long or too deep to be read."), Severity.ERROR))
         control = self._control
         if control.compensation is not None:
-            control.compensation.flush(control.columns)
+            control.compensation.spill(control.columns)
         warnings = [Problem(line, 0, letter.upper(), text, Severity.WARNING) for text, (letter, line) in control.warnings.items()]
         told = notes(self._text.data)
         known = [row if row >= 0 else control.columns.count for row in control.known]
@@ -125,6 +129,9 @@ class Run:
         if found is not None and is_leader(data[: found.start()]):
             offset = self._text.line_end(found.end()) + 1
             self._flow.next = Cursor(offset, data.count(b"\n", 0, offset) + 1)
+            closed = _CLOSED.search(data, offset)
+            self._flow.places.end_at(closed.start() if closed else len(data))
+            self._opened = True
 
     def _step(self) -> bool:
         """Do plain lines, or one line of any kind; False at the end of the program."""
@@ -191,6 +198,8 @@ class Run:
         if isinstance(line, Parsed):
             return self._done(line)
         if not line or line.startswith("%"):
+            if line:
+                self._check_percent(at)
             return not line
         rest = self._jump(line)
         return not rest or self._done(self._parse(rest))
@@ -204,6 +213,12 @@ class Run:
         goes_on = self._execute(block)
         self._watch(Step(line, parsed, said, (before, control.modal), control.motion, control.feed, (row, control.row)))
         return goes_on
+
+    def _check_percent(self, at: Cursor) -> None:
+        """Refuse a per cent sign that ends nothing, as LinuxCNC does."""
+        alone = self._text.line(at.offset).strip() == "%"
+        if self._options.dialect is Dialect.LINUXCNC and not (self._opened and alone):
+            raise Fault("a per cent sign ends a program that begins with one, alone in its line; take it out.", column=-1, word="%")
 
     def _understood(self, at: Cursor) -> Parsed | str:
         """Return a line in words, or its code: "" where there is nothing to do, or what begins with % or is a jump."""
@@ -223,7 +238,7 @@ class Run:
         return self._parse(code)
 
     def _parse(self, code: str) -> Parsed:
-        return parse(code, self._options.limits.nesting, free=self._habits.fanuc_flow)
+        return parse(code, self._options.limits.nesting, free=self._habits.fanuc_flow, polar=self._habits.ngc_flow)
 
     def _jump(self, code: str) -> str:
         """Obey a line that is a jump; return what is left of it to obey."""
@@ -243,11 +258,13 @@ class Run:
         if self._habits.fanuc_flow:
             adapt(control, block)
         self._check_codes(block)
+        check_polar(control, block)
         if block.codes.get(Group.ONCE) == "G65":
             call_macro(self._flow, control, block)
             return True
         before_motion(control, block)
         set_once(control, block)
+        turn_polar_into_axes(control, block)
         move(control, block)
         stop = block.codes.get(Group.STOP)
         if stop in _ENDS:

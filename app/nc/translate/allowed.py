@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from app.errors import InputError
 from app.nc.post import Post
-from app.nc.read.block import ALWAYS
+from app.nc.read.block import ALWAYS, POLAR
 from app.nc.read.codes import CYCLES, ROTARY, TAKES, Group
 from app.nc.read.dialect import HABITS, Dialect
 from app.nc.read.program import Problem
@@ -150,7 +150,9 @@ def _odd_words(step: Step) -> Iterator[tuple[str, str]]:
     block, codes = step.block, [*step.block.codes.values(), *step.block.coolant]
     taken = set(ALWAYS).union(*(TAKES.get(code, "") for code in [*codes, step.motion]))
     for letter, value in block.values.items():
-        if letter in ROTARY:
+        if letter in POLAR:
+            yield letter, "polar coordinates are not written for {}"
+        elif letter in ROTARY:
             yield letter, f"the axis {letter.upper()} is not written for {{}}"
         elif letter not in taken:
             yield letter, "no code here takes this word, so it cannot be said for {}"
