@@ -84,7 +84,7 @@ def _go_home(control: Control, block: Block, code: str) -> None:
     drop_curve(control)
     named = [axis for axis, letter in enumerate(AXES) if letter in block.values]
     by_way = control.target(block)
-    control.note_known(block)
+    control.note_known(block, absolute=True)
     if by_way != control.at or not control.habits.fanuc_flow:
         control.move(MotionKind.RAPID, by_way)
     home = control.offsets.to_program(taken(control.homes[code], control.offsets.tool))
@@ -98,8 +98,7 @@ def _go_home(control: Control, block: Block, code: str) -> None:
 def _target(control: Control, block: Block) -> Place:
     """Return where the axis words lead; under G53 they count from the machine's zero."""
     if block.codes.get(Group.ONCE) != "G53":
-        if control.modal.absolute:
-            control.note_known(block)
+        control.note_known(block)
         return control.target(block)
     control.homeward.append(control.row)
     place = control.at

@@ -107,10 +107,10 @@ class Run:
         control = self._control
         if control.compensation is not None:
             control.compensation.spill(control.columns)
+        self._warn_of_start()
         warnings = [Problem(line, 0, letter.upper(), text, Severity.WARNING) for text, (letter, line) in control.warnings.items()]
         told = notes(self._text.data)
-        known = [row if row >= 0 else control.columns.count for row in control.known]
-        motions = control.columns.motions(control.splines, (known[0], known[1], known[2]))
+        motions = control.columns.motions(control.splines, control.known_from())
         return NcProgram(
             motions, control.states, tuple(control.events), tuple(control.homeward), (*warnings, *self._problems), told.tools, told.stock,
             self._text.line_count, told.header,
@@ -121,6 +121,15 @@ class Run:
         if self._options.dialect is Dialect.LINUXCNC and self._control.row:
             self._control.line = self._text.line_count
             self._control.warn("the program has no end; LinuxCNC wants M2, M30 or % behind it.")
+
+    def _warn_of_start(self) -> None:
+        """Tell that the program moves from where it has not said that the tool is."""
+        control = self._control
+        axes = control.taken_for_known()
+        if axes:
+            control.line = int(control.columns.line[min(row for row in control.known[3:] if row >= 0)])
+            control.warn("the tool moves in G91 before the program has said where it is; it is taken to begin at "
+                         f"{' '.join(f'{letter}0' for letter in axes)} of the work offsets' table.", "g")  # fmt: skip
 
     def _skip_leader(self) -> None:
         """Begin behind the per cent sign of a program that has one; Fanuc's and Haas' readers skip what stands before it."""

@@ -18,7 +18,7 @@ TAKEN = {
     "and in mm by 0.028 mm": "G21 F100\nG0 X0 Y0\nG2 X10 I5.014\nM2\n",
     "a large one by 0.1 %": "G21 F100\nG0 X0 Y0\nG2 X200 I100.04\nM2\n",
     "return with a label of its own": "F100\no1 sub\nG1 X1\no2 return\nG1 X2\no1 endsub\no1 call\nG1 Y1\nM2\n",
-    "return with the label of another subroutine": "F100\no2 sub\nG1 X9\no2 endsub\no1 sub\no2 return\nG1 X3\no1 endsub\no1 call\nG1 Y1\nM2\n",
+    "return with another subroutine's label": "F100\no2 sub\no2 endsub\no1 sub\no2 return\nG1 X3\no1 endsub\no1 call\nG1 Y1\nM2\n",
     "a value by another label's return": "F100\no1 sub\no7 return [7]\no1 endsub\no1 call\nG1 X#<_value>\nM2\n",
     "endsub of another label": "F100\no1 sub\nG1 X1\no2 endsub\nG1 X2\no1 endsub\no1 call\nM2\n",
     "keywords in pieces": "F100\no1 sub\nG1 X1\no1 end sub\no2 re peat [2]\nG91 G1 X1\no2 end repeat\no3 if [1]\no1 ca ll\no3 end if\nM2\n",
