@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 
+from app.errors import MOST_QUOTED, shortened
 from app.nc.read.block import SLASH, Block, Parsed, block_of, parse
 from app.nc.read.codes import CYCLES, TAKES, Group
 from app.nc.read.control import Control
@@ -319,7 +320,7 @@ class Run:
             column, word = self._word(line, fault.letter.lower(), fault.text)
         elif column < 0:
             column = column_of(line, -1 - column)
-        return Problem(at.line, min(max(column, 0), len(line) + 1), word, fault.text, severity)
+        return Problem(at.line, min(max(column, 0), len(line) + 1), word[:MOST_QUOTED], shortened(fault.text), severity)
 
     def _word(self, line: str, letters: str, text: str) -> tuple[int, str]:
         """Return column and spelling of the word that a fault is about: the one that its text names, else the first."""
