@@ -25,7 +25,8 @@ RING = "G21 G90\nG0 X0 Y0\nG1 Z-1 F100\n" + "".join(f"G1 X{k / 10:.4f} Y0\n" for
 def shell(line: str, folder: Path) -> int:
     """Run a line with the program as "$HITOFUDE"."""
     program = f"{sys.executable} -m app"
-    return subprocess.run(["sh", "-c", line.replace("HITOFUDE", program)], cwd=ROOT, env=os.environ | {"OUT": str(folder)}, timeout=120).returncode
+    run = subprocess.run(["sh", "-c", line.replace("HITOFUDE", program)], cwd=ROOT, env=os.environ | {"OUT": str(folder)}, timeout=120)
+    return run.returncode
 
 
 @pytest.mark.parametrize("closed", ["2>&-", ">&- 2>&-", "<&- >&- 2>&-"])
@@ -113,7 +114,8 @@ def test_of_another_machine_they_stay_for_a_day(tmp_path: Path, monkeypatch: pyt
 
 def test_a_killed_run_leaves_nothing_for_long(tmp_path: Path) -> None:
     """Killed between writing and placing; the next command into that folder sweeps."""
-    code = f"import os, signal; from pathlib import Path; from app import atomic; os.chmod = lambda *_: os.kill(os.getpid(), signal.SIGKILL); " \
+    code = "import os, signal; from pathlib import Path; from app import atomic; " \
+        "os.chmod = lambda *_: os.kill(os.getpid(), signal.SIGKILL); " \
         f"atomic.write_together({{Path({str(tmp_path / 'out.ngc')!r}): b'x'}})"
     subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False)
     assert len([path for path in tmp_path.iterdir() if path.name.endswith(".part")]) == 1

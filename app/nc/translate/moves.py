@@ -32,7 +32,7 @@ class Mover:
         self._motions: Motions = program.motions
         self._arcs: ArcPaths = arc_paths(program.motions)
         self._initial = 0.0
-        self._dwells = {event.before: event.value for event in program.events if event.kind is EventKind.DWELL}
+        self._dwells = {(event.line, event.before): event.value for event in program.events if event.kind is EventKind.DWELL}
 
     @property
     def _unit(self) -> float:
@@ -191,8 +191,9 @@ class Mover:
 
     def _wait(self, step: Step, row: int) -> None:
         """Write the dwell that a cycle has before a motion."""
-        if row > step.rows[0] and row in self._dwells:
-            self._sheet.dwell(step, self._dwells[row])
+        seconds = self._dwells.get((step.line, row))
+        if row > step.rows[0] and seconds is not None:
+            self._sheet.dwell(step, seconds)
 
     def _drilled(self, step: Step) -> bool:
         """Write a hole as the control's own drilling cycle; False where it is none that is surely the same."""

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections import Counter
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.errors import InputError
-from app.model.motion import MotionKind
+from app.model.motion import MotionKind, Plane
 from app.model.part import Units
 from app.nc.compare import Difference, DifferenceKind, compare
 from app.nc.post import Post
@@ -27,6 +28,7 @@ from app.progress import NO_PROGRESS, Progress
 
 _STEPS = 2.0
 """So many steps of the last decimal may the written path be off: a place is half a step off along each axis, an arc all of it."""
+_COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
 _COMMENT = re.compile(r"\(([^()]*)\)|;(.*)$")
 _NUMBER = re.compile(r"(?:/|n[0-9.]+)*[o:]([0-9]+)$")
 _STALE = re.compile(
@@ -78,11 +80,8 @@ def translated(name: str, data: bytes, read: ReadOptions, post: Post, progress: 
 
 def _written(source: Source, program: NcProgram, steps: tuple[Step, ...]) -> bytes:
     """Return the text; every line of the first one in its order."""
-    by_line: dict[int, Step] = {}
-    for step in steps:
-        if step.line in by_line:
-            raise source.refusal(step.line, f"lines that are done more than once are not written for {source.post.title}")
-        by_line[step.line] = step
+    by_line = {step.line: step for step in reversed(steps)}
+    times = Counter(step.line for step in steps)
     units = program.states[0].units
     sheet = Sheet(source, units if units is Units.INCH else Units.MM, _number(source))
     sheet.comment(f"Hitofude for {source.post.title}, out of a program for {HABITS[source.dialect].title}")
@@ -97,6 +96,8 @@ def _written(source: Source, program: NcProgram, steps: tuple[Step, ...]) -> byt
         if step is None:
             _check_rest(source, line, last)
         else:
+            if times[line] > 1:
+                raise source.refusal(line, f"lines that are done more than once are not written for {source.post.title}")
             check_step(step, source)
             sheet.modes(step)
             mover.write(step)
@@ -158,16 +159,29 @@ def _proven(source: Source, programs: tuple[NcProgram, NcProgram], made: bytes, 
                          f"{HABITS[source.dialect].title}.")  # fmt: skip
     units = {before.states[k].units for k in np.unique(before.motions.state).tolist()} or {Units.MM}
     off = _STEPS * max(10.0 ** -source.post.digits(unit).X * unit.value for unit in units)
-    found = compare(before, after, off, progress)
-    wrong = [item for item in found.items if not _same(item, before, after)]
+    (first, kept), (second, others) = _moving(before), _moving(after)
+    found = compare(first, second, off, progress)
+    wrong = [item for item in found.items if not _same(item, first, second)]
     if wrong:
         item = wrong[0]
         raise InputError(f"{source.name}:{item.a.first_line}: what is written for {title} is not the same there ({item.kind.value}: "
                          f"{item.text}); keep the program for {HABITS[source.dialect].title}.")  # fmt: skip
     rows = np.full(len(after.motions), -1, np.int64)
     for run in found.runs:
-        rows[run.b : run.b + run.count] = run.a + np.arange(run.count)
+        rows[others[run.b : run.b + run.count]] = kept[run.a : run.a + run.count]
     return Translated(made, after, off, rows)
+
+
+def _moving(program: NcProgram) -> tuple[NcProgram, NDArray[np.int64]]:
+    """Return a program without the straight motions that go nowhere, which not every control makes, and the rows of the others."""
+    motions = program.motions
+    kept = np.flatnonzero(np.any(motions.start != motions.end, axis=1) | (motions.kind > MotionKind.LINE))
+    behind = np.searchsorted(kept, np.arange(len(motions) + 1)).tolist()
+    columns = {name: getattr(motions, name)[kept] for name in _COLUMNS}
+    splines = {behind[row]: spline for row, spline in motions.splines.items()}
+    events = tuple(replace(event, before=behind[event.before]) for event in program.events)
+    homeward = tuple(behind[row] for row in program.homeward if behind[row + 1] > behind[row])
+    return replace(program, motions=replace(motions, splines=splines, **columns), events=events, homeward=homeward), kept
 
 
 def _same(item: Difference, before: NcProgram, after: NcProgram) -> bool:
@@ -180,7 +194,8 @@ def _same(item: Difference, before: NcProgram, after: NcProgram) -> bool:
 
 
 def _along_z(program: NcProgram, first: int, stop: int) -> bool:
-    """Tell whether a motion of a span moves along Z to a place of the work; in an arc or a spline it counts as one."""
+    """Tell whether a motion of a span moves along Z to a place of the work; upright arcs and splines always do."""
     motions, homeward = program.motions, set(program.homeward)
     rows = [row for row in range(first, stop) if row not in homeward]
-    return any(motions.start[row, 2] != motions.end[row, 2] or motions.kind[row] > MotionKind.LINE for row in rows)
+    level = (motions.plane == Plane.XY) & (motions.kind != MotionKind.SPLINE) | (motions.kind <= MotionKind.LINE)
+    return any(motions.start[row, 2] != motions.end[row, 2] or not level[row] for row in rows)

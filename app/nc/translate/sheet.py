@@ -20,8 +20,10 @@ PLANES = {Plane.XY: "G17", Plane.ZX: "G18", Plane.YZ: "G19"}
 JOINED = (Dialect.FANUC, Dialect.HAAS, Dialect.MACH3)
 """Alone their G43 and G49 may move Z, so that they stand in the block of the next move along Z."""
 MOST_DWELL_OFF_S = 1e-6
+MOST_FEED_OFF = 0.05
+"""mm/min; where a feed would be rounded by more it has more digits than the post's."""
 RARE_DIGITS = 4
-"""Of F where it is no feed per minute, and of S."""
+"""Of S, and of F where it is no feed per minute, or a slow one."""
 
 
 class Sheet:
@@ -221,6 +223,8 @@ class Sheet:
         inverse = self.modal.feed_mode is FeedMode.INVERSE_TIME
         value = step.feed / (1.0 if inverse else self.modal.units.value)
         digits = self.post.digits(self.modal.units).F if self.modal.feed_mode is FeedMode.PER_MINUTE else RARE_DIGITS
+        if abs(round(value, digits) - value) * self.modal.units.value > MOST_FEED_OFF:
+            digits = RARE_DIGITS
         text = plain(value, digits)
         if not float(text) > 0:
             raise self.source.refuse(step, "f", "", f"{self.post.title} has too few digits for the feed")
