@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -205,6 +207,13 @@ def test_random_programs_move_alike_on_every_control(some: list[str], came: str,
     if came == control or before.error is not None:
         return
     assert_moves_alike(before, (made := into(control, text, came)).program, made.off)
+
+
+def test_a_post_that_does_not_say_its_modes_is_refused() -> None:
+    post = load_post("fanuc")
+    silent = replace(post, program=replace(post.program, start=("G54",)))
+    with pytest.raises(InputError, match=r"hangs on modes that another job may have left in force; let the post's program\.start say them"):
+        translated("a.ngc", b"G21 G90\nG0 X1\nM2\n", ReadOptions(), silent)
 
 
 def test_a_writer_that_errs_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:

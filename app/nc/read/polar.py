@@ -9,7 +9,7 @@ from app.nc.read.codes import Group
 from app.nc.read.control import Control
 from app.nc.read.fault import Fault
 
-RADIUS, ANGLE = POLAR
+RADIUS, ANGLE = "@", "^"
 AT_ORIGIN_MM = 1e-9
 
 

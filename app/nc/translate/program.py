@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 from app.errors import InputError
 from app.model.motion import MotionKind, Plane
 from app.model.part import Units
+from app.nc.check_elsewhere import elsewhere, read_elsewhere
 from app.nc.compare import Difference, DifferenceKind, compare
 from app.nc.post import Post
 from app.nc.read.codes import Group
 from app.nc.read.dialect import HABITS
-from app.nc.read.options import ReadOptions
+from app.nc.read.options import PATIENT, ReadOptions
 from app.nc.read.program import NcProgram
 from app.nc.read.reader import read_program, read_steps
 from app.nc.read.steps import Step
@@ -157,6 +158,7 @@ def _proven(source: Source, programs: tuple[NcProgram, NcProgram], made: bytes, 
     if after.error is not None:
         raise InputError(f"{source.name} cannot be written for {title}: as written, {after.error.told('line')} Keep the program for "
                          f"{HABITS[source.dialect].title}.")  # fmt: skip
+    _check_modes(source, after, made)
     units = {before.states[k].units for k in np.unique(before.motions.state).tolist()} or {Units.MM}
     off = _STEPS * max(10.0 ** -source.post.digits(unit).X * unit.value for unit in units)
     (first, kept), (second, others) = _moving(before), _moving(after)
@@ -170,6 +172,29 @@ def _proven(source: Source, programs: tuple[NcProgram, NcProgram], made: bytes, 
     for run in found.runs:
         rows[others[run.b : run.b + run.count]] = kept[run.a : run.a + run.count]
     return Translated(made, after, off, rows)
+
+
+def _check_modes(source: Source, after: NcProgram, made: bytes) -> None:
+    """Refuse a text that leaves units, plane, G90 or the like to what another job has left in force.
+
+    Where the tool stands elsewhere an arc that begins at a place that the program has not told fits no more; there the look ends.
+
+    Raises:
+        InputError: it does; the post's first blocks are to blame.
+    """
+    read = ReadOptions(source.post.dialect, limits=PATIENT)
+    again = read_elsewhere(made, read, elsewhere(after.states[0].units), NO_PROGRESS)
+    here, there = (_modes_by_line(program) for program in (after, again))
+    wrong = sorted(line for line, modes in here.items() if there.get(line, modes) != modes)
+    if wrong or (here and not there):
+        line = wrong[0] if wrong else min(here)
+        raise InputError(f"{source.name} cannot be written for {source.post.title}: line {line} of what is written hangs on modes that "
+                         "another job may have left in force; let the post's program.start say them, as G17 {units} G90 G94 G40.")
+
+
+def _modes_by_line(program: NcProgram) -> dict[int, tuple[object, ...]]:
+    told = [(each.units, each.plane, each.absolute, each.arc_absolute, each.feed_mode, each.work_offset) for each in program.states]
+    return {line: told[state] for line, state in zip(program.motions.line.tolist(), program.motions.state.tolist(), strict=True)}
 
 
 def _moving(program: NcProgram) -> tuple[NcProgram, NDArray[np.int64]]:
