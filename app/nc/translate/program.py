@@ -29,6 +29,7 @@ from app.progress import NO_PROGRESS, Progress
 
 _STEPS = 2.0
 """So many steps of the last decimal may the written path be off: a place is half a step off along each axis, an arc all of it."""
+_LINES_A_STEP = 1000
 _COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
 _COMMENT = re.compile(r"\(([^()]*)\)|;(.*)$")
 _NUMBER = re.compile(r"(?:/|n[0-9.]+)*[o:]([0-9]+)$")
@@ -71,15 +72,15 @@ def translated(name: str, data: bytes, read: ReadOptions, post: Post, progress: 
         InputError: something has no counterpart there; named with its line and word.
         Cancelled: the job was asked to stop.
     """
-    program, steps = read_steps(data, read, progress.part(0.0, 0.4))
+    program, steps = read_steps(data, read, progress.part(0.0, 0.3))
     text = Text(data)
     source = Source(name, tuple(text.data.decode(text.encoding).split("\n")), read.dialect, post)
-    made = _written(source, program, steps)
-    after = read_program(made, ReadOptions(post.dialect, limits=read.limits), progress.part(0.4, 0.6))
+    made = _written(source, program, steps, progress.part(0.3, 0.5))
+    after = read_program(made, ReadOptions(post.dialect, limits=read.limits), progress.part(0.5, 0.6))
     return _proven(source, (program, after), made, progress.part(0.6, 1.0))
 
 
-def _written(source: Source, program: NcProgram, steps: tuple[Step, ...]) -> bytes:
+def _written(source: Source, program: NcProgram, steps: tuple[Step, ...], progress: Progress) -> bytes:
     """Return the text; every line of the first one in its order."""
     by_line = {step.line: step for step in reversed(steps)}
     times = Counter(step.line for step in steps)
@@ -89,6 +90,8 @@ def _written(source: Source, program: NcProgram, steps: tuple[Step, ...]) -> byt
     head = next((step.line for step in steps), len(source.lines) + 1)
     mover, last = Mover(sheet, program), max(by_line, default=0)
     for line, text in enumerate(source.lines, 1):
+        if line % _LINES_A_STEP == 0:
+            progress.step(line / len(source.lines), f"Writing for {source.post.title}")
         if line == head:
             sheet.begin()
         for comment in _comments(text):
