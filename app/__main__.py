@@ -14,6 +14,8 @@ gc.set_threshold(100_000, 20, 20)  # imports and small jobs make many objects an
 
 from app.cli import BAD_INPUT  # noqa: E402 (the collector first: importing makes most of the objects)
 from app.cli import main as command_line  # noqa: E402
+from app.cli_output import say  # noqa: E402
+from app.errors import shortened  # noqa: E402
 
 _LIBRARIES = "libegl1 libgl1 libglib2.0-0 libfontconfig1 libdbus-1-3 libxkbcommon0 libxkbcommon-x11-0 libxcb-cursor0 libxcb-icccm4 " \
     "libxcb-keysyms1 libxcb-shape0"
@@ -25,6 +27,7 @@ def main() -> int:
     Returns:
         Exit status: 0 done, 1 done with findings, 2 bad input, 130 cancelled.
     """
+    _hold_streams()
     arguments = sys.argv[1:]
     if not arguments:
         return _window(None)
@@ -33,6 +36,15 @@ def main() -> int:
     if len(arguments) == 1 and not arguments[0].startswith("-") and Path(arguments[0]).suffix:
         return _open(arguments)
     return _end(command_line(arguments))
+
+
+def _hold_streams() -> None:
+    """Let what is closed of the three streams be nowhere, so that no file that is opened takes its number and gets what is said."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # takes the lowest number that is free: this one
 
 
 def _end(status: int) -> NoReturn:
@@ -77,7 +89,7 @@ def _window(path: Path | None) -> int:
 
 
 def _refuse(sentence: str) -> int:
-    print(f"hitofude: {sentence}", file=sys.stderr)
+    say(f"hitofude: {shortened(sentence)}")
     return BAD_INPUT
 
 

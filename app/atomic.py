@@ -1,12 +1,20 @@
-"""Files appear whole or not at all, several together; and are read whole, if they are files."""
+"""Files appear whole or not at all, several together; and are read whole, if they are files.
+
+What waits to take a file's place is called .NAME.OWNER.RANDOM.part, and what was there before the same with .old, where OWNER is
+the process and the machine that it runs on: what a killed one has left is known by it, and swept.
+"""
 
 from __future__ import annotations
 
 import errno
+import hashlib
 import os
+import platform
+import re
 import shutil
 import stat
 import tempfile
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -52,6 +60,48 @@ def write_atomically(path: Path, data: bytes, backup: Path | None = None) -> Non
     write_together({path: data}, {} if backup is None else {path: backup})
 
 
+def sweep(*folders: Path) -> None:
+    """Take away what writers that live no more have left in folders; what cannot be looked at or taken away stays.
+
+    Of one on another machine, or from before names told the writer, nobody knows whether it lives: it goes when it is a day old.
+    """
+    for folder in folders:
+        with suppress(OSError), os.scandir(folder) as found:
+            for entry in found:
+                left = _LEFT.fullmatch(entry.name)
+                if left is not None:
+                    with suppress(OSError):
+                        if entry.is_file(follow_symlinks=False) and _is_abandoned(left["owner"], entry.stat().st_mtime):
+                            os.unlink(entry.path)
+
+
+_LEFT = re.compile(r"\..+?(?:\.(?P<owner>[0-9]+-[0-9a-f]{6}))?\.[a-z0-9_]{8}\.part(?:\.old)?")
+_ABANDONED_S = 86_400.0
+
+
+def _is_abandoned(owner: str | None, changed: float) -> bool:
+    number, _, machine = (owner or "").partition("-")
+    if machine != _machine() or os.name != "posix":
+        return time.time() - changed > _ABANDONED_S
+    try:
+        os.kill(int(number), 0)
+    except ProcessLookupError:
+        return True
+    except (OSError, OverflowError):
+        return False
+    return False
+
+
+def _machine() -> str:
+    """Return a short name for this machine."""
+    return hashlib.sha256(platform.node().encode()).hexdigest()[:6]
+
+
+def waiting_prefix(name: str) -> str:
+    """Return what the name of a file begins with that waits to take another's place."""
+    return f".{name[:32]}.{os.getpid()}-{_machine()}."
+
+
 def _keep_copy(path: Path, copy: Path) -> None:
     """Let a file's content stand under a second name too, in the place of what stood there; the file itself stays untouched.
 
@@ -59,7 +109,7 @@ def _keep_copy(path: Path, copy: Path) -> None:
         InputError: it cannot be; what was under the second name is untouched.
     """
     with _told(copy):
-        handle, waiting = tempfile.mkstemp(prefix=f".{copy.name[:32]}.", suffix=".part", dir=copy.parent)
+        handle, waiting = tempfile.mkstemp(prefix=waiting_prefix(copy.name), suffix=".part", dir=copy.parent)
         os.close(handle)
         try:
             os.unlink(waiting)
@@ -143,7 +193,7 @@ class _Staged:
         self._old = ""
         self._placed, self.existed = False, target.exists()
         mode = stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask()
-        handle, self._new = tempfile.mkstemp(prefix=f".{target.name[:32]}.", suffix=".part", dir=target.parent)
+        handle, self._new = tempfile.mkstemp(prefix=waiting_prefix(target.name), suffix=".part", dir=target.parent)
         try:
             with os.fdopen(handle, "wb") as file:
                 file.write(data)

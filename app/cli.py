@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import os
-import sys
 import threading
 import traceback
 from collections.abc import Sequence
 
 from app import __version__
-from app.cli_output import WaitLine, tell
-from app.cli_signals import stoppable
-from app.errors import Cancelled, HitofudeError
+from app.atomic import sweep
+from app.cli_output import WaitLine, say, tell
+from app.cli_signals import Stopped, stoppable
+from app.errors import Cancelled, HitofudeError, shortened
 from app.progress import told_waits
+from app.settings import config_folder, state_folder
 
 DONE, WITH_FINDINGS, BAD_INPUT, CANCELLED = 0, 1, 2, 130
 HELP = """\
@@ -31,7 +32,8 @@ Hitofude: from a line drawing to tool paths that can be trusted on a real machin
   hitofude --help                     this text
 
 Exit status: 0 done and clean; 1 done, with findings (gouge, reachable material left, rapid in material, a region
-skipped whole, an open contour); 2 bad input or usage, told in one line; 130 cancelled.
+skipped whole, an open contour); 2 bad input or usage, told in one line; 130 cancelled (143 by TERM,
+129 by HUP).
 """
 
 
@@ -42,8 +44,12 @@ def main(argv: Sequence[str]) -> int:
         argv: the arguments behind the program's name.
     """
     try:
+        sweep(state_folder(), config_folder())
         with stoppable() as stopped, WaitLine("--quiet" in argv) as line, told_waits(line.show, everywhere=True):
             return _command(list(argv), stopped)
+    except Stopped as stop:
+        _say("cancelled; no file was written")
+        return stop.status
     except (KeyboardInterrupt, Cancelled):
         _say("cancelled; no file was written")
         return CANCELLED
@@ -52,7 +58,7 @@ def main(argv: Sequence[str]) -> int:
         return BAD_INPUT
     except Exception as error:
         if os.environ.get("HITOFUDE_DEBUG") == "1":
-            traceback.print_exc()
+            say(traceback.format_exc())
         _say(f"this should not have happened ({type(error).__name__}: {error}); "
              "please report it with the drawing; HITOFUDE_DEBUG=1 shows where")
         return BAD_INPUT
@@ -104,4 +110,4 @@ def _command(argv: list[str], stopped: threading.Event) -> int:
 
 
 def _say(text: str) -> None:
-    print("hitofude: " + " ".join(text.split()), file=sys.stderr)
+    say("hitofude: " + shortened(" ".join(text.split())))

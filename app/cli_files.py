@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-import sys
 import threading
 import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from app.atomic import read_whole
+from app.atomic import read_whole, sweep
+from app.cli_output import on_terminal, show
 from app.errors import InputError
 from app.progress import Progress
 
@@ -34,7 +34,7 @@ def read_input(path: Path) -> bytes:
 
 
 def check_outputs(outputs: Mapping[str, Path], inputs: Sequence[Path]) -> None:
-    """Refuse files to write that cannot be, or that are inputs or one another.
+    """Refuse files to write that cannot be, or that are inputs or one another; take away what killed runs have left beside them.
 
     Args:
         outputs: by the name of their option.
@@ -55,6 +55,8 @@ def check_outputs(outputs: Mapping[str, Path], inputs: Sequence[Path]) -> None:
             raise InputError(f"--{name} {path} is named twice or is also an input; give every file its own name")
         if not path.is_char_device():
             taken.append(identity(path))
+    for folder in {path.parent for path in outputs.values()}:
+        sweep(folder)
 
 
 def identity(path: Path) -> object:
@@ -68,14 +70,14 @@ def identity(path: Path) -> object:
 
 def shown_progress(quiet: bool, stopped: threading.Event) -> Progress:
     """Return a progress that shows itself on stderr where that is a terminal."""
-    if quiet or not sys.stderr.isatty():
+    if quiet or not on_terminal():
         return Progress(None, stopped)
     shown = [0.0]
 
-    def show(fraction: float, text: str) -> None:
+    def told(fraction: float, text: str) -> None:
         if time.monotonic() - shown[0] > 0.1 or fraction >= 1:
             shown[0] = time.monotonic()
             end = "\r\x1b[K" if fraction >= 1 else ""
-            print(f"\r\x1b[K{fraction:4.0%} {text}{end}", end="", file=sys.stderr, flush=True)
+            show(f"\r\x1b[K{fraction:4.0%} {text}{end}")
 
-    return Progress(show, stopped)
+    return Progress(told, stopped)

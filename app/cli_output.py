@@ -7,6 +7,7 @@ import sys
 from argparse import ArgumentParser
 from collections import Counter
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Self
 
 from app.model.finding import Finding, FindingKind
@@ -16,6 +17,25 @@ REMARKS = 3
 
 COUNTED = 10
 """Findings of one kind that are printed; the report has all."""
+
+
+def say(text: str) -> None:
+    """Print a line to stderr; where that is closed, as under cron, or full, nobody hears it and the work goes on."""
+    if sys.stderr is not None:
+        with suppress(OSError, ValueError):
+            print(text, file=sys.stderr, flush=True)
+
+
+def on_terminal() -> bool:
+    """Tell whether stderr is there, and a terminal."""
+    return sys.stderr is not None and not sys.stderr.closed and sys.stderr.isatty()
+
+
+def show(text: str) -> None:
+    """Print to the line of a terminal on stderr that goes on."""
+    if on_terminal():
+        with suppress(OSError, ValueError):
+            print(text, end="", file=sys.stderr, flush=True)
 
 
 def helped(argv: Sequence[str], parser: Callable[[], ArgumentParser]) -> bool:
@@ -42,8 +62,7 @@ def tell(text: str) -> None:
         _let_go()
     except OSError as error:
         _let_go()
-        print(f"hitofude: the summary could not be printed ({error.strerror or error}); the files are as the exit status says",
-              file=sys.stderr)
+        say(f"hitofude: the summary could not be printed ({error.strerror or error}); the files are as the exit status says")
 
 
 def finding_lines(findings: Sequence[Finding]) -> list[str]:
@@ -66,16 +85,16 @@ class WaitLine:
     """Says on stderr what a command waits for: on a terminal in one line that goes on, elsewhere once."""
 
     def __init__(self, quiet: bool) -> None:
-        self._quiet, self._said = quiet or sys.stderr is None, False
+        self._quiet, self._said = quiet, False
 
     def show(self, text: str) -> None:
         """Say it; `text` may change from call to call."""
         if self._quiet:
             return
-        if sys.stderr.isatty():
-            print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
+        if on_terminal():
+            show(f"\r\x1b[K{text}")
         elif not self._said:
-            print(f"hitofude: {text}", file=sys.stderr, flush=True)
+            say(f"hitofude: {text}")
         self._said = True
 
     def __enter__(self) -> Self:
@@ -83,12 +102,14 @@ class WaitLine:
 
     def __exit__(self, *_: object) -> None:
         """Leave the terminal's line as it was."""
-        if self._said and sys.stderr.isatty():
-            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+        if self._said:
+            show("\r\x1b[K")
 
 
 def _let_go() -> None:
     """Send what is still to come to nowhere, as the interpreter flushes stdout at its end and would complain."""
+    if sys.stdout is None:
+        return
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, sys.stdout.fileno())
     os.close(nowhere)

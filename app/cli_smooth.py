@@ -11,12 +11,12 @@ from pathlib import Path
 from app.atomic import write_together
 from app.cli_effective import add_effective_options, effective_method
 from app.cli_files import check_outputs, read_input, shown_progress
-from app.cli_output import finding_lines, helped, tell
+from app.cli_output import REMARKS, finding_lines, helped, tell
 from app.cli_parser import OptionParser, number, typed
 from app.cli_signals import undisturbed
 from app.nc.post import Post
 from app.nc.posts import load_post
-from app.nc.read.dialect import Dialect
+from app.nc.read.dialect import HABITS, Dialect
 from app.workflow.examine import CONTROLS
 from app.workflow.smooth import Form, Smoothed, SmoothOptions, smooth
 from app.workflow.smooth_report import certificate, findings, report_text
@@ -72,8 +72,8 @@ def _parser() -> OptionParser:
     parser.add_argument("--corner", metavar="ANGLE", type=_angle, default=math.radians(30),
                         help="bends above it are kept, degrees (default 30)")
     parser.add_argument("--post", metavar="NAME", type=typed(load_post),
-                        help="the control's words (default: those of the program's control)")
-    parser.add_argument("--dialect", choices=list(CONTROLS), help="the control's language (default: as the text looks)")
+                        help="the control that all of it is written for, and read back as (default: the program's own)")
+    parser.add_argument("--dialect", choices=list(CONTROLS), help="the control that the program is for (default: as the text looks)")
     add_effective_options(parser)
     parser.add_argument("--report", metavar="R.json", type=Path, help="the certificate and every stretch, as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
@@ -109,4 +109,12 @@ def _lines(done: Smoothed) -> list[str]:
     """Return what was done, for people."""
     head, *rest = certificate(done)
     kept = [f"  - {n} move{'s' if n > 1 else ''} left alone: {reason.value}" for reason, n in done.found.left.items() if n]
-    return [f"{done.name}: {head.partition(': ')[2]}", *(f"  {line}" for line in rest), *kept, *finding_lines(findings(done))]
+    found = [*finding_lines(findings(done)), *_warnings(done)]
+    return [f"{done.name}: {head.partition(': ')[2]}", *(f"  {line}" for line in rest), *kept, *found]
+
+
+def _warnings(done: Smoothed) -> list[str]:
+    """Return as what control the program was read, and what that control's reader warns of."""
+    told = [f"  - {problem.told(done.name)} (a warning)" for problem in done.source.problems]
+    more = [f"  - {len(told) - REMARKS} more warnings; check tells them all"] if len(told) > REMARKS else []
+    return [f"  read as {HABITS[done.dialects[0]].title} does", *told[:REMARKS], *more]

@@ -1,5 +1,35 @@
 """Errors that reach the user as one sentence: what is wrong, where, and what to do."""
 
+import os
+import re
+
+MOST_QUOTED = 60
+"""Letters of a bad word that are quoted."""
+
+_LONG = re.compile(rf"(?<!\w)(['\"])(?P<said>[^'\"]{{{MOST_QUOTED + 1},}})(?=\1(?!\w))|(?P<word>[^\s'\"]{{{MOST_QUOTED + 1},}})")
+
+
+def shortened(text: str) -> str:
+    """Return a sentence with what it quotes cut off after `MOST_QUOTED` letters; names of files that are there stay whole.
+
+    Args:
+        text: quoted is what stands between quotation marks, or has no blank in it.
+    """
+    return _LONG.sub(_short, text)
+
+
+def _short(found: re.Match[str]) -> str:
+    name = "said" if found["said"] else "word"
+    long = found[name]
+    begin = found[0][: found.start(name) - found.start()]
+    return begin + (long if _is_path(long) else long[:MOST_QUOTED] + "...")
+
+
+def _is_path(text: str) -> bool:
+    """Tell whether a word names a file, or one in a folder that is there."""
+    folder = os.path.dirname(text.rstrip(":;,.")) if os.sep in text else ""
+    return bool(folder) and len(text) < 4096 and os.path.isdir(folder)
+
 
 class HitofudeError(Exception):
     """Base of every error that the program raises on purpose; its text is shown to the user as it is."""

@@ -39,4 +39,5 @@ def warm(progress: Progress = NO_PROGRESS) -> tuple[str, ...]:
 
 if __name__ == "__main__":
     for sentence in warm():
-        print(f"hitofude: {sentence}", file=sys.stderr)
+        if sys.stderr is not None:
+            print(f"hitofude: {sentence}", file=sys.stderr)

@@ -187,6 +187,15 @@ def test_warnings_are_shown_and_said_to_be_such(plate: Path, tmp_path: Path, cap
     assert problem["severity"] == "warning"
 
 
+def test_a_program_that_begins_in_g91_counts_from_zero(plate: Path, tmp_path: Path) -> None:
+    """As LinuxCNC's interpreter moves it: X 1 and 5 more, then half a circle up to Y 2."""
+    plate.write_text("G91\nG21\nG1 F100 X1 Y1\nG1 Z-1\nX5\nG2 X2 I1\nM2\n")
+    assert checked(plate, "--report", tmp_path / "r.json") == 1
+    report = json.loads((tmp_path / "r.json").read_text())
+    assert report["extent_mm"]["cut"]["low"] == [0, 0, -1] and report["extent_mm"]["cut"]["high"] == pytest.approx([8, 2, 0])
+    assert "begin at X0 Y0 Z0" in report["problems"][0]["text"] and len(report["problems"]) == 1
+
+
 def test_help_names_every_option(capsys: pytest.CaptureFixture[str]) -> None:
     assert checked("--help") == 0
     text = capsys.readouterr().out

@@ -224,6 +224,20 @@ def test_warnings_are_remarks(slot: Path, capsys: pytest.CaptureFixture[str]) ->
     assert "  - slot.ngc:7: the program has no end" in capsys.readouterr().out
 
 
+def test_an_axis_that_is_not_followed_is_a_finding(slot: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    slot.write_text(SLOT.replace("X40", "X40 A90"))
+    assert cut(slot, STOCK, "--tool=1=flat:6") == 1
+    assert "! slot.ngc:6" in (shown := capsys.readouterr().out) and "axis A is not followed" in shown
+
+
+def test_a_program_that_begins_in_g91_is_cut_from_zero(slot: Path, tmp_path: Path) -> None:
+    """As LinuxCNC moves it: plunge at the zero, then a slot along X."""
+    slot.write_text("G91 G21 G17\nT1 M6\nG1 Z-2 F100\nX30\nG0 Z7\nM2\n")
+    report = report_of(tmp_path, slot, "--stock=-10,-10,-10,50,20,0", "--tool=1=flat:6")
+    assert report["removed_mm3"] == pytest.approx(DEPTH * (6 * LENGTH + math.pi * 9), rel=1e-2)
+    assert report["length_mm"]["cut"] == 32.0
+
+
 def test_the_control_and_slashed_blocks_are_as_asked(slot: Path, tmp_path: Path) -> None:
     slot.write_text(SLOT.replace("X40", "/X40"))
     common = (STOCK, "--tool=1=flat:6")

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from itertools import pairwise
 from pathlib import Path
 
@@ -12,8 +13,9 @@ from app.cli import main
 from app.model.motion import MotionKind
 from app.model.motion_path import arc_paths
 from app.nc.read.dialect import Dialect
+from app.nc.read.guess import guess_dialect
 from app.nc.read.options import ReadOptions
-from app.nc.read.program import NcProgram
+from app.nc.read.program import EventKind, NcProgram
 from app.nc.read.reader import read_program
 from tests.fit.test_tube import off_chords
 
@@ -174,18 +176,74 @@ def test_points_within_facets_are_left_out_or_moved_within_the_tolerance(tmp_pat
     assert np.sum(cut) <= 6 and np.abs(radius - 50).max() < 0.08, "a circle again, and not the polygon"
 
 
-def test_a_control_that_is_named_is_also_the_one_that_reads(tmp_path: Path) -> None:
-    text, report = smoothed(tmp_path, HEAD + ring() + TAIL, "--post", "fanuc", "--as", "nurbs")
-    assert "G6.2" in text or "G06.2" in text
-    assert report["blocks"]["after"] < 70  # type: ignore[index]
+def test_for_another_control_every_number_is_in_its_words(tmp_path: Path) -> None:
+    """`G0 X50` beside `G3 X-50.` would be 0.050 mm on a Fanuc."""
+    source = HEAD + ring() + "G0 Z5\nG4 P1.5\nG83 X20 Y5 Z-3 R1 Q2 F80\nG80\n" + TAIL
+    text, report = smoothed(tmp_path, source, "--post", "fanuc", "--as", "nurbs")
+    assert "G6.2" in text and report["control"] == {"of_the_program": "linuxcnc", "written_for": "fanuc", "elsewhere_mm": 0.002}
+    assert not re.search(r"[XYZIJRFKQ]-?\d+(?![\d.])", re.sub(r"\(.*\)", "", text)), "no length and no feed without its point"
+    assert "G4 P1500\n" in text and "G83" not in text
+    before, after = read_program(source.encode()), read_program(text.encode(), ReadOptions(Dialect.FANUC))
+    assert after.error is None and guess_dialect(text.encode()) is Dialect.FANUC
+    assert np.allclose(before.motions.end[0], after.motions.end[0]) and np.allclose(before.motions.end[-1], after.motions.end[-1])
+    assert_ends_among(before, after, 0.003)
 
 
-def test_words_of_another_control_than_the_one_that_reads_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def assert_ends_among(before: NcProgram, after: NcProgram, limit: float) -> None:
+    """Every rapid of one program ends where one of the other does, in the same order."""
+    ends = [list(dict.fromkeys(map(tuple, p.motions.end[p.motions.kind == MotionKind.RAPID].round(2).tolist()))) for p in (before, after)]
+    assert len(ends[0]) == len(ends[1]) and np.abs(np.array(ends[0]) - np.array(ends[1])).max() <= limit + 0.01
+
+
+@pytest.mark.parametrize("post", ["linuxcnc", "haas", "mach3"])
+def test_a_program_is_read_as_what_it_looks_like(tmp_path: Path, post: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """A Fanuc program with a length without a point: 0.050 mm, told as check tells it."""
+    source, out = tmp_path / "in.nc", tmp_path / "out.nc"
+    head = "%\nO0007 (PLATE)\nG21 G90 G17\nT1 M6\nG0 G43 H1 Z5.\nG0 X50. Y0\nZ50\nG1 Z-1. F200.\n"
+    source.write_text(head + ring().replace("F600", "F600.") + "G0 Z5.\nG4 P500\nM5\nM30\n%\n")
+    assert main(["smooth", str(source), "-o", str(out), "--post", post]) == 0
+    told = capsys.readouterr().out
+    assert "read as Fanuc does" in told and "without a decimal point count in 0.001 mm" in told and "(a warning)" in told
+    after = read_program(out.read_bytes(), ReadOptions(Dialect(post)))
+    assert after.error is None and after.motions.end[2].tolist() == [50.0, 0.0, pytest.approx(0.05)]
+    assert [event.value for event in after.events if event.kind is EventKind.DWELL] == [0.5]
+    assert np.sum(after.motions.kind >= MotionKind.ARC_CW) == 2
+
+
+def test_what_the_other_control_has_not_is_refused_by_line_and_word(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     source, out = tmp_path / "in.ngc", tmp_path / "out.ngc"
     source.write_text(HEAD + ring() + TAIL)
-    assert main(["smooth", str(source), "-o", str(out), "--post", "fanuc", "--dialect", "linuxcnc", "--as", "nurbs"]) == 2
-    assert "LinuxCNC does not read what Fanuc takes" in capsys.readouterr().err
-    assert not out.exists()
+    assert main(["smooth", str(source), "-o", str(out), "--post", "grbl"]) == 2
+    assert "in.ngc:2:4: M6: grbl changes no tools" in capsys.readouterr().err and not out.exists()
+
+
+def bent(leg: float) -> tuple[str, np.ndarray]:
+    """Long legs in pieces, each behind a short one, bent by 40 to 80 degrees by turns; and the places where it bends."""
+    places, corners, angle = [np.zeros(2)], [], 0.0
+    for k in range(40):
+        corners.append(places[-1])
+        angle += math.radians(40 + k) * (1 if k % 4 < 2 else -1)
+        way = np.array([math.cos(angle), math.sin(angle)])
+        places += [places[-1] + way * leg] if k % 2 else [places[-1] + way * s for s in (0.25, 0.5, 0.75, 1.0)]
+    lines = "".join(f"G1 X{x:.4f} Y{y:.4f}\n" for x, y in places[1:])
+    return "G21 G90\nG0 X0 Y0\nG1 Z-1 F100\n" + lines + "M2\n", np.array(corners[1:])
+
+
+@pytest.mark.parametrize("post", ["linuxcnc", "fanuc"])
+@pytest.mark.parametrize("leg", [0.005, 0.012, 0.0155, 0.0185, 0.0202, 0.03])
+def test_every_corner_is_kept_that_the_head_speaks_of(tmp_path: Path, leg: float, post: str) -> None:
+    source, corners = bent(leg)
+    text, report = smoothed(tmp_path, source, "--tolerance", "0.01", "--post", post)
+    ends = read_program(text.encode(), ReadOptions(Dialect(post))).motions.end[:, :2]
+    step = 1e-3 if post == "fanuc" else 1e-4
+    kept = np.array([np.hypot(*(ends - corner).T).min() <= 1.5 * step for corner in corners])
+    assert report["corner_least_leg_mm"] == 0.02
+    head = " ".join(text.lower().replace(")\n(", " ").split())
+    assert "corners above 30 deg kept where both legs are 0.02 mm or longer" in head
+    if leg >= 0.02:
+        assert kept.all() and report["bends_rounded"] == 0
+    assert report["bends_rounded"] == np.sum(~kept)
+    assert (f"{np.sum(~kept)} bend" in head) == bool(np.sum(~kept))
 
 
 def test_where_the_control_has_no_splines_in_space_arcs_of_the_other_planes_stand(tmp_path: Path) -> None:

@@ -71,7 +71,8 @@ class Motions:
         line: (n,) int32 1-based line of the text.
         state: (n,) int32 index into the states of the program that they belong to.
         splines: the curve of each SPLINE motion, by row.
-        known_from: for X, Y, Z the first row whose end the program itself has set; n if it never does. Before it the
+        known_from: for X, Y, Z the first row whose end the program itself has set; n if it never does; -1 where the first motion
+            starts at a place that is taken for known: the program moves the axis in G91 before it has set it. Before it the
             axis stands where the reader was told that it starts.
     """
 

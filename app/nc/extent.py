@@ -59,11 +59,21 @@ def _known_reach(program: NcProgram) -> tuple[Floats, Floats]:
     low, high = reach(motions)
     nowhere = nowhere_of(program)
     straight = (motions.kind == MotionKind.RAPID) | (motions.kind == MotionKind.LINE)
-    from_nowhere = np.concatenate([np.ones_like(nowhere[:1]), nowhere[:-1]]) & straight[:, None]
+    from_nowhere = from_nowhere_of(program, nowhere) & straight[:, None]
     for side in (low, high):
         side[from_nowhere] = motions.end[from_nowhere]
         side[nowhere] = np.nan
     return low, high
+
+
+def from_nowhere_of(program: NcProgram, nowhere: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return (n, 3) whether a motion starts, along an axis, where nobody knows.
+
+    Args:
+        nowhere: (n, 3) whether it ends so.
+    """
+    first = np.tile(np.array(program.motions.known_from) >= 0, (len(nowhere[:1]), 1))
+    return np.concatenate([first, nowhere[:-1]])
 
 
 def nowhere_of(program: NcProgram) -> NDArray[np.bool_]:
@@ -71,7 +81,7 @@ def nowhere_of(program: NcProgram) -> NDArray[np.bool_]:
     motions = program.motions
     nowhere = np.zeros((len(motions), 3), bool)
     for axis, row in enumerate(motions.known_from):
-        nowhere[:row, axis] = True
+        nowhere[: max(row, 0), axis] = True
     for home in program.homeward:
         for axis in range(3):
             row, height = home, motions.end[home, axis]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from app.model.motion import Floats, Motions
 from app.model.motion_path import ArcPaths, arc_paths, spline_points
 
-MOST_PIECES = 1024
+MOST_PIECES = 16_384
 """Chords that one arc becomes at most."""
 MOST_SAMPLES = 4000
 """Places along a path that are looked at, beside its own points, for the one farthest away."""
@@ -54,7 +54,7 @@ class Paths:
 
         Args:
             motions: of a program.
-            chord: largest distance of a piece from its arc, mm; the finest arcs become 1024 pieces.
+            chord: largest distance of a piece from its arc, mm; the finest arcs become 16,384 pieces.
         """
         self._motions, self._arcs = motions, arc_paths(motions)
         self._count = _pieces(self._arcs, chord)

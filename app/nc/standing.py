@@ -109,7 +109,7 @@ def _axis(control: Control, other: Control, axis: int) -> Axis | None:
     for home, apart in ((Axis.MACHINE, ZERO), *((Axis(name), place) for name, place in OTHER_HOMES.items())):
         if abs(machine[1] - machine[0] - apart[axis]) < SAME:
             return home
-    return Axis.FREE if control.known[axis] < 0 and control.modal.absolute else None
+    return Axis.FREE if max(control.known[axis], control.known[3 + axis]) < 0 and control.modal.absolute else None
 
 
 def _check_zeros(control: Control, other: Control, line: int) -> None:

@@ -13,9 +13,10 @@ from types import TracebackType
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QApplication
 
+from app.atomic import sweep
 from app.edit.document import Document
 from app.progress import Progress
-from app.settings import load_settings
+from app.settings import config_folder, load_settings, state_folder
 from app.ui.icons import pixmap
 from app.ui.main_window import MainWindow
 from app.ui.memory import restore_geometry
@@ -75,6 +76,7 @@ def start(path: Path | None = None) -> int:
         Exit status.
     """
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    sweep(state_folder(), config_folder())
     application = QApplication(sys.argv[:1])
     application.setApplicationName("Hitofude")
     application.setDesktopFileName("hitofude")

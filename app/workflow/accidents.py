@@ -101,9 +101,10 @@ def _start(stage: Stage) -> Iterator[Finding]:
     cutter = stage.cutters.get(int(course.tool[first])) if first < len(stage.motions) else None
     if cutter is None:
         return
-    hit = stage.metal.met(Way(first, stage.motions.end[first : first + 1], cutter), stage.top, stage.before.grid.pitch)
+    places = stage.motions.start if stage.known.begins else stage.motions.end
+    hit = stage.metal.met(Way(first, places[first : first + 1], cutter), stage.top, stage.before.grid.pitch)
     if hit is not None:
-        x, y, z = stage.motions.end[first].tolist()
+        x, y, z = places[first].tolist()
         text = (f"The first place that the program names, X {x:.3f} Y {y:.3f} Z {z:.3f} in {stage.where(first)}, is {hit.depth:.3f} mm "
                 "deep in the stock; go above the stock first (G0 Z...), or tell the stock as it is.")
         yield stage.told(FindingKind.START_IN_STOCK, text, first, (x, y), hit.depth)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from app.dexel.course import Course
 from app.model.motion import Floats, MotionKind, Motions
-from app.nc.extent import at_home, nowhere_of
+from app.nc.extent import at_home, from_nowhere_of, nowhere_of
 from app.nc.read.program import NcProgram
 
 COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
@@ -26,28 +26,31 @@ class KnownCourse:
         first: row of the motion that first ends at a known place; the number of motions where none does.
         nowhere: (n, 3) whether each motion ends, along an axis, at a place that nobody knows.
         home: (n, 3) whether that is because it is a place of the machine.
+        begins: whether the motion of `first` starts at a known place too.
     """
 
     course: Course
     first: int
     nowhere: NDArray[np.bool_]
     home: NDArray[np.bool_]
+    begins: bool = False
 
 
 def course_of(program: NcProgram) -> KnownCourse:
     """Return what of a program can be cut; before it sets an axis, and at a place of the machine, nobody knows where it is."""
     motions, nowhere = program.motions, nowhere_of(program)
     unknown = np.asarray(nowhere.any(axis=1))
-    from_nowhere = np.concatenate([np.ones_like(nowhere[:1]), nowhere[:-1]])
+    from_nowhere = from_nowhere_of(program, nowhere)
     curved = motions.kind >= MotionKind.ARC_CW
     start = np.where(from_nowhere & ~curved[:, None], motions.end, motions.start)
     first = int(np.argmin(unknown)) if not unknown.all() else len(unknown)
     left_out = unknown | (curved & from_nowhere.any(axis=1))
-    if first < len(unknown) and motions.kind[first] == MotionKind.RAPID:
+    begins = bool(first < len(unknown) and not from_nowhere[first].any())
+    if first < len(unknown) and motions.kind[first] == MotionKind.RAPID and not begins:
         left_out[first] = True
     motions = replace(motions, start=start, known_from=(0, 0, 0))
     tools = tuple(state.tool for state in program.states)
-    return KnownCourse(Course.of(motions, tools, tuple(np.flatnonzero(left_out).tolist())), first, nowhere, at_home(program))
+    return KnownCourse(Course.of(motions, tools, tuple(np.flatnonzero(left_out).tolist())), first, nowhere, at_home(program), begins)
 
 
 def picked(course: Course, rows: NDArray[np.intp]) -> Course:

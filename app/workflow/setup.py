@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import PurePath
 
@@ -14,7 +14,7 @@ from app.errors import HitofudeError, InputError
 from app.files.drawing import read_drawing
 from app.files.job_toml import JobFile
 from app.model.entry import LONGEST_LEAD, Lead
-from app.model.finding import Finding
+from app.model.finding import Finding, FindingKind
 from app.model.job import Copies, Job, OriginXY, OriginZ
 from app.model.job import Stock as JobStock
 from app.model.motion import Floats, MotionKind
@@ -24,6 +24,7 @@ from app.model.part import Contour, Region, Units
 from app.model.part import Part as DrawnPart
 from app.model.scene import Scene
 from app.model.stock_box import stock_box, work_origin
+from app.nc.read.codes import ROTARY
 from app.nc.read.program import HeaderNote, OperationNote
 from app.progress import NO_PROGRESS, Progress
 from app.workflow.cut import CutSetup
@@ -115,8 +116,17 @@ def setup_of(programs: tuple[Examined, ...], wishes: Wishes = Wishes(), progress
     stock = _stock(programs, tools, part, wishes)
     setup = CutSetup(tuple(each.program for each in programs), {number: each.tool for number, each in tools.items()}, stock.stock, part,
                      tuple(each.name for each in programs))  # fmt: skip
-    found = (*assumed, *((stock.assumed,) if stock.assumed is not None else ()), *said)
+    found = (*_unfollowed(programs), *assumed, *((stock.assumed,) if stock.assumed is not None else ()), *said)
     return Ready(setup, programs, tools, stock, found)
+
+
+def _unfollowed(programs: tuple[Examined, ...]) -> Iterator[Finding]:
+    """Yield a finding for each axis that a program turns and nobody follows: what it really cuts is not known."""
+    for each in programs:
+        for problem in each.problems:
+            if problem.word and problem.word.lower() in ROTARY:
+                text = f"{problem.told(each.name)} What it turns is cut here as if it stood; leave it out, or try it on the machine."
+                yield Finding(FindingKind.LEFT_OUT, text, line=problem.line)
 
 
 def _header(programs: tuple[Examined, ...]) -> HeaderNote:

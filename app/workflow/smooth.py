@@ -13,9 +13,9 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from app.errors import InputError, ParameterError
+from app.errors import HitofudeError, InputError, ParameterError
 from app.fit.arc_fit import ArcOptions, fit_arcs
-from app.fit.corners import corners
+from app.fit.corners import LEAST_LEG, bends, corners
 from app.fit.effective_method import EffectiveMethod, PointClasses, without_repeats
 from app.fit.fitted import FittedPath
 from app.fit.proven_curve import SplineOptions, fit_splines
@@ -27,9 +27,7 @@ from app.nc.blocks import Blocks
 from app.nc.curve_blocks import Spelling, curve_blocks
 from app.nc.linuxcnc_biarcs import driven
 from app.nc.post import NurbsForm, Post
-from app.nc.posts import load_post
-from app.nc.read.dialect import HABITS, Dialect
-from app.nc.read.guess import guess_dialect
+from app.nc.read.dialect import Dialect
 from app.nc.read.options import PATIENT, ReadOptions
 from app.nc.read.program import NcProgram
 from app.nc.read.reader import read_program
@@ -38,6 +36,7 @@ from app.nc.rewrite import Rewritten, rewrite
 from app.nc.stretches import Found, Stretch, find_stretches
 from app.progress import NO_PROGRESS, Progress
 from app.workflow.smooth_report import certificate
+from app.workflow.smooth_source import Came, came
 
 TOLERANCES = (1e-4, 10.0)
 """mm; what a tolerance may be."""
@@ -69,8 +68,8 @@ class SmoothOptions:
         middle: half way between two points the curve may be so far away, mm; None: no farther than at them.
         degree: of splines, 3 or 5; no control knows degree 5, which goes out as cubics that take up part of the tolerance.
         corner: bends of more than this are kept exactly, radians.
-        post: in whose words; None = those of the control that the text looks to be for.
-        dialect: how the program is read; None = as the post's control reads it, or, without a post, as the text looks.
+        post: in whose words all of the program is written; None = those of the control that it is for.
+        dialect: how the program is read; None = as the text looks, whatever the post.
         effective: method D; None: the curve goes by all points.
     """
 
@@ -82,6 +81,11 @@ class SmoothOptions:
     post: Post | None = None
     dialect: Dialect | None = None
     effective: EffectiveMethod | None = None
+
+    @property
+    def least_leg(self) -> float:
+        """Bends above `corner` whose legs are both so long or longer are kept exactly, whatever is beside them, mm."""
+        return LEAST_LEG * _REACH * max(self.tolerance, self.middle or 0.0)
 
     def __post_init__(self) -> None:
         if not TOLERANCES[0] <= self.tolerance <= TOLERANCES[1]:
@@ -106,6 +110,8 @@ class Piece:
         before, after: how smooth it is.
         corners: numbers of its points that are kept exactly, the outer ones among them.
         classes: what its points are by method D; None without it, and of a stretch that is too short.
+        lines: its first and last one in the text that came in, 1-based.
+        rounded: how many bends above the corner's angle, beside shorter legs than corners have, are kept no more.
     """
 
     stretch: Stretch
@@ -118,6 +124,8 @@ class Piece:
     after: Smoothness
     corners: NDArray[np.int64]
     classes: PointClasses | None = None
+    lines: tuple[int, int] = (0, 0)
+    rounded: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,27 +135,30 @@ class Smoothed:
     Attributes:
         name: of the file that came in.
         options: what was asked.
-        before, after: the program as it was, and as it was written and read back.
+        source: the program as its own control reads it.
+        before, after: the same in the words that it is written in, before and after smoothing, both as the control of those reads them.
         data: the new text.
         pieces: every stretch, in the order of the text.
         found: stretches, and what is in none.
+        dialects: of the control that the program came for, and of the one that it is written for.
+        off: how far from the source all else may be in the other control's words, mm; 0 where it is the same control.
     """
 
     name: str
     options: SmoothOptions
+    source: NcProgram
     before: NcProgram
     after: NcProgram
     data: bytes
     pieces: tuple[Piece, ...]
     found: Found
+    dialects: tuple[Dialect, Dialect]
+    off: float = 0.0
 
     @property
     def bound(self) -> float:
         """Proven: nowhere are curve and moves farther apart than this, mm."""
         return max((piece.judgement.bound for piece in self.pieces if piece.judgement), default=0.0)
-
-
-_POSTS = {Dialect.LINUXCNC: "linuxcnc", Dialect.FANUC: "fanuc", Dialect.HAAS: "haas", Dialect.GRBL: "grbl", Dialect.MACH3: "mach3"}
 
 
 def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = NO_PROGRESS) -> Smoothed:
@@ -163,46 +174,69 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
         InputError: the program cannot be read to its end, or has nothing that can be smoothed.
         Cancelled: the job was asked to stop.
     """
-    dialect = options.dialect or (options.post.dialect if options.post is not None else guess_dialect(data))
-    post = options.post or load_post(_POSTS.get(dialect, "linuxcnc"))
-    read = ReadOptions(dialect, limits=PATIENT)
-    before = read_program(data, read, progress.part(0.0, 0.1))
-    if before.error is not None:
-        raise InputError(f"{before.error.told(name)} Mend it there; check tells more.")
-    found = find_stretches(before, Text(data), progress.part(0.1, 0.15))
-    work = _Work(options, post, before, found)
-    blocks, kept = work.written(progress.part(0.15, 0.7))
+    ready = came(name, data, (options.dialect, options.post), progress.part(0.0, 0.15))
+    found = find_stretches(ready.program, Text(ready.data), progress.part(0.15, 0.2))
+    work = _Work(options, ready, found)
+    blocks, kept = work.written(progress.part(0.2, 0.7))
     while True:
-        new = rewrite(data, found.stretches, blocks, ())
-        after = read_program(new.data, read, progress.part(0.7, 0.8))
+        new = rewrite(ready.data, found.stretches, blocks, ())
+        after = read_program(new.data, ReadOptions(ready.post.dialect, limits=PATIENT), progress.part(0.7, 0.8))
         if after.error is not None:
-            raise InputError(f"{HABITS[dialect].title} does not read what {post.title} takes; choose the control that {name} is for.")
+            raise InputError(f"{ready.post.title} does not read what is written for it: {after.error.told(name)}")
         judged = work.judged(after, new, progress.part(0.8, 1.0))
-        failed = [k for k, (_, judgement) in judged.items() if judgement.answer is not Answer.INSIDE]
+        failed = {k: each.fault for k, each in judged.items() if each.fault}
         if not failed:
             break
-        for k in failed:
+        for k, fault in failed.items():
             del blocks[k]
-            kept[k] = "as it was written it is not proven to keep to the tolerance"
+            kept[k] = fault
+    work.require_the_rest(after, new)
     pieces = tuple(work.piece(k, judged.get(k), kept.get(k, ""), len(blocks.get(k, ()))) for k in range(len(found.stretches)))
-    done = Smoothed(name, options, before, after, new.data, pieces, found)
-    return replace(done, data=rewrite(data, found.stretches, blocks, _comments(done, post, before)).data)
+    dialects = ready.dialect, ready.post.dialect
+    done = Smoothed(name, options, ready.source, ready.program, after, new.data, pieces, found, dialects, ready.off)
+    return replace(done, data=rewrite(ready.data, found.stretches, blocks, _comments(done, ready)).data)
 
 
-def _comments(done: Smoothed, post: Post, program: NcProgram) -> list[str]:
+def _comments(done: Smoothed, ready: Came) -> list[str]:
     """Return the certificate as comment lines."""
-    head = Blocks(post, program.states[0].units)
+    head = Blocks(ready.post, ready.program.states[0].units)
     for line in certificate(done):
         head.comment(line)
     return head.lines
 
 
+@dataclass(frozen=True, eq=False)
+class _Judged:
+    """A stretch as it was written.
+
+    Attributes:
+        curve: what is driven along. judgement: of it.
+        cut: whether a corner is kept no more. rounded: how many bends beside shorter legs are not.
+    """
+
+    curve: SpaceCurve
+    judgement: Judgement
+    cut: bool
+    rounded: int
+
+    @property
+    def fault(self) -> str:
+        """Why it cannot stay as it was written, or ""."""
+        if self.judgement.answer is not Answer.INSIDE:
+            return "as it was written it is not proven to keep to the tolerance"
+        return "as it was written it would lose a corner" if self.cut else ""
+
+
 class _Work:
     """A program's stretches, on their way."""
 
-    def __init__(self, options: SmoothOptions, post: Post, program: NcProgram, found: Found) -> None:
-        self._options, self._post, self._program, self._found = options, post, program, found
-        self._points = [without_repeats(stretch.points) for stretch in found.stretches]
+    def __init__(self, options: SmoothOptions, came: Came, found: Found) -> None:
+        self._options, self._came, self._found = options, came, found
+        self._post, self._program = came.post, came.program
+        own = [came.points(stretch) for stretch in found.stretches]
+        self._astray = [k for k, points in enumerate(own) if points is None]
+        self._points = [without_repeats(stretch.points if points is None else points)
+                        for stretch, points in zip(found.stretches, own, strict=True)]  # fmt: skip
         self._tube = Tube(options.tolerance, options.middle)
         self._classes: dict[int, PointClasses] = {}
 
@@ -213,8 +247,8 @@ class _Work:
         count = len(self._found.stretches)
         for k, stretch in enumerate(self._found.stretches):
             progress.step(k / count, f"Stretch {k + 1} of {count}")
-            if len(self._points[k]) < 3:
-                kept[k] = "it is too short"
+            if len(self._points[k]) < 3 or k in self._astray:
+                kept[k] = "its moves are not the source's one by one" if k in self._astray else "it is too short"
                 continue
             path = self._fitted(k, progress.part(k / count, (k + 1) / count))
             state = self._program.states[self._program.motions.state[stretch.first]]
@@ -240,8 +274,8 @@ class _Work:
             slack += spent
             if not self._tube.radius > slack:
                 raise InputError(
-                    f"Points of lines {stretch.first_line} to {stretch.last_line} are up to {spent:.4g} mm off the path by the effective "
-                    f"ones, which leaves nothing of the tolerance; use a smaller epsilon, or more than {slack:.4g} mm."
+                    f"Points of lines {' to '.join(map(str, self._came.lines(stretch)))} are up to {spent:.4g} mm off the path by the "
+                    f"effective ones, which leaves nothing of the tolerance; use a smaller epsilon, or more than {slack:.4g} mm."
                 )
         tube = self._tube.narrower(slack)
         form, nurbs = self._options.form, self._post.nurbs.form
@@ -258,15 +292,55 @@ class _Work:
         )
         return fit_splines(points, splines, progress)
 
-    def judged(self, after: NcProgram, new: Rewritten, progress: Progress) -> dict[int, tuple[SpaceCurve, Judgement]]:
+    def judged(self, after: NcProgram, new: Rewritten, progress: Progress) -> dict[int, _Judged]:
         """Return what each stretch that was written anew has become, and the judge's answer."""
         lines, answers = after.motions.line, {}
         for n, (k, (first, last)) in enumerate(new.lines.items()):
             progress.step(n / len(new.lines), "Proving what was written")
             rows = np.flatnonzero((lines >= first) & (lines <= last))
             curve = self._driven(after.motions, int(rows[0]), int(rows[-1]) + 1)
-            answers[k] = (curve, judge(curve, self._points[k], self._tube))
+            ends = after.motions.end[rows[0] : rows[-1] + 1]
+            answers[k] = _Judged(curve, judge(curve, self._points[k], self._tube), *self._lost(self._points[k], ends))
         return answers
+
+    def _lost(self, points: Floats, ends: Floats) -> tuple[bool, int]:
+        """Return whether a corner is kept no more, and how many bends beside shorter legs are not: no written motion ends there."""
+        sharp, legs = bends(points, self._options.corner)
+        away = np.array([np.linalg.norm(ends - points[k], axis=1).min() for k in sharp.tolist()]) > self._step
+        corner = legs >= self._options.least_leg * (1 - 1e-9)
+        return bool(np.any(away & corner)), int(np.sum(away & ~corner))
+
+    def require_the_rest(self, after: NcProgram, new: Rewritten) -> None:
+        """Make sure that all motions outside of what was written anew are those of the text before, one by one.
+
+        Raises:
+            HitofudeError: they are not.
+        """
+        before = self._program.motions
+        old, made = np.ones(len(before), np.bool_), np.ones(len(after.motions), np.bool_)
+        for k, (first, last) in new.lines.items():
+            old[self._found.stretches[k].first : self._found.stretches[k].stop] = False
+            made &= ~((after.motions.line >= first) & (after.motions.line <= last))
+        rows, others = np.flatnonzero(old), np.flatnonzero(made)
+        if len(rows) == len(others):
+            same = before.kind[rows] == after.motions.kind[others]
+            ends = np.abs(before.end[rows] - after.motions.end[others]).max(axis=1, initial=0.0) <= self._step
+            feeds = np.isclose(before.feed[rows], after.motions.feed[others], rtol=1e-9, atol=0.0, equal_nan=True)
+            states = [self._program.states[a] == after.states[b]
+                      for a, b in zip(before.state[rows].tolist(), after.motions.state[others].tolist(), strict=True)]  # fmt: skip
+            wrong = np.flatnonzero(~(same & ends & feeds & np.array(states, np.bool_)))
+            if not len(wrong):
+                return
+            rows = rows[wrong]
+        line = int(before.line[rows[0]]) if len(rows) else 1
+        raise HitofudeError(f"What is smoothed is not proven to go on as before at line {line}, so it is not kept; please report this "
+                            "with the program.")  # fmt: skip
+
+    @property
+    def _step(self) -> float:
+        """The last decimal of an axis word, mm: the coarser one where the program has two units."""
+        units = {self._program.states[k].units for k in np.unique(self._program.motions.state).tolist()}
+        return max((10.0 ** -self._post.digits(unit).X * unit.value for unit in units), default=0.0)
 
     def _driven(self, motions: Motions, first: int, stop: int) -> SpaceCurve:
         """Return what the control drives along in some motions of the written text."""
@@ -281,16 +355,18 @@ class _Work:
         parts += [curve_of_motions(motions, at, stop)] if stop > at else []
         return joined(parts)
 
-    def piece(self, k: int, judged: tuple[SpaceCurve, Judgement] | None, kept: str, blocks: int) -> Piece:
+    def piece(self, k: int, judged: _Judged | None, kept: str, blocks: int) -> Piece:
         """Return one stretch, before and after."""
         stretch, points, classes = self._found.stretches[k], self._points[k], self._classes.get(k)
         count = stretch.stop - stretch.first
         at = corners(points, self._options.corner, _REACH * self._tube.widest) if len(points) > 2 else np.array([0])
         before = of_points(points, points[at])
+        lines = self._came.lines(stretch)
         if judged is None:
-            return Piece(stretch, points, (count, count), None, None, kept, before, before, at, classes)
-        curve, judgement = judged
-        return Piece(stretch, points, (count, blocks), curve, judgement, "", before, of_curve(curve, points[at]), at, classes)
+            return Piece(stretch, points, (count, count), None, None, kept, before, before, at, classes, lines)
+        after = of_curve(judged.curve, points[at])
+        numbers = (count, blocks)
+        return Piece(stretch, points, numbers, judged.curve, judged.judgement, "", before, after, at, classes, lines, judged.rounded)
 
 
 def _knots(curve: Nurbs) -> int:

@@ -10,6 +10,7 @@ import numpy as np
 
 from app.fit.effective_points import PointState
 from app.model.finding import Finding, FindingKind
+from app.nc.read.dialect import HABITS
 
 if TYPE_CHECKING:
     from app.workflow.smooth import Piece, Smoothed
@@ -25,7 +26,7 @@ def certificate(done: Smoothed) -> tuple[str, ...]:
     came, left = _blocks(done)
     told = f"hitofude smooth: {len(changed)} of {len(done.pieces)} stretches written anew as {done.options.form.value}"
     if not changed:
-        return (told,)
+        return (told, *_other_control(done))
     bend, step = _most(done, "bend"), _most(done, "curvature_step")
     return (
         f"{told}, {came} blocks before, {left} after",
@@ -33,17 +34,36 @@ def certificate(done: Smoothed) -> tuple[str, ...]:
         f"{max(piece.judgement.from_curve for piece in changed if piece.judgement):.6f} mm, moves to curve "
         f"{max(piece.judgement.from_points for piece in changed if piece.judgement):.6f} mm",
         f"largest bend {math.degrees(bend[0]):.3f} deg before, {math.degrees(bend[1]):.3f} after; curvature step {step[0]:.4g} per mm "
-        f"before, {step[1]:.4g} after; corners above {math.degrees(done.options.corner):g} deg kept",
+        f"before, {step[1]:.4g} after",
+        _corner_words(done),
         *(f"effective points: {told['effective']} of {told['all']}, {told['corrected']} corrected" for told in _points(done)),
         "the control may add what its own blending allows",
+        *_other_control(done),
     )
+
+
+def _corner_words(done: Smoothed) -> str:
+    """Return which corners are kept, and how many bends as sharp are not: those of steps as small as the tolerance."""
+    angle, rounded = f"{math.degrees(done.options.corner):g} deg", sum(piece.rounded for piece in done.pieces)
+    told = f"corners above {angle} kept where both legs are {done.options.least_leg:g} mm or longer"
+    bends = "1 bend" if rounded == 1 else f"{rounded} bends"
+    return f"{told}; {bends} above {angle} beside a shorter leg rounded, within the tolerance" if rounded else told
+
+
+def _other_control(done: Smoothed) -> tuple[str, ...]:
+    """Return for which control the program was written, where it came for another one, and how far all else is from what it was."""
+    came, left = (HABITS[dialect].title for dialect in done.dialects)
+    if came == left:
+        return ()
+    return (f"all of it is written for {left} and read back as {left}; what is not smoothed is within {done.off:.4g} mm of the "
+            f"{came} program",)  # fmt: skip
 
 
 def findings(done: Smoothed) -> tuple[Finding, ...]:
     """Return what somebody has to know: stretches whose curve could not be proven."""
     lost = [piece for piece in done.pieces if piece.kept.startswith("as it was written")]
     return tuple(
-        Finding(FindingKind.TOLERANCE, f"Lines {piece.stretch.first_line} to {piece.stretch.last_line} stay as they were: {piece.kept}.")
+        Finding(FindingKind.TOLERANCE, f"Lines {piece.lines[0]} to {piece.lines[1]} stay as they were: {piece.kept}.")
         for piece in lost
     )
 
@@ -56,6 +76,8 @@ def report(done: Smoothed) -> Json:
     listed = sorted(done.pieces, key=lambda piece: (piece.judgement is None, piece.stretch.first_line))[:LISTED]
     return {
         "program": done.name,
+        "control": {"of_the_program": done.dialects[0].value, "written_for": done.dialects[1].value, "elsewhere_mm": done.off},
+        "warnings": [problem.told(done.name) for problem in done.source.problems],
         "as": done.options.form.value,
         "tolerance": {
             "asked_mm": done.options.tolerance, "middle_mm": done.options.middle, "proven_mm": done.bound,
@@ -66,7 +88,8 @@ def report(done: Smoothed) -> Json:
         "largest_bend_deg": {"before": math.degrees(bend[0]), "after": math.degrees(bend[1])},
         "largest_curvature_step_per_mm": {"before": step[0], "after": step[1]},
         "points": next(iter(_points(done)), None),
-        "corner_deg": math.degrees(done.options.corner),
+        "corner_deg": math.degrees(done.options.corner), "corner_least_leg_mm": done.options.least_leg,
+        "bends_rounded": sum(piece.rounded for piece in done.pieces),
         "stretches": {"found": len(done.pieces), "changed": len(changed), "listed": [_listed(piece) for piece in listed]},
     }  # fmt: skip
 
@@ -78,7 +101,7 @@ def report_text(done: Smoothed) -> str:
 
 def _listed(piece: Piece) -> Json:
     told: Json = {
-        "lines": [piece.stretch.first_line, piece.stretch.last_line],
+        "lines": list(piece.lines),
         "blocks": {"before": piece.blocks[0], "after": piece.blocks[1]},
     }
     if piece.judgement is None:

@@ -41,7 +41,7 @@ def closed_loop(written: WrittenScene, sources: Sources, tolerance: float, progr
     """
     texts = tuple((f"{number}{file.suffix}", file.nc.text.encode()) for number, file in enumerate(written.files, 1))
     first = _cut(written, sources, texts, progress.part(0.0, 0.4))
-    options = SmoothOptions(tolerance=tolerance, post=written.post)
+    options = SmoothOptions(tolerance=tolerance, post=written.post, dialect=written.post.dialect)
     share = 0.2 / len(texts)
     done = [smooth(*text, options, progress.part(0.4 + n * share, 0.4 + (n + 1) * share)) for n, text in enumerate(texts)]
     smoothed = tuple((each.name, each.data) for each in done)

@@ -193,7 +193,7 @@ def written(points: Floats, tolerance: float, way: str) -> tuple[int, Floats]:
     """Return how many blocks the points' stretch takes as it is written, and places of it, from its text."""
     form, post = WAYS[way]
     data = program(points)
-    done = smooth("in.nc", data, SmoothOptions(tolerance, form, post=load_post(post)))
+    done = smooth("in.nc", data, SmoothOptions(tolerance, form, post=load_post(post), dialect=load_post(post).dialect))
     assert done.bound <= tolerance
     old, new = data.decode(), done.data.decode()
     (first, last), *others = paired(old.splitlines(), new.splitlines(), done).values()

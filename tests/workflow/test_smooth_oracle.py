@@ -137,7 +137,8 @@ ADVERSARIES: dict[str, tuple[Callable[[], Floats], float]] = {
 def held(data: bytes, tolerance: float, way: str, middle: float | None = None) -> Smoothed:
     """Smooth, and hold the written text against the given one."""
     form, post = WAYS[way]
-    done = smooth("in.nc", data, SmoothOptions(tolerance, form, middle, post=load_post(post)))
+    control = load_post(post)
+    done = smooth("in.nc", data, SmoothOptions(tolerance, form, middle, post=control, dialect=control.dialect))
     stated = report(done)["tolerance"]["proven_mm"]
     assert stated == done.bound <= (middle or tolerance)
     old, new = data.decode(), done.data.decode()

@@ -16,7 +16,10 @@ from app.nc.read.parameters import Key, Parameters
 Setting = Key | Callable[[Parameters], Key]
 """Which parameter is set."""
 
-ALWAYS = AXES + ROTARY + "fstn"
+POLAR = "@^"
+"""Distance from the zero, and angle, in LinuxCNC's words."""
+
+ALWAYS = AXES + ROTARY + POLAR + "fstn"
 """Words that need no code in their block to take them."""
 
 
@@ -61,13 +64,14 @@ SLASH = re.compile(r"(?:n[0-9.]+)?/[0-9]?")
 """What marks a block that the control leaves out when it is told to."""
 
 
-def parse(code: str, nesting: int, free: bool = False) -> Parsed:
+def parse(code: str, nesting: int, free: bool = False, polar: bool = False) -> Parsed:
     """Return the words of a line.
 
     Args:
         code: as `text.code_of` gives it.
         nesting: how deep brackets may go.
         free: what a parameter is set to needs no brackets, as Fanuc has it.
+        polar: @ and ^ are words.
 
     Raises:
         Fault: something in it is no word.
@@ -92,7 +96,7 @@ def parse(code: str, nesting: int, free: bool = False) -> Parsed:
                 raise Fault("expected = behind the parameter that is set.", column=-1 - values.at)
             values.at += 1
             settings.append((key, values.expression() if free else values.value()))
-        elif "a" <= letter <= "z":
+        elif "a" <= letter <= "z" or (polar and letter in POLAR):
             words.append(Word(letter, values.value(), begin, values.at, False))
         else:
             raise Fault(f"{letter!r} begins no word; expected a letter with a number.", column=-1 - begin, word=letter)
@@ -113,7 +117,6 @@ class Block:
         values: of every letter but G, M and N.
         whole: letters whose number has no decimal point.
         codes: G and M codes by group; coolant may be two. unknown: codes of no group.
-        used: letters that something has taken.
     """
 
     values: dict[str, float] = field(default_factory=dict)
@@ -121,6 +124,10 @@ class Block:
     codes: dict[Group, str] = field(default_factory=dict)
     coolant: list[str] = field(default_factory=list)
     unknown: list[str] = field(default_factory=list)
+
+    def copy(self) -> Block:
+        """Return the block as it is now: carrying it out takes words away."""
+        return Block(dict(self.values), set(self.whole), dict(self.codes), list(self.coolant), list(self.unknown))
 
     def has(self, letters: str) -> bool:
         """Tell whether any of the letters is there."""

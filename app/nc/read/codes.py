@@ -86,7 +86,7 @@ WITHOUT_AXES = frozenset({"G4", "G9", "G28.1", "G30.1", "G53", "G92.1", "G92.2",
 TAKES: dict[str, str] = {code: letters.lower() for code, letters in CYCLE_WORDS.items()} | {
     "G2": "ijkrp", "G3": "ijkrp", "G4": "pxu", "G5": "ijpq", "G5.1": "ijpq", "G5.2": "pl", "G6.2": "pkr", "G10": "lprijq", "G33": "k",
     "G33.1": "ki", "G41": "d", "G42": "d", "G41.1": "dl", "G42.1": "dl", "G43": "h", "G43.1": "", "G43.2": "h", "G44": "h",
-    "G51": "ijkp", "G54.1": "p", "G64": "pq", "G65": "abcdefhijklmqrstuvwxyzp", "G68": "abr",
+    "G51": "ijkp", "G54.1": "p", "G64": "pqr", "G65": "abcdefhijklmqrstuvwxyzp", "G68": "abr",
     "G96": "d", "G187": "pe", "M19": "rpq", "M3": "$", "M50": "p", "M51": "p", "M52": "p", "M53": "p", "M61": "q",
     "M62": "p", "M63": "p", "M64": "p", "M65": "p", "M66": "pelq", "M67": "eq", "M68": "eq", "M97": "pl", "M98": "pl", "M99": "p",
 }  # fmt: skip

@@ -16,6 +16,7 @@ from app.nc.read.fault import Fault
 
 SMOOTH = 0.05
 """A corner of less, radians, is taken for none, and one of so much less than half a turn for an outer one, as LinuxCNC has it."""
+_NO_ROOM = "the tool does not reach into the inner corner before this move without cutting into the contour."
 SLACK = 1e-9
 """Where two offset curves meet may lie so far beyond the end of one, as a part of it."""
 
@@ -30,6 +31,7 @@ class Side:
         ccw: sense of an arc.
         leaving, arriving: unit directions of the programmed move at its start and its end.
         corner: the programmed end.
+        leads_in: it is the first one.
     """
 
     motion: Motion
@@ -40,6 +42,7 @@ class Side:
     leaving: complex
     arriving: complex
     corner: complex
+    leads_in: bool = False
 
     def fraction(self, point: complex) -> float:
         """Return how far along the offset curve a point on it lies, 0 at the start and 1 at the end."""
@@ -100,11 +103,30 @@ class Compensation:
         self._before, self.waiting, side.motion = side, [moved], moved
 
     def flush(self, columns: Columns) -> None:
-        """Write all moves."""
+        """Write all moves.
+
+        Raises:
+            Fault: two inner corners have turned a line round, so that the tool cannot get between them.
+        """
+        if self.waiting and self._turned_round():
+            raise Fault(_NO_ROOM, letter="g")
+        self.spill(columns)
+
+    def spill(self, columns: Columns) -> None:
+        """Write all moves as they are."""
         for motion in self.waiting:
             columns.add(motion)
             self._place = motion.end
         self.waiting = []
+
+    def _turned_round(self) -> bool:
+        """Tell whether the line that waits runs against its own direction; the way in may."""
+        side, moved = self._before, self.waiting[0]
+        if side is None or side.centre is not None or side.leads_in or moved is not side.motion:
+            return False
+        u, v, _ = self._plane.axes
+        way = complex(moved.end[u] - moved.start[u], moved.end[v] - moved.start[v])
+        return (way * side.arriving.conjugate()).real < -SLACK
 
     def _offset(self, motion: Motion, start: complex, end: complex) -> Side:
         if motion.kind == MotionKind.SPLINE:
@@ -127,10 +149,11 @@ class Compensation:
 
     def _enter(self, side: Side, start: complex) -> None:
         """Make a side the way in: from where the tool is to beside the move's end."""
+        side.leads_in = True
         u, v, _ = self._plane.axes
         here = complex(self.place[u], self.place[v])
         if side.centre is None:
-            if abs(side.corner - start) <= abs(self._radius):
+            if abs(side.corner - start) <= abs(self._radius) + SLACK:
                 raise Fault("the first move under cutter compensation must be longer than the tool's radius.", letter="g")
         else:
             radial, way = side.arriving * 1j, side.end - here
@@ -143,9 +166,10 @@ class Compensation:
     def _join(self, before: Side, side: Side, columns: Columns) -> None:
         """Join a side to the one before: round an outer corner, or cut off at an inner one."""
         bend = cmath.phase(side.leaving / before.arriving)
+        back = abs(bend) > math.pi - SMOOTH
         if abs(bend) <= SMOOTH:
             side.start = before.end
-        elif bend * self._radius < 0 or abs(bend) > math.pi - SMOOTH:
+        elif (back and not self._between(before, side)) or (bend * self._radius < 0 and not back):
             self.flush(columns)
             self._roll(side, before.corner, columns)
         else:
@@ -155,6 +179,16 @@ class Compensation:
                     motion.start = self._placed(meeting, motion.start)
                 motion.end = self._placed(meeting, motion.end)
             side.start = meeting
+
+    def _between(self, before: Side, side: Side) -> bool:
+        """Tell whether a turn straight back is an inner corner: between a line and the outside of an arc, where the tool would have
+        to go round the arc to get to the line's other side."""
+        arc = before if side.centre is None else side
+        return arc.centre is not None and self._outside(arc)
+
+    def _outside(self, arc: Side) -> bool:
+        """Tell whether the tool runs round an arc rather than within it."""
+        return arc.ccw == (self._radius < 0)
 
     def _roll(self, side: Side, corner: complex, columns: Columns) -> None:
         """Go round an outer corner; straight if the next move is a rapid."""
@@ -168,13 +202,18 @@ class Compensation:
         self._place = end
 
     def _meeting(self, before: Side, side: Side) -> complex:
-        """Return where two offset curves meet at an inner corner."""
-        points = [
-            point for point in _intersections(before, side)
-            if -SLACK <= before.fraction(point) <= 1 + SLACK and -SLACK <= side.fraction(point) <= 1 + SLACK
-        ]  # fmt: skip
+        """Return where two offset curves meet at an inner corner.
+
+        As LinuxCNC has it: an arc must reach so far, and whether a line is turned round by that `flush` tells, when its other end is known.
+        """
+        points = _intersections(before, side)
+        if (before.centre is None) != (side.centre is None):
+            points = sorted(points, key=lambda point: _along(before, side, point))
+            near = self._outside(side if before.centre is None else before)
+            points = points[:1] if near == (before.centre is None) else points[-1:]
+        points = [point for point in points if _on(before, point) and _on(side, point)]
         if not points:
-            raise Fault("the tool does not reach into the inner corner before this move without cutting into the contour.", letter="g")
+            raise Fault(_NO_ROOM, letter="g")
         return min(points, key=lambda point: abs(point - before.corner))
 
     def _placed(self, point: complex, like: Place) -> Place:
@@ -189,18 +228,29 @@ class Compensation:
         return self._placed(complex(place[u], place[v]), height)
 
 
+def _on(side: Side, point: complex) -> bool:
+    """Tell whether a point is on an offset arc; any is on a line, whose ends both move."""
+    return side.centre is None or -SLACK <= side.fraction(point) <= 1 + SLACK
+
+
+def _along(one: Side, other: Side, point: complex) -> float:
+    """Return how far along the line among two sides a point lies."""
+    line = one if one.centre is None else other
+    return ((point - line.start) * line.leaving.conjugate()).real
+
+
 def _intersections(one: Side, other: Side) -> list[complex]:
     """Return where the line or circle of one side meets that of another."""
     if one.centre is None and other.centre is None:
-        a, b = one.end - one.start, other.end - other.start
+        a, b = one.leaving, other.leaving
         cross = (a.conjugate() * b).imag
-        gap = other.start - one.start
-        return [one.start + a * (gap.conjugate() * b).imag / cross] if cross else []
+        gap = other.start - one.end
+        return [one.end + a * (gap.conjugate() * b).imag / cross] if cross else []
     if one.centre is None or other.centre is None:
         line, arc = (one, other) if one.centre is None else (other, one)
         assert arc.centre is not None
-        way = (line.end - line.start) / abs(line.end - line.start)
-        foot = line.start + way * ((arc.centre - line.start) * way.conjugate()).real
+        way = line.leaving
+        foot = line.end + way * ((arc.centre - line.end) * way.conjugate()).real
         return _either_side(foot, way, abs(arc.end - arc.centre) ** 2 - abs(foot - arc.centre) ** 2)
     gap, r, s = other.centre - one.centre, abs(one.end - one.centre), abs(other.end - other.centre)
     if abs(gap) < SLACK:

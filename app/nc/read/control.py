@@ -38,7 +38,8 @@ class Control:
         offsets: where zero is. tool_table: as the program has changed it.
         selected: T number that the next M6 takes.
         homes: of G28 and G30, mm, machine coordinates.
-        known: for each axis the first motion that the program itself set, -1 = none yet.
+        known: for each axis the first motion that the program itself set, -1 = none yet; then the first that moved it in G91
+            before any had set it.
         cycle: the last canned cycle with its words, None after another motion. initial: the height at which their run began,
             program coordinates and units. before_cycle: the motion before it.
         curve: the spline over several blocks that is being written, None outside of one. last_offset: P, Q of the last G5, mm.
@@ -59,7 +60,7 @@ class Control:
         self.tool_table: dict[int, ToolOffset] = dict(options.tool_table)
         self.selected = 0
         self.homes: dict[str, Place] = {"G28": (0.0, 0.0, 0.0), "G30": (0.0, 0.0, 0.0)}
-        self.known = [-1, -1, -1]
+        self.known = [-1] * 6
         self.cycle: Cycle | None = None
         self.initial = 0.0
         self.before_cycle = "G0"
@@ -151,11 +152,39 @@ class Control:
         if not all(abs(value) < 1e9 for value in place):
             raise Fault("the motion ends more than 1000 km away; check the numbers.")
 
-    def note_known(self, block: Block) -> None:
-        """Note that the motion to come sets the axes of the block's words."""
+    def note_known(self, block: Block, absolute: bool | None = None) -> None:
+        """Note that the motion to come sets the axes of the block's words, or moves them from where the reading began.
+
+        Args:
+            absolute: whether it sets them; None = as the distance mode has it.
+        """
+        sets = self.modal.absolute if absolute is None else absolute
         for axis, letter in enumerate(AXES):
-            if letter in block.values and self.known[axis] < 0:
-                self.known[axis] = self.row
+            entry = axis if sets else 3 + axis
+            if letter in block.values and self.known[axis] < 0 and self.known[entry] < 0:
+                self.known[entry] = self.row
+
+    def known_from(self) -> tuple[int, int, int]:
+        """Return from which motion on each axis is known, as `Motions` has it.
+
+        Where one moves in G91 before it is set the tool is taken to stand at zero, as LinuxCNC has it, along all axes not set by then.
+        """
+        assumed, begun = self.taken_for_known(), self._first_in_g91
+        x, y, z = (begun - 1 if letter in assumed else row if row >= 0 else self.columns.count
+                   for letter, row in zip("XYZ", self.known, strict=False))  # fmt: skip
+        return x, y, z
+
+    @property
+    def _first_in_g91(self) -> int:
+        """The first motion that moves an axis in G91 before any has set it; the number of motions where none does."""
+        return min((row for row in self.known[3:] if row >= 0), default=self.columns.count)
+
+    def taken_for_known(self) -> str:
+        """Return the axes that are taken to begin at zero."""
+        begun = self._first_in_g91
+        if begun >= self.columns.count:
+            return ""
+        return "".join(letter for letter, row in zip("XYZ", self.known, strict=False) if not 0 <= row < begun)
 
     def move(self, kind: MotionKind, end: Place, feed: float = 0.0, arc: tuple[Place, int] | None = None) -> None:
         """Add a motion from where the point is.

@@ -67,8 +67,7 @@ def _one_block(control: Control, block: Block, code: str) -> None:
 
 def _end(control: Control, block: Block) -> tuple[float, float, float]:
     """Return where the axis words lead, program coordinates."""
-    if control.modal.absolute:
-        control.note_known(block)
+    control.note_known(block)
     place = control.program_place
     for axis, value in control.axis_words(block):
         place = replaced(place, axis, value if control.modal.absolute else place[axis] + value)
@@ -103,8 +102,7 @@ def _fanuc_point(control: Control, block: Block) -> None:
         order = block.get("p")
         control.curve = OpenFanucNurbs(control.program_place, None if order is None else whole(order, "P of G6.2"))
     point = control.curve.place if block.has(AXES) else None
-    if control.modal.absolute:
-        control.note_known(block)
+    control.note_known(block)
     for axis, value in control.axis_words(block):
         assert point is not None
         point = replaced(point, axis, value if control.modal.absolute else point[axis] + value)

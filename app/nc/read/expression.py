@@ -175,11 +175,16 @@ class Values:
         return _joined(lambda y, x: math.degrees(math.atan2(y, x)), value, self._bracket())
 
     def _exists(self) -> Value:
-        named = re.compile(r"\[#<([^<>\[\]()#]{1,200})>\]").match(self.code, self.at)
-        if named is None:
-            raise self._fault("expected a parameter's name, as in EXISTS[#<name>]")
-        self.at, name = named.end(), named[1]
-        return lambda parameters: float(parameters.exists(name))
+        if self.code[self.at : self.at + 2] != "[#":
+            raise self._fault("expected a parameter, as in EXISTS[#<name>]")
+        self.at += 2
+        key = self.key()
+        if self._peek() != "]":
+            raise self._fault("expected ] behind the parameter")
+        self.at += 1
+        if isinstance(key, str):
+            return lambda parameters: float(parameters.exists(key))
+        return 1.0  # every number has a value, 0 where nobody has set it
 
     def _parameter(self) -> Value:
         key = self.key()

@@ -42,6 +42,7 @@ class Frame:
         begin: its first line. back: where the caller goes on.
         left: calls that are left, of M98 with L.
         own_parameters: it began with parameters of its own.
+        called: by an O word with call, so that endsub or return ends it; else by M98 or its like, and M99 does.
         loops: by label. ends: of Fanuc's loops, the line with WHILE by the offset of the line with END.
     """
 
@@ -50,6 +51,7 @@ class Frame:
     back: Cursor = field(default_factory=lambda: Cursor(0, 1))
     left: int = 0
     own_parameters: bool = False
+    called: bool = False
     loops: dict[str, Loop] = field(default_factory=dict)
     ends: dict[int, Cursor] = field(default_factory=dict)
 
@@ -184,8 +186,11 @@ class Flow:
         self.next = self.places.after(self._partner(statement, "endsub").at)
 
     def _endsub(self, statement: Statement, values: Values) -> None:
-        if self.frames[-1].label != statement.label:
+        frame = self.frames[-1]
+        if len(self.frames) == 1:
             raise Fault(f"O{statement.label} {statement.keyword} ends a subroutine that is not running.")
+        if not frame.called:
+            raise Fault(f"O{frame.label} is called by M98, so M99 must end it, not {statement.keyword}.")
         control = self._control
         has_value = values.at < len(values.code)
         value = self._condition(values) if has_value else 0.0
@@ -202,9 +207,13 @@ class Flow:
             given.append(evaluated(values.value(), parameters))
         found = self.places.subroutine(statement.label)
         if found is None:
-            raise Fault(f"there is no subroutine O{statement.label} in this file.")
+            raise Fault(f"there is no subroutine O{statement.label} in this file; a file of its own beside the program is not read, so put "
+                        "it into this one.")  # fmt: skip
+        if found.keyword != "sub":
+            raise Fault(f"O{statement.label} is a subroutine of M98, for it has no sub; call it with M98 P{statement.label}.")
         arguments: dict[Key, float] = {number: (given[number - 1] if number <= len(given) else 0.0) for number in range(1, 31)}
         self.call((statement.label, self.places.after(found.at)), arguments, 1)
+        self.frames[-1].called = True
 
     def _if(self, statement: Statement, values: Values) -> None:
         branch, holds = statement, self._condition(values) != 0

@@ -21,8 +21,7 @@ def bore(control: Control, block: Block) -> None:
         control.initial = place[control.modal.plane.axes[2]]
     cycle = with_sticky(_cycle(control, block), control.cycle)
     control.cycle = cycle
-    if control.modal.absolute:
-        control.note_known(block)
+    control.note_known(block)
     if taps_astray(cycle):
         control.warn(f"LinuxCNC (2.9) feeds {cycle.code} along the wrong axes in G18 and G19; it is shown as it would move.", "g")
     for step in cycle_steps(cycle, place, control.initial):

@@ -31,7 +31,8 @@ class Plain:
         shift: (3,) mm, added to absolute coordinates.
         state: index of the modal state.
         semicolon_comments: a semicolon begins a comment.
-        known: (3,) first row whose absolute word commands each axis, -1 = none yet.
+        known: (6,) first row whose absolute word commands each axis; then first row whose incremental word moves it before
+            that; -1 = none yet.
     """
 
     position: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
@@ -45,7 +46,7 @@ class Plain:
     shift: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
     state: int = 0
     semicolon_comments: bool = True
-    known: NDArray[np.int64] = field(default_factory=lambda: np.full(3, -1))
+    known: NDArray[np.int64] = field(default_factory=lambda: np.full(6, -1))
 
 
 def plain_blocks(data: NDArray[np.uint8], at: tuple[int, int], plain: Plain, columns: Columns, most_lines: int) -> tuple[int, int]:

@@ -108,6 +108,8 @@ def call_or_return(flow: Flow, control: Control, block: Block) -> bool:
         return True
     if code == "M99":
         if flow.frames[-1].label or len(flow.frames) > 1:
+            if flow.frames[-1].called:
+                raise Fault(f"O{flow.frames[-1].label} is called by an O word, so endsub or return must end it, not M99.", letter="m")
             back = block.get("p")
             flow.leave()
             if back is not None and control.habits.fanuc_flow:
@@ -119,7 +121,7 @@ def call_or_return(flow: Flow, control: Control, block: Block) -> bool:
         return False
     number, count = _called(control, block, code)
     if count:
-        flow.call(_goal(flow, code, number), None, count)
+        flow.call(_goal(flow, control, code, number), None, count)
     return True
 
 
@@ -134,22 +136,27 @@ def _called(control: Control, block: Block, code: str) -> tuple[int, int]:
     return number, count
 
 
-def _goal(flow: Flow, code: str, number: int) -> tuple[str, Cursor]:
+def _goal(flow: Flow, control: Control, code: str, number: int) -> tuple[str, Cursor]:
     if code == "M97":
         to = flow.places.number(number, -1)
         if to is None:
             raise Fault(f"there is no block N{number} to call.", letter="p")
         return f"N{number}", to
-    return subroutine(flow, number)
+    return subroutine(flow, number, plain=control.habits.ngc_flow)
 
 
-def subroutine(flow: Flow, number: int) -> tuple[str, Cursor]:
+def subroutine(flow: Flow, number: int, plain: bool = False) -> tuple[str, Cursor]:
     """Return label and first line of a program to call.
 
+    Args:
+        plain: one that begins with sub is not for M98.
+
     Raises:
-        Fault: it is not in this file.
+        Fault: it is not in this file, or not for M98.
     """
     found = flow.places.subroutine(str(number))
     if found is None:
-        raise Fault(f"there is no subroutine O{number} in this file.", letter="p")
+        raise Fault(f"there is no subroutine O{number} in this file; a file of its own is not read, so put it into this one.", letter="p")
+    if plain and found.keyword == "sub":
+        raise Fault(f"O{number} begins with sub, so O{number} call must call it, not M98.", letter="p")
     return str(number), flow.places.after(found.at)

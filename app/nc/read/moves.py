@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 
 from app.model.motion import MotionKind, Plane
+from app.model.part import Units
 from app.nc.read.arc_kernels import centre_by_radius, radii
 from app.nc.read.block import Block
 from app.nc.read.codes import AXES, CYCLES, ROTARY, WITHOUT_AXES, Group
@@ -23,10 +24,13 @@ RADIUS_SLACK_MM = 0.00127
 """How much the R word of a half circle may be too small to reach the end, as LinuxCNC has it."""
 
 LEAST_RADIUS_MM = 0.00127
-MISMATCH = {Dialect.GRBL: (0.005, 0.5)}
-MISMATCH_OF_OTHERS = (0.0285, math.inf)
-"""The two radii of an arc may differ by the first, mm, or by 0.1 %, but never by the second."""
 RELATIVE_MISMATCH = 1e-3
+"""The two radii of an arc may differ by so much of the larger one, whatever the control: LinuxCNC and grbl have it so."""
+GRBL_MISMATCH_MM = (0.005, 0.5)
+LINUXCNC_MISMATCH = {Units.MM: 0.02 * math.sqrt(2.0), Units.INCH: 0.002 * math.sqrt(2.0)}
+"""How far the two radii may be apart whatever their size, in units of the program; measured at its interpreter."""
+LINUXCNC_MOST = 100.0
+"""So many times that they may never be apart, be the arc as large as it may."""
 CURVES = ("G5.2", "G5.3", "G6.2")
 """They take several blocks for one curve."""
 MOST_TURNS = 100_000
@@ -80,7 +84,7 @@ def _go_home(control: Control, block: Block, code: str) -> None:
     drop_curve(control)
     named = [axis for axis, letter in enumerate(AXES) if letter in block.values]
     by_way = control.target(block)
-    control.note_known(block)
+    control.note_known(block, absolute=True)
     if by_way != control.at or not control.habits.fanuc_flow:
         control.move(MotionKind.RAPID, by_way)
     home = control.offsets.to_program(taken(control.homes[code], control.offsets.tool))
@@ -94,8 +98,7 @@ def _go_home(control: Control, block: Block, code: str) -> None:
 def _target(control: Control, block: Block) -> Place:
     """Return where the axis words lead; under G53 they count from the machine's zero."""
     if block.codes.get(Group.ONCE) != "G53":
-        if control.modal.absolute:
-            control.note_known(block)
+        control.note_known(block)
         return control.target(block)
     control.homeward.append(control.row)
     place = control.at
@@ -132,6 +135,8 @@ def _no_motion(control: Control, block: Block) -> None:
 
 def _arc(control: Control, block: Block) -> None:
     code = control.motion
+    if control.stray is not None:
+        raise Fault("the move just after cutter compensation (G40) must be straight, not an arc.", letter="g")
     u, v, w = control.modal.plane.axes
     if not block.has(AXES + ROTARY + "ijkr"):
         raise Fault(f"{code} needs its end or its centre.", letter="g")
@@ -219,14 +224,32 @@ def _check_radii(control: Control, end: Place, centre: Place) -> None:
     first, last = radii(control.at[u], control.at[v], end[u], end[v], centre[u], centre[v])
     if first < LEAST_RADIUS_MM or last < LEAST_RADIUS_MM:
         raise Fault(f"the arc has no radius (start {first:.4g} mm, end {last:.4g} mm from its centre).", letter="ijk")
-    some, most = MISMATCH.get(control.options.dialect, MISMATCH_OF_OTHERS)
+    some, most = _mismatch(control)
     off = abs(first - last)
     if (off > some and off > RELATIVE_MISMATCH * max(first, last)) or off > most:
         raise Fault(f"the arc does not end on its circle: its radius is {first:.4f} mm at the start and {last:.4f} mm at the end.", "ijk")
 
 
+def _mismatch(control: Control) -> tuple[float, float]:
+    """Return by how much, mm, the two radii of an arc may differ at any size, and by how much at none.
+
+    Fanuc, Haas and Mach3 leave it to a setting of the machine: they are taken to allow what LinuxCNC allows in mm, at any size.
+    """
+    dialect = control.options.dialect
+    if dialect is Dialect.GRBL:
+        return GRBL_MISMATCH_MM
+    if dialect is not Dialect.LINUXCNC:
+        return LINUXCNC_MISMATCH[Units.MM], math.inf
+    some = LINUXCNC_MISMATCH[control.modal.units] * control.unit
+    return some, LINUXCNC_MOST * some
+
+
 def _probe(control: Control, block: Block) -> None:
     """Take the way to a probe's goal as fed all along: where it will stop nobody knows."""
+    if not block.has(AXES + ROTARY):
+        raise Fault(f"{control.motion} needs axis words: where to look for the work.", letter="g")
+    if block.has(AXES) and not block.has(ROTARY) and math.dist(control.at, control.target(block)) == 0.0:
+        raise Fault(f"{control.motion} begins where it ends, so it can probe nothing.", letter="g")
     control.warn(f"{control.motion} stops where the probe touches; it is shown up to its end.", "g")
     _line(control, block)
 

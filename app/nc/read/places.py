@@ -15,10 +15,11 @@ KEYWORDS = (
     "continue",
 )  # fmt: skip
 
+_SPACED = "|".join(r"[ \t]*".join(word) for word in sorted(KEYWORDS, key=len, reverse=True))
+"""The keywords with blanks between their letters, which a control skips: "end sub"."""
+
 _O_LINE = re.compile(
-    rb"^[ \t]*(?:/[ \t]*)?(?:n[ \t]*[0-9.]+[ \t]*)?[o:][ \t]*(<[^>\n]{1,200}>|[0-9]{1,9})[ \t]*(%s)?" % "|".join(
-        sorted(KEYWORDS, key=len, reverse=True)
-    ).encode(),
+    rb"^[ \t]*(?:/[ \t]*)?(?:n[ \t]*[0-9.]+[ \t]*)?[o:][ \t]*(<[^>\n]{1,200}>|[0-9](?:[ \t]*[0-9]){0,8})[ \t]*(%s)?" % _SPACED.encode(),
     re.IGNORECASE | re.MULTILINE,
 )
 _N_LINE = re.compile(rb"^[ \t]*(?:/[ \t]*)?n[ \t]*([0-9]{1,9})(?![0-9.])", re.IGNORECASE | re.MULTILINE)
@@ -50,10 +51,14 @@ class Places:
 
     def __init__(self, text: Text) -> None:
         """Look into a text."""
-        self._text = text
+        self._text, self._end = text, len(text.data)
         self._by_label: dict[str, list[Statement]] | None = None
         self._numbers: dict[int, list[Cursor]] | None = None
         self._loops: list[tuple[Cursor, bool, int]] | None = None
+
+    def end_at(self, offset: int) -> None:
+        """Look no farther than to an offset: what stands behind a program's closing per cent sign no control reads."""
+        self._end = offset
 
     def after(self, at: Cursor) -> Cursor:
         """Return the line behind the one at a place."""
@@ -94,7 +99,8 @@ class Places:
         if self._by_label is None:
             self._by_label = {}
             for found, line in self._found(_O_LINE):
-                name, keyword = label_of(found[1].decode(self._text.encoding, "replace")), (found[2] or b"").decode().lower()
+                name = label_of(found[1].decode(self._text.encoding, "replace"))
+                keyword = "".join((found[2] or b"").decode().lower().split())
                 self._by_label.setdefault(name, []).append(Statement(Cursor(found.start(), line), name, keyword))
         return self._by_label.get(label, [])
 
@@ -105,7 +111,7 @@ class Places:
             Fault: there are more than any program has.
         """
         data, line, counted = self._text.data, 1, 0
-        for index, match in enumerate(pattern.finditer(data)):
+        for index, match in enumerate(pattern.finditer(data, 0, self._end)):
             if index >= MOST_PLACES:
                 raise Fault(f"the program has more than {MOST_PLACES} places to go on at; the reader stops here.")
             line += data.count(b"\n", counted, match.start())

@@ -176,7 +176,8 @@ def run_plain(data, factors, modes, places, columns):
     Args:
         factors: mm per unit of numbers with a decimal point, of others, and the feed in mm/min (NaN = not known).
         modes: offset, line, count of motions, motion, most lines, plane, state, absolute, arc_absolute, semicolons.
-        places: position and shift, mm; first row that commands each axis. Position and rows are changed.
+        places: position and shift, mm; (6,) first row that commands each axis, by an absolute word and, where none has yet, by an
+            incremental one. Position and rows are changed.
         columns: of the motions, with room for a motion a line.
     """
     scale, bare_scale, feed = factors
@@ -204,8 +205,9 @@ def run_plain(data, factors, modes, places, columns):
                 break
             _write(columns, count, position, end, centre, new_feed, (kind, plane, line, state))
             for axis in range(3):
-                known[axis] = count if known[axis] < 0 and absolute != 0 and given[axis] != _ABSENT else known[axis]
-            for axis in range(3):
+                entry = axis if absolute != 0 else 3 + axis  # by an absolute word, or from where the reading began
+                if given[axis] != _ABSENT and known[axis] < 0 and known[entry] < 0:
+                    known[entry] = count
                 position[axis] = end[axis]
             motion, count = kind, count + 1
         feed, offset, line, lines_left = new_feed, following, line + 1, lines_left - 1

@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 
+from app.errors import MOST_QUOTED, shortened
 from app.nc.read.block import SLASH, Block, Parsed, block_of, parse
 from app.nc.read.codes import CYCLES, TAKES, Group
 from app.nc.read.control import Control
@@ -19,8 +20,10 @@ from app.nc.read.moves import move
 from app.nc.read.notes import notes
 from app.nc.read.options import ReadOptions
 from app.nc.read.places import Cursor, Places
+from app.nc.read.polar import check_polar, turn_polar_into_axes
 from app.nc.read.program import EventKind, FeedMode, NcProgram, Problem, Severity
 from app.nc.read.settings import before_motion, set_once
+from app.nc.read.steps import Step, Watch
 from app.nc.read.text import Text, code_of, column_of
 from app.progress import Progress
 
@@ -37,6 +40,7 @@ _PLAIN = re.compile(rb"(?:[ \txyzijkrfnXYZIJKRFN0-9.+\-]+|[gG][ \t]*0?[0-3](?![ 
 """A line that the lane may know how to do."""
 
 _LEADER = re.compile(rb"[ \t\n\v\f\0]*%")
+_CLOSED = re.compile(rb"^[ \t]*%[ \t]*$", re.MULTILINE)
 _PERCENT = re.compile(rb"^[ \t]*%", re.MULTILINE)
 _O_WORD = re.compile(r"/?(?:n[0-9.]+)?[o:]")
 _PROGRAM_NUMBER = re.compile(r"^(/?(?:n[0-9.]+)?)[o:]")
@@ -51,8 +55,8 @@ class Run:
         stopped: whether the reading ended at the line of `stop_at`. inside: ... within a subroutine or a loop.
     """
 
-    def __init__(self, data: bytes, options: ReadOptions, progress: Progress) -> None:
-        """Stand before the first line."""
+    def __init__(self, data: bytes, options: ReadOptions, progress: Progress, watch: Watch | None = None) -> None:
+        """Stand before the first line; with a watch every block is done by itself, and told to it."""
         self._text, self._options, self._progress = Text(data), options, progress
         self._control = Control(options)
         self._habits = self._control.habits
@@ -63,6 +67,7 @@ class Run:
         self._problems: list[Problem] = []
         self._furthest, self._told = -1, 0
         self._stop = len(self._text.data) + 1
+        self._watch, self._opened = watch, False
         self.stopped = self.inside = False
 
     @property
@@ -94,17 +99,19 @@ class Run:
                     break
             else:
                 self._miss_end()
+            if self._control.compensation is not None and not self.stopped:
+                self._control.compensation.flush(self._control.columns)
         except Fault as fault:
             self._problems.append(self._located(fault, Severity.ERROR))
         except RecursionError:
             self._problems.append(self._located(Fault("the block is too long or too deep to be read."), Severity.ERROR))
         control = self._control
         if control.compensation is not None:
-            control.compensation.flush(control.columns)
+            control.compensation.spill(control.columns)
+        self._warn_of_start()
         warnings = [Problem(line, 0, letter.upper(), text, Severity.WARNING) for text, (letter, line) in control.warnings.items()]
         told = notes(self._text.data)
-        known = [row if row >= 0 else control.columns.count for row in control.known]
-        motions = control.columns.motions(control.splines, (known[0], known[1], known[2]))
+        motions = control.columns.motions(control.splines, control.known_from())
         return NcProgram(
             motions, control.states, tuple(control.events), tuple(control.homeward), (*warnings, *self._problems), told.tools, told.stock,
             self._text.line_count, told.header,
@@ -116,6 +123,15 @@ class Run:
             self._control.line = self._text.line_count
             self._control.warn("the program has no end; LinuxCNC wants M2, M30 or % behind it.")
 
+    def _warn_of_start(self) -> None:
+        """Tell that the program moves from where it has not said that the tool is."""
+        control = self._control
+        axes = control.taken_for_known()
+        if axes:
+            control.line = int(control.columns.line[min(row for row in control.known[3:] if row >= 0)])
+            control.warn("the tool moves in G91 before the program has said where it is; it is taken to begin at "
+                         f"{' '.join(f'{letter}0' for letter in axes)} of the work offsets' table.", "g")  # fmt: skip
+
     def _skip_leader(self) -> None:
         """Begin behind the per cent sign of a program that has one; Fanuc's and Haas' readers skip what stands before it."""
         data = self._text.data
@@ -123,6 +139,9 @@ class Run:
         if found is not None and is_leader(data[: found.start()]):
             offset = self._text.line_end(found.end()) + 1
             self._flow.next = Cursor(offset, data.count(b"\n", 0, offset) + 1)
+            closed = _CLOSED.search(data, offset)
+            self._flow.places.end_at(closed.start() if closed else len(data))
+            self._opened = True
 
     def _step(self) -> bool:
         """Do plain lines, or one line of any kind; False at the end of the program."""
@@ -132,7 +151,7 @@ class Run:
             return False
         self._count()
         longest = flow.next.offset + self._options.limits.line_length + 1
-        if _PLAIN.match(self._text.data, flow.next.offset, longest) is not None and self._plain_lines():
+        if self._watch is None and _PLAIN.match(self._text.data, flow.next.offset, longest) is not None and self._plain_lines():
             return True
         flow.here, self._control.line = flow.next, flow.next.line
         flow.next = Cursor(self._text.line_end(flow.here.offset) + 1, flow.here.line + 1)
@@ -187,11 +206,29 @@ class Run:
             if (self._flow.nested or at.offset < self._furthest) and len(self._kept) < MOST_KEPT:
                 self._kept[at.offset] = line
         if isinstance(line, Parsed):
-            return self._execute(block_of(line, self._control.parameters))
+            return self._done(line)
         if not line or line.startswith("%"):
+            if line:
+                self._check_percent(at)
             return not line
         rest = self._jump(line)
-        return not rest or self._execute(block_of(self._parse(rest), self._control.parameters))
+        return not rest or self._done(self._parse(rest))
+
+    def _done(self, parsed: Parsed) -> bool:
+        """Do a line's block; False at the end of the program."""
+        control, block = self._control, block_of(parsed, self._control.parameters)
+        if self._watch is None:
+            return self._execute(block)
+        line, before, row, said = control.line, control.modal, control.row, block.copy()
+        goes_on = self._execute(block)
+        self._watch(Step(line, parsed, said, (before, control.modal), control.motion, control.feed, (row, control.row)))
+        return goes_on
+
+    def _check_percent(self, at: Cursor) -> None:
+        """Refuse a per cent sign that ends nothing, as LinuxCNC does."""
+        alone = self._text.line(at.offset).strip() == "%"
+        if self._options.dialect is Dialect.LINUXCNC and not (self._opened and alone):
+            raise Fault("a per cent sign ends a program that begins with one, alone in its line; take it out.", column=-1, word="%")
 
     def _understood(self, at: Cursor) -> Parsed | str:
         """Return a line in words, or its code: "" where there is nothing to do, or what begins with % or is a jump."""
@@ -211,7 +248,7 @@ class Run:
         return self._parse(code)
 
     def _parse(self, code: str) -> Parsed:
-        return parse(code, self._options.limits.nesting, free=self._habits.fanuc_flow)
+        return parse(code, self._options.limits.nesting, free=self._habits.fanuc_flow, polar=self._habits.ngc_flow)
 
     def _jump(self, code: str) -> str:
         """Obey a line that is a jump; return what is left of it to obey."""
@@ -231,11 +268,13 @@ class Run:
         if self._habits.fanuc_flow:
             adapt(control, block)
         self._check_codes(block)
+        check_polar(control, block)
         if block.codes.get(Group.ONCE) == "G65":
             call_macro(self._flow, control, block)
             return True
         before_motion(control, block)
         set_once(control, block)
+        turn_polar_into_axes(control, block)
         move(control, block)
         stop = block.codes.get(Group.STOP)
         if stop in _ENDS:
@@ -281,7 +320,7 @@ class Run:
             column, word = self._word(line, fault.letter.lower(), fault.text)
         elif column < 0:
             column = column_of(line, -1 - column)
-        return Problem(at.line, min(max(column, 0), len(line) + 1), word, fault.text, severity)
+        return Problem(at.line, min(max(column, 0), len(line) + 1), word[:MOST_QUOTED], shortened(fault.text), severity)
 
     def _word(self, line: str, letters: str, text: str) -> tuple[int, str]:
         """Return column and spelling of the word that a fault is about: the one that its text names, else the first."""

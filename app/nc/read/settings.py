@@ -12,12 +12,12 @@ from app.nc.read.block import Block
 from app.nc.read.codes import Group
 from app.nc.read.compensation import Compensation
 from app.nc.read.control import Control
-from app.nc.read.dialect import Dialect
 from app.nc.read.expression import whole
 from app.nc.read.fault import Fault
+from app.nc.read.feeds import set_feed
 from app.nc.read.offsets import ZERO, Place, added, offset_name, replaced, taken
 from app.nc.read.options import ToolOffset
-from app.nc.read.program import EventKind, FeedMode
+from app.nc.read.program import EventKind
 
 PLANES = {"G17": Plane.XY, "G18": Plane.ZX, "G19": Plane.YZ}
 LARGEST_SPEED = 1e7
@@ -32,33 +32,12 @@ def before_motion(control: Control, block: Block) -> None:
     """
     if control.compensation is not None and Group.RADIUS not in block.codes:
         _check_compensation(control, block)
-    if Group.FEED in block.codes:
-        _feed_mode(control, block)
-    _feed(control, block)
+    set_feed(control, block)
     _speed(control, block)
     _tool_word(control, block)
     for group, step in _STEPS:
         if group in block.codes:
             step(control, block)
-
-
-def _feed_mode(control: Control, block: Block) -> None:
-    code = block.codes[Group.FEED]
-    mode = FeedMode(code)
-    if mode is not control.modal.feed_mode or control.options.dialect is Dialect.LINUXCNC:
-        control.change(feed_mode=mode)
-        control.feed = math.nan
-
-
-def _feed(control: Control, block: Block) -> None:
-    value = block.get("f")
-    inverse = control.modal.feed_mode is FeedMode.INVERSE_TIME
-    if value is None:
-        control.feed = math.nan if inverse else control.feed
-        return
-    if value < 0:
-        raise Fault(f"the feed rate is {value:g}; it must be greater than 0.", letter="f")
-    control.feed = value * (1.0 if inverse else control.feed_unit(block)) or math.nan
 
 
 def _speed(control: Control, block: Block) -> None:
@@ -234,7 +213,9 @@ def _path(control: Control, block: Block) -> None:
     code = block.codes[Group.PATH]
     words, tolerance = [code], 0.0 if code != "G64" else None
     if code == "G64":
-        for letter in "pq":
+        if block.has("r"):
+            control.warn("R of G64 is LinuxCNC's from 2.10 on; older ones refuse it.", "r")
+        for letter in "pqr":
             value = block.values.pop(letter, None) if block.has(letter) else None
             if value is not None:
                 words.append(f"{letter.upper()}{value:g}")

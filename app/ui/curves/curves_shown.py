@@ -114,10 +114,9 @@ def smoothed(was: Shown, options: SmoothOptions, side: Side, progress: Progress)
     from app.model.motion_path import anchored
     from app.workflow.smooth import smooth
 
-    dialect = was.dialect if options.post is None else options.post.dialect
-    done = smooth(was.source.name, was.source.bytes(), replace(options, dialect=dialect), progress.part(0.0, 0.7))
+    done = smooth(was.source.name, was.source.bytes(), replace(options, dialect=was.dialect), progress.part(0.0, 0.7))
     name = Path(was.source.name)
-    source = Source(f"{name.stem}-smooth{name.suffix}", done.data, dialect=dialect, tools=was.source.tools)
+    source = Source(f"{name.stem}-smooth{name.suffix}", done.data, dialect=done.dialects[1], tools=was.source.tools)
     now = read_shown(source, side, progress.part(0.7, 0.85))
     progress.step(0.85, "Preparing the picture")
     before = shape_motions(replace(done.before, motions=anchored(done.before.motions)))

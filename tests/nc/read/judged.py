@@ -47,7 +47,7 @@ def _judge_motions(program: NcProgram) -> None:
     assert ((motions.state >= 0) & (motions.state < len(program.states))).all() and program.states
     assert not (motions.feed < 0).any() and not np.isinf(motions.feed).any()
     assert set(motions.splines) == set(np.flatnonzero(motions.kind == MotionKind.SPLINE).tolist())
-    assert all(0 <= row <= count for row in motions.known_from)
+    assert all(-1 <= row <= count for row in motions.known_from)
     for event in program.events:
         assert 0 <= event.before <= count and 1 <= event.line <= program.line_count and np.isfinite(event.value), event
 

@@ -40,8 +40,9 @@ class Oracle:
         start = [float(c) for c in plain.position]
         end = [self._reached(k, c, lengths) for k, c in enumerate("XYZ")]
         for k, c in enumerate("XYZ"):
-            if c in lengths and plain.absolute and plain.known[k] < 0:
-                plain.known[k] = len(self.rows)
+            entry = k if plain.absolute else 3 + k
+            if c in lengths and plain.known[k] < 0 and plain.known[entry] < 0:
+                plain.known[entry] = len(self.rows)
         centre = [math.nan] * 3 if plain.motion < 2 else self._centre(start, end, lengths)
         feed = plain.feed if plain.motion else 0.0
         self.rows.append((*start, *end, *centre, plain.motion, plain.plane, plain.motion > 1, feed, number, plain.state))

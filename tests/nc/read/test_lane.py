@@ -41,13 +41,13 @@ def test_it_changes_what_is_in_force() -> None:
     plain = moving(motion=-1, state=5)
     rows, _ = lane("G3 X2 I1 F30\nX1 Z4 R1\nM2", plain)
     assert plain.motion == 3 and plain.feed == 30.0 and plain.position.tolist() == [1.0, 0.0, 4.0]
-    assert plain.known.tolist() == [0, -1, 1] and [row[STATE] for row in rows] == [5, 5]
+    assert plain.known.tolist() == [0, -1, 1, -1, -1, -1] and [row[STATE] for row in rows] == [5, 5]
 
 
 def test_incremental_words_do_not_make_an_axis_known() -> None:
     plain = moving(absolute=False, position=np.array([1.0, 2.0, 3.0]), shift=np.array([50.0, 0.0, 0.0]))
     rows, _ = lane("X1 Y-1\nX1", plain)
-    assert [row[END] for row in rows] == [(2.0, 1.0, 3.0), (3.0, 1.0, 3.0)] and plain.known.tolist() == [-1, -1, -1]
+    assert [row[END] for row in rows] == [(2.0, 1.0, 3.0), (3.0, 1.0, 3.0)] and plain.known.tolist() == [-1, -1, -1, 0, 0, -1]
 
 
 def test_shift_and_scale() -> None:
@@ -89,7 +89,7 @@ def test_whatever_is_unusual_is_left_alone(text: str) -> None:
     plain = moving()
     rows, at = lane(f"X5 Z0\nX0\n{text}\nX7\n".encode("latin-1"), plain)
     assert at == (9, 3) and [row[END] for row in rows] == [(5.0, 0.0, 0.0), (0.0, 0.0, 0.0)]
-    assert plain.feed == 100.0 and plain.motion == 1 and plain.known.tolist() == [0, -1, 0]
+    assert plain.feed == 100.0 and plain.motion == 1 and plain.known.tolist() == [0, -1, 0, -1, -1, -1]
 
 
 @pytest.mark.parametrize(("text", "plain"), [

@@ -191,12 +191,22 @@ def test_columns_count_what_is_written() -> None:
 
 
 def test_axes_that_the_program_has_not_set() -> None:
-    assert read("G0 Z5\nX1\nG91 Y1\nM2\n").motions.known_from == (1, 3, 0)
+    assert read("G0 Z5\nX1\nG91 X1\nM2\n").motions.known_from == (1, 3, 0)
     assert read("G28 Z5 F1\nT1 M6\nG1 X1 S5\nM2\n").motions.known_from == (2, 3, 0)
 
 
+def test_axes_that_begin_in_g91_count_from_zero_as_linuxcnc_has_it() -> None:
+    """Known from the motion before; where there is none, from before the first."""
+    assert read("G0 Z5\nX1\nG91 Y1\nM2\n").motions.known_from == (1, 1, 0)
+    assert read("G91\nX1\nM2\n", Dialect.FANUC).motions.known_from == (-1, -1, -1)
+    assert read("G90 G0 X1\nG91 Y1\nG90 Z1\nM2\n").motions.known_from == (0, 0, 0)
+    told = read("G91\nG1 F100 X1 Y1\nG1 Z-1\nX2\nM2\n").problems
+    assert [problem.line for problem in told] == [2] and "X0 Y0 Z0" in told[0].text
+    assert not read("G91 G28 Z0.\nG90\nG1 F100 X1 Y1 Z1\nM2\n").problems
+
+
 def test_fanuc_repeats_holes_by_k() -> None:
-    text = "G21 G91 F100.\nG81 X1. Z-1. R1. K2\nG80\nM30\n"
+    text = "G21 G0 X0 Y0 Z0\nG91 F100.\nG81 X1. Z-1. R1. K2\nG80\nM30\n"
     assert [end[0] for end in ends(read(text, Dialect.FANUC))][-1] == 2
     assert not warnings(text, Dialect.FANUC)
 
