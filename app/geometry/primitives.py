@@ -181,6 +181,20 @@ def points_at(rows: Rows, fraction: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.where((rows[:, TURN] == 0)[:, None], line, arc)
 
 
+def distances(rows: Rows, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how far each point (n, 2) is from the row (n, 8) of its own, ends included, mm."""
+    along, arm, back = rows[:, 2:4] - rows[:, :2], points - rows[:, :2], points - rows[:, 2:4]
+    share = np.clip((arm * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
+    straight = np.hypot(*(arm - along * share[:, None]).T)
+    out, first, last = points - rows[:, CX:R], rows[:, :2] - rows[:, CX:R], rows[:, 2:4] - rows[:, CX:R]
+    before = (first[:, 0] * out[:, 1] - first[:, 1] * out[:, 0]) * rows[:, TURN] < 0
+    beyond = (out[:, 0] * last[:, 1] - out[:, 1] * last[:, 0]) * rows[:, TURN] < 0
+    ends = np.minimum(np.hypot(*arm.T), np.hypot(*back.T))
+    curved = np.where(before | beyond, ends, np.abs(np.hypot(*out.T) - rows[:, R]))
+    far: NDArray[np.float64] = np.where(rows[:, TURN] == 0, straight, curved)
+    return far
+
+
 def row_curve(row: Rows) -> Line | Arc:
     """Return one row as a line or an arc of the model."""
     start, end = (float(row[X0]), float(row[Y0])), (float(row[X1]), float(row[Y1]))

@@ -67,7 +67,7 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
 
 def machined(parts: Drawn) -> tuple[Region, ...]:
     """Return the regions that all closed contours bound; those that meet count even-odd."""
-    return nest(without_crossings(parts.closed) if parts.crossing else parts.closed)
+    return nest(without_crossings(parts.closed).contours if parts.crossing else parts.closed)
 
 
 def regions_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:

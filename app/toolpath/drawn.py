@@ -102,7 +102,7 @@ def clamps_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
     if not closed:
         findings.append(Finding(FindingKind.LEFT_OUT, f"Keep-out layers {', '.join(job.keep_out_layers)} have no closed outline."))
     if _crosses(chaining.findings):
-        closed = [part for contour in closed for part in without_crossings([contour])]
+        closed = [part for contour in closed for part in without_crossings([contour]).contours]
     return outermost(closed), findings
 
 

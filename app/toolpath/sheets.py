@@ -93,7 +93,7 @@ class Sheets:
         if self._made_by_drills:
             closed = [contour for contour in closed if circle_of(contour) not in self._made_by_drills]
         if side is not Side.ON and self.drawn.crossing:
-            closed = list(without_crossings(closed))
+            closed = list(without_crossings(closed).contours)
         frame = self._frame((*closed, *lines, *(c for region in self.drawn.clamps for c in region.contours)))
         if frame is None or (side is not Side.ON and not closed):
             return None
@@ -136,7 +136,7 @@ def without_clamps(contours: Sequence[Contour], clamps: Sequence[Region]) -> tup
         contours: none crosses itself or another.
         clamps: without islands; they may overlap one another.
     """
-    return nest(without_outlines(contours, [clamp.boundary for clamp in clamps]))
+    return nest(without_outlines(contours, [clamp.boundary for clamp in clamps]).contours)
 
 
 def _lies_on(primitives: Primitives, contours: Sequence[Contour]) -> NDArray[np.bool_]:
