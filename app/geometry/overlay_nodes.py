@@ -84,10 +84,10 @@ def _cut(rows: Rows, contour: Indices, moved: Flags) -> Pieces:
     """Return the pieces of rows; contacts are looked for where one of two rows has moved."""
     i, j = near_pairs(rows, REACH)
     new = moved[i] | moved[j]
-    places = contacts(rows, i[new], j[new])[0]
+    places, i, j = contacts(rows, i[new], j[new])
     number, nodes = _nodes(np.concatenate([rows[:, :2], rows[:, 2:4], places]))
-    start, end = number[: len(rows)], number[len(rows) : 2 * len(rows)]
-    through, passed = _passing(rows, start, end, nodes)
+    start, end, met = np.split(number, [len(rows), 2 * len(rows)])
+    through, passed = _passing(rows, (start, end), nodes, _crossed(rows, places, met, (i, j)))
     kept = np.flatnonzero(start != end)
     row = np.concatenate([kept, through])
     share = np.concatenate([np.full(len(kept), -1.0), _fractions(rows[through], nodes[passed])])
@@ -130,12 +130,28 @@ def _leaders(points: Floats) -> list[int]:
     return leaders
 
 
-def _passing(rows: Rows, start: Indices, end: Indices, nodes: Floats) -> tuple[Indices, Indices]:
-    """Return (row, node), each (m,), where rows pass nodes other than those of their own ends, between their ends."""
+def _crossed(rows: Rows, places: Floats, node: Indices, pairs: tuple[Indices, Indices]) -> Indices:
+    """Return (row, node) (m, 2) of rows on which contacts lie exactly: they cross there, so both have to go through its node.
+
+    The node may be REACH away from the contact, and a hair more than that from the rows.
+    """
+    row, place, at = np.concatenate(pairs), np.concatenate([places, places]), np.concatenate([node, node])
+    exact = distances(rows[row], place) <= _STILL
+    return np.stack([row[exact], at[exact]], 1)
+
+
+def _passing(rows: Rows, ends: tuple[Indices, Indices], nodes: Floats, crossed: Indices) -> tuple[Indices, Indices]:
+    """Return (row, node), each (m,), where rows pass nodes other than those of their own ends, between their ends.
+
+    Args:
+        crossed: (k, 2) rows and nodes through which they have to go.
+    """
+    start, end = ends
     if not len(rows):
         return start, end
     field = DistanceField.of(rows)
-    row, node = overlay_kernels.near_points(field.rows, field.order, field.nodes, np.ascontiguousarray(nodes), REACH).T
+    near = overlay_kernels.near_points(field.rows, field.order, field.nodes, np.ascontiguousarray(nodes), REACH)
+    row, node = np.divmod(np.unique(np.concatenate([near, crossed]) @ [len(nodes), 1]), len(nodes))
     other = (node != start[row]) & (node != end[row]) & (start[row] != end[row])
     row, node = row[other], node[other]
     share = _fractions(rows[row], nodes[node])

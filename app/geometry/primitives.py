@@ -15,6 +15,7 @@ from itertools import chain, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from app.errors import GeometryError
 from app.model.curves import Arc, Circle, Line, Primitive
 from app.model.part import Contour, Region
 
@@ -41,12 +42,22 @@ class Primitives:
 
 
 def curve_rows(curve: Primitive) -> list[tuple[float, ...]]:
-    """Return the rows of one line, arc or circle; arcs are split so that each sweeps less than pi."""
+    """Return the rows of one line, arc or circle; arcs are split so that each sweeps less than pi.
+
+    Raises:
+        GeometryError: an arc begins where it ends; as a row it would be a full turn.
+    """
     if isinstance(curve, Line):
         return [(*curve.start, *curve.end, 0.0, 0.0, 0.0, 0.0)]
     if isinstance(curve, Circle):
         return _arc_rows(curve.start, curve.start, curve.centre, math.tau if curve.ccw else -math.tau)
+    if curve.start == curve.end:
+        raise _no_arc(curve.start)
     return _arc_rows(curve.start, curve.end, curve.centre, curve.sweep)
+
+
+def _no_arc(at: tuple[float, float]) -> GeometryError:
+    return GeometryError(f"An arc at ({at[0]:.3f}, {at[1]:.3f}) begins where it ends; delete it, or draw a circle.")
 
 
 def _arc_rows(start: tuple[float, float], end: tuple[float, float], centre: tuple[float, float], sweep: float) -> list[tuple[float, ...]]:
@@ -196,8 +207,14 @@ def distances(rows: Rows, points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def row_curve(row: Rows) -> Line | Arc:
-    """Return one row as a line or an arc of the model."""
+    """Return one row as a line or an arc of the model.
+
+    Raises:
+        GeometryError: it is an arc that begins where it ends, which the model does not know.
+    """
     start, end = (float(row[X0]), float(row[Y0])), (float(row[X1]), float(row[Y1]))
     if row[TURN] == 0:
         return Line(start, end)
+    if start == end:
+        raise _no_arc(start)
     return Arc(start, end, (float(row[CX]), float(row[CY])), bool(row[TURN] > 0))
