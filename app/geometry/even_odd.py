@@ -68,10 +68,10 @@ def _rising(curves: Sequence[Primitive], centre: Floats) -> tuple[Floats, NDArra
     """Return (curves that rise all along (m, 7), see the kernels, from which curve (m,) each is, length of all, mm)."""
     straight = np.array([isinstance(curve, Line) for curve in curves])
     lines, arcs = np.flatnonzero(straight), np.flatnonzero(~straight)
-    ends = np.array([(*curves[k].start, *curves[k].end) for k in lines]).reshape(-1, 4) - np.tile(centre, 2)
+    ends = np.array([(*curves[k].start, *curves[k].end) for k in lines.tolist()]).reshape(-1, 4) - np.tile(centre, 2)
     length = float(np.hypot(ends[:, 2] - ends[:, 0], ends[:, 3] - ends[:, 1]).sum())
     risen = np.hstack([ends[:, [1, 3, 0, 2]], np.zeros((len(ends), 3))])
-    bent, index, more = _rising_arcs([curves[k] for k in arcs], centre)
+    bent, index, more = _rising_arcs([curves[k] for k in arcs.tolist()], centre)
     risen, index = np.concatenate([risen, bent]), np.concatenate([lines, arcs[index]])
     down = risen[:, 0] > risen[:, 1]
     risen[down, :4] = risen[down][:, [1, 0, 3, 2]]

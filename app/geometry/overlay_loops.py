@@ -49,7 +49,8 @@ def _next_clockwise(turn: Turn, kept: Flags) -> Indices:
     before = np.where(before >= first, before, -1)
     following = np.where(before >= 0, turn.ends[before], -1)
     back = np.arange(len(turn.ends)) ^ 1
-    return following[turn.at[back]]
+    onward: Indices = following[turn.at[back]]
+    return onward
 
 
 def _simple(edges: Edges, following: Indices, begins: Iterable[int], either_way: bool = False) -> list[list[int]]:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from app.geometry.near_points import groups
 from app.geometry.overlay_nodes import Edges
 from app.geometry.overlay_turn import Turn
-from app.geometry.primitives import CX, R, sweeps
+from app.geometry.primitives import R, sweeps
 
 Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
@@ -88,7 +88,9 @@ def _areas(edges: Edges, left: Indices, net: Indices) -> NDArray[np.float64]:
     a, b = edges.rows[:, :2] - origin, edges.rows[:, 2:4] - origin
     sweep = sweeps(edges.rows)
     part = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] + edges.rows[:, R] ** 2 * (sweep - np.sin(sweep))) / 2
-    return np.bincount(left[::2], part, int(left.max()) + 1) - np.bincount(left[1::2], part, int(left.max()) + 1)
+    total = int(left.max()) + 1
+    areas: NDArray[np.float64] = np.bincount(left[::2], part, total) - np.bincount(left[1::2], part, total).astype(np.float64)
+    return areas
 
 
 def counted(faces: Faces, steps: Steps, odd: Flags, held: Indices) -> Counts:

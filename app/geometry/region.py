@@ -16,7 +16,7 @@ from app.model.curves import Line, Primitive, reversed_curve
 from app.model.part import Contour, Region
 
 _CHORD = 0.01
-"""mm; an inner point of each contour is found with it, which is then proven exactly. Thin contours are sampled as finely as they are thin."""
+"""mm; an inner point of each contour is found with it, and then proven exactly. Thin contours are sampled more finely."""
 
 _ASIDE = (1.0, 0.5, 0.2, 0.05)
 """Half widths beside a curve at which an inner point is looked for where chords give none."""
@@ -116,7 +116,8 @@ def _beside(rows: Rows) -> NDArray[np.float64]:
         if held.any():
             inner: NDArray[np.float64] = places[np.argmax(np.where(held, lengths(rows), -1.0))]
             return inner
-    return middle[0]
+    start: NDArray[np.float64] = middle[0]
+    return start
 
 
 def reversed_contour(contour: Contour) -> Contour:

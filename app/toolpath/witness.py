@@ -125,7 +125,7 @@ def about_regions(contours: Sequence[Contour], outlines: Sequence[Contour], nest
     if thin > tolerances.LEVEL:
         x, y = nesting.thin[0].primitives[0].start
         count = "1 area" if len(nesting.thin) == 1 else f"{len(nesting.thin)} areas"
-        text = f"{count} thinner than 1 um, {thin:.4f} mm2 in all, at {at((x, y))} for one, {'is' if len(nesting.thin) == 1 else 'are'} left out."
+        text = f"Left out: {count} thinner than 1 um, {thin:.4f} mm2 in all, at {at((x, y))} for one."
         found.append(Finding(FindingKind.LEFT_OUT, text, x, y, False, nesting.thin[0].entity_ids, thin))
     return found
 

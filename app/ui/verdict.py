@@ -29,7 +29,8 @@ _WORST_FIRST = (
     FindingKind.TINY_ENTITY, FindingKind.LEFT_OUT, FindingKind.ASSUMED, FindingKind.HIDDEN, FindingKind.LEFT_UNREACHABLE,
     FindingKind.SKIN, FindingKind.ENTRY,
 )
-_RED = {FindingKind.AREA, FindingKind.GOUGE, FindingKind.CLAMP, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK, FindingKind.PLUNGE,
+_RED = {FindingKind.AREA, FindingKind.GOUGE, FindingKind.CLAMP, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK,
+        FindingKind.PLUNGE,
         FindingKind.HOLDER_CONTACT, FindingKind.SHANK_CONTACT, FindingKind.BELOW_TABLE, FindingKind.LEFT_REACHABLE}
 
 _NAMES = {
