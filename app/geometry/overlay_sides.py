@@ -89,8 +89,8 @@ def _areas(edges: Edges, left: Indices, net: Indices) -> NDArray[np.float64]:
     sweep = sweeps(edges.rows)
     part = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] + edges.rows[:, R] ** 2 * (sweep - np.sin(sweep))) / 2
     total = int(left.max()) + 1
-    areas: NDArray[np.float64] = np.bincount(left[::2], part, total) - np.bincount(left[1::2], part, total).astype(np.float64)
-    return areas
+    areas = np.bincount(left[::2], part, total) - np.bincount(left[1::2], part, total)
+    return areas.astype(np.float64)
 
 
 def counted(faces: Faces, steps: Steps, odd: Flags, held: Indices) -> Counts:
