@@ -161,7 +161,7 @@ def pocket_distances(outermost: float, stepover: float, field: DistanceField) ->
     """
     x0, y0, x1, y1 = field.boxes[:, 0].min(), field.boxes[:, 1].min(), field.boxes[:, 2].max(), field.boxes[:, 3].max()
     deepest = min(x1 - x0, y1 - y0) / 2
-    count = max(0, math.floor((deepest - outermost + tolerances.FIT) / stepover) + 1)
+    count = max(0, math.floor((deepest - outermost + tolerances.NOMINAL) / stepover) + 1)
     return tuple(outermost + k * stepover for k in range(count))
 
 
