@@ -111,6 +111,39 @@ def meeting_heights(curves, sides):
     return found[:count].copy()
 
 
+@kernel("int64(float64[:, ::1], float64[::1], int64[::1], int64, float64)", counts=False)
+def _sort(curves, x, active, busy, y):
+    """Sort the first curves that are active by their x at a height; they were in order before, but for a few."""
+    for place in range(busy):
+        k, at = active[place], _across(curves, active[place], y)
+        spot = place
+        while spot > 0 and x[spot - 1] > at:
+            x[spot], active[spot] = x[spot - 1], active[spot - 1]
+            spot -= 1
+        x[spot], active[spot] = at, k
+    return busy
+
+
+@kernel("boolean(int64[::1], int64[::1], int64, boolean[::1], int64[::1])", counts=False)
+def _signs(owner, active, busy, within, new):
+    """Write the sign of each active curve: 1 where the area lies to its left, -1 where to its right; return whether all go in pairs."""
+    odd, held = False, 0
+    for place in range(busy):
+        before = odd and held == 0
+        o = owner[active[place]]
+        if o < 0:
+            odd = not odd
+        else:
+            within[o] = not within[o]
+            held += 1 if within[o] else -1
+        new[place] = int(before) - int(odd and held == 0)
+    if odd or held != 0:
+        within[:] = False
+        new[:busy] = 0
+        return False
+    return True
+
+
 @kernel("Tuple((float64, float64))(float64[:, ::1], int64[::1], int64, float64[::1])")
 def swept_area(curves, owner, outlines, heights):
     """Return (area, height over which some curve has no other to go with) of what lies between curves.
@@ -142,28 +175,9 @@ def swept_area(curves, owner, outlines, heights):
             active[busy] = begun
             busy += 1
             begun += 1
-        for place in range(busy):
-            k, at = active[place], _across(curves, active[place], (a + b) / 2)
-            spot = place
-            while spot > 0 and x[spot - 1] > at:
-                x[spot], active[spot] = x[spot - 1], active[spot - 1]
-                spot -= 1
-            x[spot], active[spot] = at, k
-        odd, held = False, 0
-        for place in range(busy):
-            before = odd and held == 0
-            o = owner[active[place]]
-            if o < 0:
-                odd = not odd
-            else:
-                within[o] = not within[o]
-                held += 1 if within[o] else -1
-            after = odd and held == 0
-            new[place] = int(before) - int(after)
-        if odd or held != 0:
+        _sort(curves, x, active, busy, (a + b) / 2)
+        if not _signs(owner, active, busy, within, new):
             lost += b - a
-            within[:] = False
-            new[:busy] = 0
         for place in range(busy):
             k = active[place]
             if new[place] != sign[k]:

@@ -92,7 +92,7 @@ def _refined(rows: Rows, angle: Floats, ends: Indices, first: Indices, stop: Ind
     busy = (stop - first > 2) & (high - low > 1)
     if not busy.any():
         return ends
-    score = _scores(rows, angle, ends, low, high, np.flatnonzero(busy))
+    score = _scores(rows[ends], angle[ends], (low, high), np.flatnonzero(busy))
     return ends[np.lexsort((score, low))]
 
 
@@ -106,20 +106,26 @@ def _from_widest_gap(ends: Indices, gap: Floats, first: Indices, stop: Indices) 
     return ends[source], gap[source]
 
 
-def _scores(rows: Rows, angle: Floats, ends: Indices, low: Indices, high: Indices, busy: Indices) -> Floats:
-    """Return for each place how many of its kind lie to the right of it; of those that are not busy: its place."""
+def _scores(rows: Rows, angle: Floats, kind: tuple[Indices, Indices], busy: Indices) -> Floats:
+    """Return for each place how many of its kind lie to the right of it; of those that are not busy: its place.
+
+    Args:
+        rows, angle: that set out at each place.
+        kind: first place of those that set out alike, and the place behind the last.
+    """
+    low, high = kind
     wide = high[busy] - low[busy]
     a = np.repeat(busy, wide)
     b = np.repeat(low[busy], wide) + np.arange(len(a)) - np.repeat(np.cumsum(wide) - wide, wide)
     a, b = a[a < b], b[a < b]
-    left = _left_of(rows[ends[b]], rows[ends[a]])
-    apart = (angle[ends[b]] - angle[ends[a]] + np.pi) % (2 * np.pi) - np.pi
+    left = _left_of(rows[b], rows[a])
+    apart = (angle[b] - angle[a] + np.pi) % (2 * np.pi) - np.pi
     later = np.where(np.abs(apart) < _ALIKE, left, True)  # unlike ones are in order by angle
-    score = np.zeros(len(ends))
+    score = np.zeros(len(rows))
     np.add.at(score, np.where(later, b, a), 1.0)
-    idle = np.ones(len(ends), np.bool_)
+    idle = np.ones(len(rows), np.bool_)
     idle[busy] = False
-    score[idle] = np.arange(len(ends))[idle]
+    score[idle] = np.flatnonzero(idle)
     return score
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import pytest
 
@@ -35,17 +36,19 @@ def assert_cleared(made: Made) -> None:
     assert made.clean, [finding.text for finding in made.findings if finding.counts]
 
 
-MORE = [pytest.param(float(angle), marks=pytest.mark.exhaustive) for angle in range(1, 180, 7)]
+@pytest.mark.parametrize("angles", [(17, 30), pytest.param(range(1, 180, 7), marks=pytest.mark.exhaustive)])
+def test_a_slot_as_wide_as_its_tool(angles: Sequence[int]) -> None:
+    for angle in angles:
+        assert_slot_is_cut(angle)
 
 
-@pytest.mark.parametrize("angle", [17.0, 30.0, *MORE])
-def test_a_slot_as_wide_as_its_tool(angle: float) -> None:
+def assert_slot_is_cut(angle: float) -> None:
     made = made_with(slot(angle))
     assert_cleared(made)
     assert made.coverage.area_mm2 == pytest.approx(20 * WIDTH + math.pi * WIDTH**2 / 4, abs=0.01)
 
 
-@pytest.mark.parametrize("spare", [-9e-4, 0.0, pytest.param(-5e-5, marks=pytest.mark.exhaustive), pytest.param(9e-4, marks=pytest.mark.exhaustive)])
+@pytest.mark.parametrize("spare", [-9e-4, 0.0, 9e-4])
 def test_a_hole_as_wide_as_its_tool(spare: float) -> None:
     made = made_with(f"circle 0,0 {(WIDTH + spare) / 2!r}\n")
     assert_cleared(made)
@@ -54,8 +57,8 @@ def test_a_hole_as_wide_as_its_tool(spare: float) -> None:
 @pytest.mark.parametrize("angle", [23.0])
 def test_a_passage_as_wide_as_its_tool(angle: float) -> None:
     half = WIDTH / 2
-    corners = [(0, 0), (20, 0), (20, 10 - half), (30, 10 - half), (30, 0), (50, 0), (50, 20), (30, 20), (30, 10 + half), (20, 10 + half), (20, 20),
-               (0, 20)]
+    low = [(0, 0), (20, 0), (20, 10 - half), (30, 10 - half), (30, 0), (50, 0)]
+    corners = [*low, *((x, 20 - y) for x, y in reversed(low))]
     points = [turned(angle, x, y) for x, y in corners]
     made = made_with("".join(f"line {a} {b}\n" for a, b in zip(points, [*points[1:], points[0]], strict=True)))
     assert made.coverage.reachable_left_mm2 == 0

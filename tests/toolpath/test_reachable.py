@@ -18,7 +18,10 @@ def slot(width: float) -> tuple[Region, ...]:
     return (Region(1, polygon_contour([(0, 0), (30, 0), (30, width), (0, width)])),)
 
 
-@pytest.mark.parametrize(("width", "fits"), [(6.0, True), (5.9999995, True), (5.99902, True), (5.9985, False), (5.997, False), (5.5, False), (6.01, True)])
+SLOTS = [(6.0, True), (5.9999995, True), (5.99902, True), (5.9985, False), (5.997, False), (5.5, False), (6.01, True)]
+
+
+@pytest.mark.parametrize(("width", "fits"), SLOTS)
 def test_a_slot_is_reached_only_where_the_cutter_fits(width: float, fits: bool) -> None:
     cutter = Cutter(slot(width), 3.0, 3.0)
     assert reached(np.array([[15.0, width / 2]]), [cutter], Fields(), 1.0) is fits
