@@ -10,8 +10,10 @@ import shapely
 import shapely.affinity
 from numpy.typing import NDArray
 
+from app import tolerances
 from app.errors import ParameterError
 from app.geometry.chain import chain
+from app.geometry.even_odd import even_odd
 from app.geometry.overlay import without_crossings
 from app.geometry.primitives import contour_rows, sample, signed_area
 from app.geometry.region import reversed_contour
@@ -114,12 +116,17 @@ def clamps_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
 
 
 def outermost(contours: Sequence[Contour]) -> tuple[Region, ...]:
-    """Return what each contour holds, all of it, but for those that lie in another one."""
-    shapes = filled(contours)
-    areas = shapely.area(shapes)
-    held = {int(i) for i, j in shapely.STRtree(shapes).query(shapes, predicate="within").T
-            if i != j and (areas[j] > areas[i] or (areas[j] == areas[i] and j < i))}  # fmt: skip
-    kept = [each for k, each in enumerate(contours) if k not in held and areas[k] > 0]
+    """Return what each contour holds, all of it, but for those of which another one holds all, exactly."""
+    areas = np.array([abs(signed_area(contour_rows(each))) for each in contours])
+    around = np.array([extent([each]) for each in contours]).reshape(-1, 4)
+
+    def is_held(k: int) -> bool:
+        wide = (around[:, :2] <= around[k, :2] + _CHORD).all(axis=1) & (around[:, 2:] >= around[k, 2:] - _CHORD).all(axis=1)
+        larger = (areas > areas[k]) | ((areas == areas[k]) & (np.arange(len(areas)) < k))
+        left = (even_odd([contours[k]], [contours[j]]) for j in np.flatnonzero(wide & larger).tolist())
+        return any(each.area <= each.length * tolerances.WELD for each in left)
+
+    kept = [each for k, each in enumerate(contours) if areas[k] > 0 and not is_held(k)]
     return tuple(Region(number, each if signed_area(contour_rows(each)) > 0 else reversed_contour(each))
                  for number, each in enumerate(kept, 1))
 

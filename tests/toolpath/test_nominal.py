@@ -45,6 +45,7 @@ def test_a_slot_as_wide_as_its_tool(angles: Sequence[int]) -> None:
 def assert_slot_is_cut(angle: float) -> None:
     made = made_with(slot(angle))
     assert_cleared(made)
+    assert not [finding.text for finding in made.findings if "too small" in finding.text]
     assert made.coverage.area_mm2 == pytest.approx(20 * WIDTH + math.pi * WIDTH**2 / 4, abs=0.01)
 
 

@@ -214,6 +214,12 @@ def test_arcs_of_one_circle_that_overlap_are_no_loss() -> None:
     assert not [each for each in drawn.drawn(job_of(curves)).findings if each.kind is FindingKind.AREA]
 
 
+@pytest.mark.parametrize("over", [0.0, 5e-4])
+def test_a_clamp_is_left_out_only_where_another_holds_all_of_it(over: float) -> None:
+    clamps = drawn.outermost([square(20), square(10, 10 + over, 5), circle(3, 5, 5), circle(10, 10, 10), square(20)])
+    assert len(clamps) == (2 if over else 1)
+
+
 def test_a_part_of_many_layers_is_asked_area_by_area() -> None:
     part = layered_part({"a": [square(40), circle(5, 20, 20)], "k": [square(10, 35, 5)]})
     made = sheets.Sheets(job := Job(part, keep_out_layers=("k",)), drawn.drawn(job))
