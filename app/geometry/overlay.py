@@ -26,6 +26,9 @@ from app.model.part import Contour
 Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
+_SPECK = tolerances.LEVEL**2
+"""mm2; less is no area, whatever it is of."""
+
 _NAMED = 3
 """So many contours are named in a sentence."""
 
@@ -55,13 +58,14 @@ def without_crossings(contours: Sequence[Contour]) -> Overlaid:
     """
     pieces = pieces_of(*_together([contour_rows(contour) for contour in contours]))
     meet = _meeting(pieces, len(contours))
-    if not meet.any():
-        return Overlaid(tuple(contours))
-    net = Net.of(settled(_part(pieces, meet[pieces.contour])))
+    made = [(k, contours[k]) for k in np.flatnonzero(~meet).tolist()]
+    pieces = settled(_part(pieces, meet[pieces.contour]))
+    if not len(pieces.rows):  # what meets is smaller than what is merged
+        return Overlaid(_in_order(made))
+    net = Net.of(pieces)
     odd = np.bincount(net.edges.of, minlength=len(net.edges.rows)) % 2 == 1
     none = np.zeros(len(net.members), np.int64)
     counts = counted(net.faces, Steps(odd, np.zeros(len(odd), np.int64)), none > 0, none)
-    made = [(k, contours[k]) for k in np.flatnonzero(~meet).tolist()]
     findings: list[Finding] = []
     for numbers, loops in zip(net.members, net.loops(odd, counts), strict=True):
         members = [contours[k] for k in numbers]
@@ -86,7 +90,10 @@ def without_outlines(contours: Sequence[Contour], outlines: Sequence[Contour]) -
     every, count = [*contours, *outlines], len(contours)
     rows = [contour_rows(contour) for contour in every]
     rows[count:] = [each if signed_area(each) > 0 else reversed_rows(each) for each in rows[count:]]
-    net = Net.of(settled(pieces_of(*_together(rows))))
+    pieces = settled(pieces_of(*_together(rows)))
+    if not len(pieces.rows):  # all is smaller than what is merged
+        return Overlaid(tuple(contours))
+    net = Net.of(pieces)
     steps = _steps(net, count)
     around, holder = net.held_by(rows)
     odd = np.bincount(around, holder < count, len(net.members)) % 2 == 1
@@ -114,7 +121,7 @@ def differing(drawn: Witnessed, made: float, contours: Sequence[Contour], spare:
         spare: by which it may differ for reasons that are known, mm2, besides what merging moves.
     """
     missing = drawn.area - made
-    if abs(missing) <= drawn.length * tolerances.WELD + spare:
+    if abs(missing) <= max(drawn.length * tolerances.WELD, _SPECK) + spare:
         return []
     x, y = contours[0].primitives[0].start
     places = ", ".join(at(contour.primitives[0].start) for contour in contours[:_NAMED])

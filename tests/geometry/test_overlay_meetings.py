@@ -162,6 +162,17 @@ def ends(contours: tuple[Contour, ...]) -> list[tuple[object, ...]]:
     return sorted(tuple(sorted((curve.start, curve.end))) for contour in contours for curve in contour.primitives)
 
 
+@pytest.mark.parametrize("size", [1e-9, 3e-8, 1e-7, 1e-6])
+def test_specks_are_no_trouble(size: float) -> None:
+    """Shapes as small as what is merged, with something real beside them."""
+    specks = [disc(0, 0, 10 * size), disc(12 * size, 0, 10 * size), box(0, 0, 9 * size, 4 * size), box(0, 0, size, 20 * size)]
+    for shapes in (specks, [*specks, box(5, 5, 9, 9)]):
+        made = without_crossings(shapes)
+        assert made.findings == () and even_odd(made.contours).area == pytest.approx(even_odd(shapes).area, abs=1e-6)
+        for few, outlines in ((shapes[:1], shapes[1:2]), (shapes[-1:], shapes[:1])):
+            assert without_outlines(few, outlines).findings == ()
+
+
 def test_outlines_are_taken_out_whole() -> None:
     for kind in KINDS:
         for e in (0.0, 1e-12, -3.3e-7, 1e-6, -1e-4):
