@@ -71,12 +71,12 @@ def touching(rng: np.random.Generator) -> list[Contour]:
     islands = [circle(size, 10, 10), circle(size, 10 + 2 * size, 10), square(4, 36, 20), circle(2, 2, 30),
                random_star(rng, (20, 28), (2, 6), 0.3), random_star(rng, (24, 26), (2, 6), 0.3),
                circle(3, 20, 3 + float(rng.choice([0.0, 1e-9, 1e-7])))]
-    return list(without_crossings([square(40), *islands]))
+    return list(without_crossings([square(40), *islands]).contours)
 
 
 def crossing(rng: np.random.Generator) -> list[Contour]:
     """Stars with bulging edges that cross themselves and one another."""
-    return list(without_crossings([random_star(rng, (0, 0), (5, 30), 0.6), random_star(rng, (4, 3), (5, 30), 0.3)]))
+    return list(without_crossings([random_star(rng, (0, 0), (5, 30), 0.6), random_star(rng, (4, 3), (5, 30), 0.3)]).contours)
 
 
 def fine_polyline(rng: np.random.Generator) -> list[Contour]:

@@ -50,6 +50,8 @@ def _circle(curve: Circle, points: Sequence[Point]) -> tuple[Curve, ...]:
     angles = {p: math.atan2(p[1] - curve.centre[1], p[0] - curve.centre[0]) for p in points}
     ordered = sorted(dict.fromkeys(points), key=lambda p: angles[p] if curve.ccw else -angles[p])
     kept = [p for k, p in enumerate(ordered) if k == 0 or math.dist(p, ordered[k - 1]) >= WELD]
+    if len(kept) > 1 and math.dist(kept[0], kept[-1]) < WELD:  # on either side of where angles begin again
+        kept.pop()
     if len(kept) < 2:
         return (curve,)
     return tuple(Arc(a, b, curve.centre, curve.ccw) for a, b in zip(kept, (*kept[1:], kept[0]), strict=True))

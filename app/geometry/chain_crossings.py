@@ -11,13 +11,16 @@ from numpy.typing import NDArray
 from app import tolerances
 from app.geometry.chain_findings import LIMIT, at, limited
 from app.geometry.chain_overlap import near_pairs
-from app.geometry.primitives import CX, TURN, X1, R, Rows, curve_rows, sweeps
+from app.geometry.primitives import CX, TURN, X1, R, Rows, curve_rows, distances
 from app.model.curves import Point
 from app.model.finding import Finding, FindingKind
 from app.model.part import Contour
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
+_PARALLEL = tolerances.WELD / 4
+"""mm; lines that part by less all along, and circles whose centres do, cross nowhere that could be told."""
+
 _NAMED = 3
 """So many places of one pair of contours are named in its sentence."""
 
@@ -101,7 +104,11 @@ def _table(contours: Sequence[Contour]) -> _Table:
 
 
 def contacts(rows: Rows, i: Indices, j: Indices) -> tuple[Floats, Indices, Indices]:
-    """Return the points (m, 2) where rows i and j meet, with their rows; a pair may meet twice."""
+    """Return the points (m, 2) where rows i and j meet, with their rows; a pair may meet twice.
+
+    A point counts where it lies within WELD of both rows, ends included. Curves that miss one another by less touch at one point.
+    Rows that run along one another, and so meet nowhere in particular, have none: their ends say it.
+    """
     line_i, line_j = rows[i, TURN] == 0, rows[j, TURN] == 0
     found: list[tuple[Floats, Indices, Indices]] = []
     both = line_i & line_j
@@ -114,15 +121,15 @@ def contacts(rows: Rows, i: Indices, j: Indices) -> tuple[Floats, Indices, Indic
     a, b = np.concatenate([a for _, a, _ in found]), np.concatenate([b for _, _, b in found])
     good = np.isfinite(points).all(axis=1)
     points, a, b = points[good], a[good], b[good]
-    good = _on(rows[a], points) & _on(rows[b], points)
+    good = (distances(rows[a], points) <= tolerances.WELD) & (distances(rows[b], points) <= tolerances.WELD)
     return points[good], a[good], b[good]
 
 
 def _lines_meet(a: Rows, b: Rows) -> Floats:
-    """Return where the endless lines meet, NaN where they are parallel."""
+    """Return where the endless lines meet, NaN where they part by less than _PARALLEL over the longer of both."""
     u, v, w = a[:, 2:4] - a[:, :2], b[:, 2:4] - b[:, :2], b[:, :2] - a[:, :2]
-    across = _cross(u, v)
-    flat = np.abs(across) <= 1e-9 * np.hypot(*u.T) * np.hypot(*v.T)
+    across, long_u, long_v = _cross(u, v), np.hypot(*u.T), np.hypot(*v.T)
+    flat = np.abs(across) <= _PARALLEL * np.minimum(long_u, long_v)
     with np.errstate(divide="ignore", invalid="ignore"):
         points = a[:, :2] + u * (_cross(w, v) / across)[:, None]
     return np.where(flat[:, None], np.nan, points)
@@ -133,40 +140,26 @@ def _line_meets_arc(line: Rows, arc: Rows) -> list[Floats]:
     unit = along / np.maximum(np.hypot(*along.T), 1e-300)[:, None]
     arm = arc[:, CX:R] - line[:, :2]
     foot = line[:, :2] + unit * (arm * unit).sum(axis=1)[:, None]
-    return _either_side(foot, unit, arc[:, R] ** 2 - _cross(unit, arm) ** 2, arc[:, R])
+    off = np.abs(_cross(unit, arm))
+    return _either_side(foot, unit, (arc[:, R] - off) * (arc[:, R] + off))
 
 
 def _arcs_meet(a: Rows, b: Rows) -> list[Floats]:
+    """Return where whole circles meet, NaN where they are of one centre; those that miss one another: where a comes nearest."""
     between = b[:, CX:R] - a[:, CX:R]
-    gap = np.hypot(*between.T)
+    gap, radius, other = np.hypot(*between.T), a[:, R], b[:, R]
     with np.errstate(divide="ignore", invalid="ignore"):
         unit = between / gap[:, None]
-        reach = (gap**2 + a[:, R] ** 2 - b[:, R] ** 2) / (2 * gap)
+        reach = (gap + (radius - other) * (radius + other) / gap) / 2
+    reach = np.where(gap > _PARALLEL, np.clip(reach, -radius, radius), np.nan)
     foot = a[:, CX:R] + unit * reach[:, None]
-    apart = gap > 1e-9 * (a[:, R] + b[:, R])
-    height2 = np.where(apart, a[:, R] ** 2 - reach**2, np.nan)
-    return _either_side(foot, np.stack([-unit[:, 1], unit[:, 0]], axis=1), height2, np.minimum(a[:, R], b[:, R]))
+    return _either_side(foot, np.stack([-unit[:, 1], unit[:, 0]], axis=1), (radius - reach) * (radius + reach))
 
 
-def _either_side(foot: Floats, unit: Floats, height2: Floats, radius: Floats) -> list[Floats]:
-    """Return foot - h unit and foot + h unit; curves that miss one another by less than WELD touch at the foot."""
-    height2 = np.where((height2 < 0) & (height2 > -2 * radius * tolerances.WELD), 0.0, height2)
-    with np.errstate(invalid="ignore"):
-        height = np.sqrt(height2)[:, None]
+def _either_side(foot: Floats, unit: Floats, height2: Floats) -> list[Floats]:
+    """Return foot - h unit and foot + h unit; the foot alone where the height is none."""
+    height = np.sqrt(np.maximum(height2, 0.0))[:, None]
     return [foot - height * unit, np.where(height > 0, foot + height * unit, np.nan)]
-
-
-def _on(rows: Rows, points: Floats) -> NDArray[np.bool_]:
-    """Return whether points on the carriers of rows lie on the rows themselves, ends included, to within WELD."""
-    near_end = np.minimum(np.hypot(*(points - rows[:, :2]).T), np.hypot(*(points - rows[:, X1 : X1 + 2]).T)) <= tolerances.WELD
-    along = rows[:, 2:4] - rows[:, :2]
-    share = ((points - rows[:, :2]) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300)
-    middle = (rows[:, :2] + rows[:, X1 : X1 + 2]) / 2 - rows[:, CX:R]
-    short = np.abs(sweeps(rows)) < np.pi
-    beyond_chord = ((points - rows[:, CX:R]) * middle).sum(axis=1) >= (middle**2).sum(axis=1)
-    between = np.where(rows[:, TURN] == 0, (share >= 0) & (share <= 1), beyond_chord & short)
-    result: NDArray[np.bool_] = near_end | between
-    return result
 
 
 def _is_joint(table: _Table, points: Floats, i: Indices, j: Indices) -> NDArray[np.bool_]:

@@ -14,7 +14,7 @@ from app import tolerances
 from app.geometry.chain_pieces import Piece, length_of
 from app.geometry.near import near
 from app.geometry.near_points import pairs_within
-from app.geometry.primitives import CX, TURN, X0, X1, R, Rows, boxes, contour_rows, curve_rows, points_at, sweeps
+from app.geometry.primitives import CX, TURN, X0, X1, R, Rows, boxes, contour_rows, curve_rows, distances, points_at, sweeps
 from app.geometry.primitives import lengths as row_lengths
 from app.model.curves import Circle, Point
 from app.model.part import Contour
@@ -248,19 +248,4 @@ def _run_together(rows: Rows, others: Rows, reach: float) -> bool:
 def _along(rows: Rows, others: Rows, reach: float) -> bool:
     """Return whether points all along some rows lie within `reach` of the others."""
     points = np.concatenate([points_at(rows, np.full(len(rows), share)) for share in (0.0, 0.3, 0.7)])
-    return all(float(_distances(others, point).min()) <= reach for point in points)
-
-
-def _distances(rows: Rows, point: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the distance of one point from each row, mm; rows sweep less than pi."""
-    along, arm = rows[:, X1 : X1 + 2] - rows[:, :2], point - rows[:, :2]
-    share = np.clip((arm * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
-    straight = np.hypot(*(arm - along * share[:, None]).T)
-    out = point - rows[:, CX:R]
-    first, last = rows[:, :2] - rows[:, CX:R], rows[:, X1 : X1 + 2] - rows[:, CX:R]
-    within = ((first[:, 0] * out[:, 1] - first[:, 1] * out[:, 0]) * rows[:, TURN] >= 0) & (
-        (out[:, 0] * last[:, 1] - out[:, 1] * last[:, 0]) * rows[:, TURN] >= 0)
-    ends = np.minimum(np.hypot(*arm.T), np.hypot(*(point - rows[:, X1 : X1 + 2]).T))
-    curved = np.where(within, np.abs(np.hypot(*out.T) - rows[:, R]), ends)
-    result: NDArray[np.float64] = np.where(rows[:, TURN] == 0, straight, curved)
-    return result
+    return all(float(distances(others, np.broadcast_to(point, (len(others), 2))).min()) <= reach for point in points)

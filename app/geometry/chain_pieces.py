@@ -123,6 +123,8 @@ def straightened(curve: Curve) -> Curve:
 
 def _primitives(entity: Entity) -> tuple[tuple[Primitive, ...], float]:
     curve = straightened(entity.curve)
+    if isinstance(curve, Arc) and curve.start == curve.end and not curve.ccw:  # its sweep is a full turn
+        curve = Circle(curve.centre, curve.radius, curve.ccw)
     if not within_reach(curve):
         raise GeometryError("it has a coordinate that is not a number or beyond 1 km; delete it or draw it again.")
     if isinstance(curve, Ellipse | Spline):
@@ -130,7 +132,7 @@ def _primitives(entity: Entity) -> tuple[tuple[Primitive, ...], float]:
         return made.primitives, made.deviation
     if length_of(curve) < tolerances.WELD:
         return (), 0.0
-    return (curve,), 0.0 if curve is entity.curve else _FLAT
+    return (curve,), _FLAT if isinstance(curve, Line) and curve is not entity.curve else 0.0
 
 
 def with_ends(piece: Piece, start: Point, end: Point) -> Piece:

@@ -133,13 +133,17 @@ class _Engine:
         return len(self._active) == 0
 
     def frame(self, distance: float, progress: Progress) -> tuple[Ring, ...]:
-        """Return the rings at the first distance; for regions that the tool passes only just, those at FIT less."""
-        loose = _by_region(self.rings(distance - tolerances.FIT, progress, keep_ridges=True))
-        tight = _by_region(self.rings(distance, progress))
+        """Return the rings at the first distance; for regions that the tool passes only just, those at FIT or NOMINAL less."""
+        loose = _by_region(self.rings(distance - tolerances.NOMINAL, progress, keep_ridges=True))
+        tight = _by_region(self.rings(distance - tolerances.FIT, progress, keep_ridges=True))
+        true = _by_region(self.rings(distance, progress))
         chosen: list[Ring] = []
         for region, wide in loose.items():
-            exact = tight.get(region, [])
-            chosen += exact if _alike(wide, exact) else wide
+            near, exact = tight.get(region, []), true.get(region, [])
+            if not _alike(wide, near, tolerances.NOMINAL):
+                chosen += wide
+            else:
+                chosen += exact if _alike(near, exact, tolerances.FIT) else near
         return tuple(chosen)
 
     def rings(self, distance: float, progress: Progress, keep_ridges: bool = False) -> tuple[Ring, ...]:
@@ -233,11 +237,11 @@ def _by_region(rings: Sequence[Ring]) -> dict[int, list[Ring]]:
     return regions
 
 
-def _alike(wide: Sequence[Ring], exact: Sequence[Ring]) -> bool:
-    """Tell whether two sets of rings, FIT apart, are the same but for that shift."""
+def _alike(wide: Sequence[Ring], exact: Sequence[Ring], apart: float) -> bool:
+    """Tell whether two sets of rings, so far apart, mm, are the same but for that shift."""
     perimeter = sum(ring.length for ring in wide)
     lost = sum(ring.area for ring in wide) - sum(ring.area for ring in exact)
-    return len(wide) == len(exact) and lost <= 1.5 * perimeter * tolerances.FIT
+    return len(wide) == len(exact) and lost <= 1.5 * perimeter * apart
 
 
 def _on_a_ridge(ring: Ring) -> bool:

@@ -15,6 +15,7 @@ from itertools import chain, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from app.errors import GeometryError
 from app.model.curves import Arc, Circle, Line, Primitive
 from app.model.part import Contour, Region
 
@@ -41,12 +42,22 @@ class Primitives:
 
 
 def curve_rows(curve: Primitive) -> list[tuple[float, ...]]:
-    """Return the rows of one line, arc or circle; arcs are split so that each sweeps less than pi."""
+    """Return the rows of one line, arc or circle; arcs are split so that each sweeps less than pi.
+
+    Raises:
+        GeometryError: an arc begins where it ends; as a row it would be a full turn.
+    """
     if isinstance(curve, Line):
         return [(*curve.start, *curve.end, 0.0, 0.0, 0.0, 0.0)]
     if isinstance(curve, Circle):
         return _arc_rows(curve.start, curve.start, curve.centre, math.tau if curve.ccw else -math.tau)
+    if curve.start == curve.end:
+        raise _no_arc(curve.start)
     return _arc_rows(curve.start, curve.end, curve.centre, curve.sweep)
+
+
+def _no_arc(at: tuple[float, float]) -> GeometryError:
+    return GeometryError(f"An arc at ({at[0]:.3f}, {at[1]:.3f}) begins where it ends; delete it, or draw a circle.")
 
 
 def _arc_rows(start: tuple[float, float], end: tuple[float, float], centre: tuple[float, float], sweep: float) -> list[tuple[float, ...]]:
@@ -181,9 +192,29 @@ def points_at(rows: Rows, fraction: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.where((rows[:, TURN] == 0)[:, None], line, arc)
 
 
+def distances(rows: Rows, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how far each point (n, 2) is from the row (n, 8) of its own, ends included, mm."""
+    along, arm, back = rows[:, 2:4] - rows[:, :2], points - rows[:, :2], points - rows[:, 2:4]
+    share = np.clip((arm * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
+    straight = np.hypot(*(arm - along * share[:, None]).T)
+    out, first, last = points - rows[:, CX:R], rows[:, :2] - rows[:, CX:R], rows[:, 2:4] - rows[:, CX:R]
+    before = (first[:, 0] * out[:, 1] - first[:, 1] * out[:, 0]) * rows[:, TURN] < 0
+    beyond = (out[:, 0] * last[:, 1] - out[:, 1] * last[:, 0]) * rows[:, TURN] < 0
+    ends = np.minimum(np.hypot(*arm.T), np.hypot(*back.T))
+    curved = np.where(before | beyond, ends, np.abs(np.hypot(*out.T) - rows[:, R]))
+    far: NDArray[np.float64] = np.where(rows[:, TURN] == 0, straight, curved)
+    return far
+
+
 def row_curve(row: Rows) -> Line | Arc:
-    """Return one row as a line or an arc of the model."""
+    """Return one row as a line or an arc of the model.
+
+    Raises:
+        GeometryError: it is an arc that begins where it ends, which the model does not know.
+    """
     start, end = (float(row[X0]), float(row[Y0])), (float(row[X1]), float(row[Y1]))
     if row[TURN] == 0:
         return Line(start, end)
+    if start == end:
+        raise _no_arc(start)
     return Arc(start, end, (float(row[CX]), float(row[CY])), bool(row[TURN] > 0))

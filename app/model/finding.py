@@ -39,6 +39,7 @@ class FindingKind(Enum):
     SKIN = "skin"
     ENTRY = "entry"
     CLAMP = "clamp"
+    AREA = "area"
 
 
 @dataclass(frozen=True, slots=True)

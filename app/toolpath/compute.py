@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import shapely
 
 from app.bitmap.fill import Observer
-from app.geometry.overlay import without_crossings
-from app.geometry.region import nest
+from app.geometry.overlay import Overlaid, without_crossings
+from app.geometry.region import nested
 from app.model.finding import Finding, FindingKind, worst_first
 from app.model.job import Job
 from app.model.moves import Program
@@ -27,6 +27,7 @@ from app.toolpath.rest import rest
 from app.toolpath.setting import Setting
 from app.toolpath.sheets import Sheets
 from app.toolpath.wanted import CHORD
+from app.toolpath.witness import about_regions
 
 _WAYS: dict[type[Operation], Callable[[Setting, int, Progress], None]] = {
     PocketOperation: pocket, RestOperation: rest, ContourOperation: contour, DrillOperation: drill,
@@ -46,7 +47,9 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
     progress.step(0.0, "Chain contours")
     parts = drawn(job)
     lines = followed_lines(job, parts)
-    setting = Setting(job, machined(parts), Sheets(job, parts), findings=about_drawing(job, parts, lines), observer=observer)
+    made = machined(parts)
+    about = [*about_drawing(job, parts, lines), *made.findings]
+    setting = Setting(job, made.regions, Sheets(job, parts), findings=about, observer=observer)
     if not setting.regions and not lines:
         return Program(setting.builder.moves(), findings=tuple(setting.findings))
     setting.findings.extend(under_clamps(job, parts, setting.regions))
@@ -56,24 +59,37 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
         _WAYS[type(operation)](setting, index, progress.part(0.05 + 0.95 * k / len(operations), 0.05 + 0.95 * (k + 1) / len(operations)))
     if job.order is Order.PATENT_1986:
         setting.findings.extend(slotting(job))
+    areas = setting.sheets.areas()
+    setting.findings.extend(setting.sheets.findings)
     seen = setting.on_bitmap or BitmapCheck(0.0, 0.0, 0, (0.0, 0.0), 0.0)
     findings = worst_first(setting.findings)
     return Program(
         setting.builder.moves(), setting.regions, findings, setting.strokes, setting.polyline_rings,
-        seen.bitmap_area, seen.exact_area, seen.pitch, areas=setting.sheets.areas(), lines=lines,
+        seen.bitmap_area, seen.exact_area, seen.pitch, areas=areas, lines=lines,
         clamps=parts.clamps, tabs=tuple(setting.tabs), dog_bones=tuple(setting.dog_bones), stepovers=setting.stepovers,
     )  # fmt: skip
 
 
-def machined(parts: Drawn) -> tuple[Region, ...]:
+@dataclass(frozen=True)
+class Machined:
+    """The regions that all closed contours of a drawing bound, and what there is to say of how they came about."""
+
+    regions: tuple[Region, ...]
+    findings: tuple[Finding, ...] = ()
+
+
+def machined(parts: Drawn) -> Machined:
     """Return the regions that all closed contours bound; those that meet count even-odd."""
-    return nest(without_crossings(parts.closed) if parts.crossing else parts.closed)
+    made = without_crossings(parts.closed) if parts.crossing else Overlaid(parts.closed)
+    nesting = nested(made.contours)
+    return Machined(nesting.regions, (*made.findings, *about_regions(parts.closed, (), nesting)))
 
 
 def regions_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
     """Return (regions, findings about the drawing) of the layers that a job machines."""
     parts = drawn(job)
-    return machined(parts), list(parts.findings)
+    made = machined(parts)
+    return made.regions, [*parts.findings, *made.findings]
 
 
 def followed_lines(job: Job, parts: Drawn) -> tuple[Contour, ...]:

@@ -10,8 +10,10 @@ import shapely
 import shapely.affinity
 from numpy.typing import NDArray
 
+from app import tolerances
 from app.errors import ParameterError
 from app.geometry.chain import chain
+from app.geometry.even_odd import even_odd
 from app.geometry.overlay import without_crossings
 from app.geometry.primitives import contour_rows, sample, signed_area
 from app.geometry.region import reversed_contour
@@ -20,6 +22,7 @@ from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.part import Contour, Region
 from app.model.stock_box import extent
+from app.toolpath.witness import about_chaining
 
 _CHORD = 1e-3
 """mm; arcs as chords within this, where it is asked what lies in what."""
@@ -69,15 +72,17 @@ def drawn(job: Job) -> Drawn:
         ParameterError: it names a layer that the drawing does not have.
     """
     layers = layers_of(job)
-    chaining = chain([e for e in job.part.entities if e.layer in layers], job.join_tolerance)
+    entities = [e for e in job.part.entities if e.layer in layers]
+    chaining = chain(entities, job.join_tolerance)
     closed = [contour for contour in chaining.contours if contour.closed]
     lines = [contour for contour in chaining.contours if not contour.closed]
+    doubts = about_chaining(entities, chaining, job.join_tolerance)
     clamps, about = clamps_of(job)
     meet = _copies_meet(closed, job)
     crossing = bool(meet) or _crosses(chaining.findings)
     shifts = job.copies.shifts
     copies = _copied(closed, shifts)
-    findings = (*chaining.findings, *about, *meet, *_under_clamps(copies, clamps))
+    findings = (*chaining.findings, *doubts, *about, *meet, *_under_clamps(copies, clamps))
     return Drawn(copies, _copied(lines, shifts), crossing, clamps, findings)
 
 
@@ -94,7 +99,8 @@ def clamps_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
     wanted = set(job.keep_out_layers)
     if not wanted:
         return (), []
-    chaining = chain([e for e in job.part.entities if e.layer in wanted], job.join_tolerance)
+    entities = [e for e in job.part.entities if e.layer in wanted]
+    chaining = chain(entities, job.join_tolerance)
     closed = [contour for contour in chaining.contours if contour.closed]
     findings = [Finding(FindingKind.OPEN_CONTOUR, f"An outline of keep-out layer '{contour.layer}' is open at ({x:.3f}, {y:.3f}), "
                         "so it keeps nothing out; close it.", x, y, entity_ids=contour.entity_ids)
@@ -102,17 +108,25 @@ def clamps_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
     if not closed:
         findings.append(Finding(FindingKind.LEFT_OUT, f"Keep-out layers {', '.join(job.keep_out_layers)} have no closed outline."))
     if _crosses(chaining.findings):
-        closed = [part for contour in closed for part in without_crossings([contour])]
+        plain = [without_crossings([contour]) for contour in closed]
+        closed = [part for each in plain for part in each.contours]
+        findings += [finding for each in plain for finding in each.findings]
+    findings += about_chaining(entities, chaining, job.join_tolerance)
     return outermost(closed), findings
 
 
 def outermost(contours: Sequence[Contour]) -> tuple[Region, ...]:
-    """Return what each contour holds, all of it, but for those that lie in another one."""
-    shapes = filled(contours)
-    areas = shapely.area(shapes)
-    held = {int(i) for i, j in shapely.STRtree(shapes).query(shapes, predicate="within").T
-            if i != j and (areas[j] > areas[i] or (areas[j] == areas[i] and j < i))}  # fmt: skip
-    kept = [each for k, each in enumerate(contours) if k not in held and areas[k] > 0]
+    """Return what each contour holds, all of it, but for those of which another one holds all, exactly."""
+    areas = np.array([abs(signed_area(contour_rows(each))) for each in contours])
+    around = np.array([extent([each]) for each in contours]).reshape(-1, 4)
+
+    def is_held(k: int) -> bool:
+        wide = (around[:, :2] <= around[k, :2] + _CHORD).all(axis=1) & (around[:, 2:] >= around[k, 2:] - _CHORD).all(axis=1)
+        larger = (areas > areas[k]) | ((areas == areas[k]) & (np.arange(len(areas)) < k))
+        left = (even_odd([contours[k]], [contours[j]]) for j in np.flatnonzero(wide & larger).tolist())
+        return any(each.area <= each.length * tolerances.WELD for each in left)
+
+    kept = [each for k, each in enumerate(contours) if areas[k] > 0 and not is_held(k)]
     return tuple(Region(number, each if signed_area(contour_rows(each)) > 0 else reversed_contour(each))
                  for number, each in enumerate(kept, 1))
 

@@ -12,7 +12,7 @@ from app.geometry.distance import DistanceField
 from app.geometry.offset import Level, offset_levels
 from app.geometry.primitives import lengths
 from app.model.job import Job
-from app.model.operation import ContourOperation, PocketOperation, Side
+from app.model.operation import ContourOperation, Cut, PocketOperation, Side
 from app.model.tool import Tool
 from app.progress import NO_PROGRESS, Progress
 from app.toolpath.build import Stroke
@@ -34,6 +34,9 @@ MOST_LINKED = 0.05
 _FAR_TOO_LINKED = 0.075
 """Where it is this much, larger stepovers are not looked at."""
 
+_ABOUT = 0.005
+"""mm; so exactly is the largest disc of a region known."""
+
 
 def pocket(setting: Setting, index: int, progress: Progress) -> None:
     """Steps 141-148: rings inside A', linked to one stroke a connected area."""
@@ -49,7 +52,8 @@ def pocket(setting: Setting, index: int, progress: Progress) -> None:
     chosen = shortest(sheet, Wanted(outermost, tool.radius, manner), stepovers, progress.part(0, 0.9))
     setting.note((*chosen.levels, *chosen.filling.halves))
     first = chosen.levels[0] if chosen.levels else Level(outermost, ())
-    setting.findings.extend(too_small(sheet.regions, first, tool, 0.0 if wall else finest(setting.job, operation)))
+    small = too_small(sheet.regions, first, tool, 0.0 if wall else finest(setting.job, operation))
+    setting.findings.extend(each for each in small if not _left_to_contours(each.amount or 0.0, setting.job, operation))
     setting.findings.extend(necks(first, sheet.primitives, sheet.distances, tool))
     if chosen.strokes:
         setting.stepovers[index] = chosen.stepover
@@ -131,9 +135,19 @@ def wall_distance(job: Job, operation: PocketOperation) -> float:
 
     Without a contour operation that goes inside the walls of the same layers, as deep, the pocket goes up to the walls itself.
     """
-    followers = [each.cut for each in job.operations if isinstance(each, ContourOperation) and each.cut.enabled
-                 and each.side is Side.INSIDE and each.cut.layers == operation.cut.layers and each.cut.floor >= operation.cut.floor]
-    return max((job.tool(cut.tool).radius + cut.stock_to_leave for cut in followers), default=0.0)
+    return max((job.tool(cut.tool).radius + cut.stock_to_leave for cut in _followers(job, operation)), default=0.0)
+
+
+def _followers(job: Job, operation: PocketOperation) -> list[Cut]:
+    """Return the contour operations inside the walls of the same layers, as deep."""
+    return [each.cut for each in job.operations if isinstance(each, ContourOperation) and each.cut.enabled
+            and each.side is Side.INSIDE and each.cut.layers == operation.cut.layers and each.cut.floor >= operation.cut.floor]  # fmt: skip
+
+
+def _left_to_contours(disc: float, job: Job, operation: PocketOperation) -> bool:
+    """Tell whether a region with so large a disc, mm, is cleared by a path along its walls alone, so that no pocket tool is missing."""
+    return any(cut.stock_to_leave - _ABOUT <= disc / 2 - job.tool(cut.tool).radius <= cut.stock_to_leave + job.tool(cut.tool).radius
+               for cut in _followers(job, operation))  # fmt: skip
 
 
 def stepover_of(operation: PocketOperation, tool: Tool) -> float:
@@ -161,7 +175,7 @@ def pocket_distances(outermost: float, stepover: float, field: DistanceField) ->
     """
     x0, y0, x1, y1 = field.boxes[:, 0].min(), field.boxes[:, 1].min(), field.boxes[:, 2].max(), field.boxes[:, 3].max()
     deepest = min(x1 - x0, y1 - y0) / 2
-    count = max(0, math.floor((deepest - outermost + tolerances.FIT) / stepover) + 1)
+    count = max(0, math.floor((deepest - outermost + tolerances.NOMINAL) / stepover) + 1)
     return tuple(outermost + k * stepover for k in range(count))
 
 

@@ -43,7 +43,7 @@ class Cutter:
     wall: float
     radius: float
 
-    def reaches(self, x: float, y: float, fields: Fields, spare: float = -tolerances.FIT) -> bool:
+    def reaches(self, x: float, y: float, fields: Fields, spare: float = -tolerances.NOMINAL) -> bool:
         """Tell whether its centre may be somewhere within its radius of a place; True also where that stays in doubt.
 
         Args:
@@ -91,5 +91,5 @@ def reached(points: NDArray[np.float64], cutters: Sequence[Cutter], fields: Fiel
     A sliver counts where a cutter does that stays 1 um farther from the walls, as its paths may: in a neck that grows narrow
     slowly, a micrometre decides on tenths of a millimetre.
     """
-    spare = -tolerances.FIT if any(size > _SLIVER * cutter.radius for cutter in cutters) else tolerances.LEVEL
+    spare = -tolerances.NOMINAL if any(size > _SLIVER * cutter.radius for cutter in cutters) else tolerances.LEVEL
     return any(cutter.reaches(x, y, fields, spare) for x, y in points.tolist() for cutter in cutters)

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.geometry.distance import DistanceField
-from app.geometry.overlay import without_crossings, without_outlines
+from app.geometry.overlay import Overlaid, without_crossings, without_outlines
 from app.geometry.primitives import Primitives, contour_rows, pack, points_at
-from app.geometry.region import nest, polygon_contour
+from app.geometry.region import nested, polygon_contour
+from app.model.finding import Finding
 from app.model.job import Job
 from app.model.moves import Area
 from app.model.operation import ContourOperation, DrillOperation, Operation, PocketOperation, RestOperation, Side
@@ -21,6 +22,7 @@ from app.model.stock_box import extent
 from app.toolpath.drawn import Drawn
 from app.toolpath.drill_holes import Hole, circle_of, hole_regions, made_by_drills
 from app.toolpath.lead import lead_size
+from app.toolpath.witness import about_regions
 
 _ON_CLAMP = 2e-5
 """mm; a wall all of which is this near to a clamp's outline is the clamp's: ends that meet are put together by as much."""
@@ -62,10 +64,15 @@ class Sheet:
 
 @dataclass
 class Sheets:
-    """The sheets of a job's operations; operations alike share one."""
+    """The sheets of a job's operations; operations alike share one.
+
+    Attributes:
+        findings: of those that were made so far, where their areas are not what was drawn.
+    """
 
     job: Job
     drawn: Drawn
+    findings: list[Finding] = field(default_factory=list)
     _made: dict[tuple[frozenset[str], Side], Sheet | None] = field(default_factory=dict)
 
     def of(self, operation: Operation) -> Sheet | None:
@@ -92,19 +99,25 @@ class Sheets:
         closed, lines = ([c for c in contours if not layers or c.layer in layers] for contours in (self.drawn.closed, self.drawn.open))
         if self._made_by_drills:
             closed = [contour for contour in closed if circle_of(contour) not in self._made_by_drills]
-        if side is not Side.ON and self.drawn.crossing:
-            closed = list(without_crossings(closed))
         frame = self._frame((*closed, *lines, *(c for region in self.drawn.clamps for c in region.contours)))
         if frame is None or (side is not Side.ON and not closed):
             return None
-        contours = {Side.INSIDE: closed, Side.OUTSIDE: [frame, *closed], Side.ON: [frame]}[side]
-        regions = without_clamps(contours, self.drawn.clamps)
+        regions = self._regions({Side.INSIDE: closed, Side.OUTSIDE: [frame, *closed], Side.ON: [frame]}[side])
         if not regions:
             return None
         primitives = pack(regions)
         outlines = tuple(c for region in self.drawn.clamps for c in region.contours) + (() if side is Side.INSIDE else (frame,))
         bare = _lies_on(primitives, outlines)
         return Sheet(regions, primitives, DistanceField.of(primitives.rows), bare, (*closed, *lines) if side is Side.ON else (), outlines)
+
+    def _regions(self, contours: Sequence[Contour]) -> tuple[Region, ...]:
+        """Return the regions that contours bound even-odd, without what clamps hold; the witness is asked about them."""
+        plain = without_crossings(contours) if self.drawn.crossing else Overlaid(tuple(contours))
+        outlines = [clamp.boundary for clamp in self.drawn.clamps]
+        free = without_outlines(plain.contours, outlines)
+        nesting = nested(free.contours)
+        self.findings += [*plain.findings, *free.findings, *about_regions(contours, outlines, nesting)]
+        return nesting.regions
 
     @cached_property
     def _made_by_drills(self) -> frozenset[Hole | None]:
@@ -127,16 +140,6 @@ class Sheets:
         tool = self.job.tool(operation.cut.tool)
         wall = tool.radius + operation.cut.stock_to_leave + operation.finish_width
         return 2 * wall + lead_size(operation.lead, tool) + _SPARE
-
-
-def without_clamps(contours: Sequence[Contour], clamps: Sequence[Region]) -> tuple[Region, ...]:
-    """Return the regions that contours bound, without what clamps hold.
-
-    Args:
-        contours: none crosses itself or another.
-        clamps: without islands; they may overlap one another.
-    """
-    return nest(without_outlines(contours, [clamp.boundary for clamp in clamps]))
 
 
 def _lies_on(primitives: Primitives, contours: Sequence[Contour]) -> NDArray[np.bool_]:

@@ -21,18 +21,20 @@ class Level(Enum):
 
 
 _WORST_FIRST = (
-    FindingKind.GOUGE, FindingKind.CLAMP, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK, FindingKind.PLUNGE,
-    FindingKind.HOLDER_CONTACT, FindingKind.SHANK_CONTACT, FindingKind.BELOW_TABLE, FindingKind.LEFT_REACHABLE,
+    FindingKind.AREA, FindingKind.GOUGE, FindingKind.CLAMP, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK,
+    FindingKind.PLUNGE, FindingKind.HOLDER_CONTACT, FindingKind.SHANK_CONTACT, FindingKind.BELOW_TABLE, FindingKind.LEFT_REACHABLE,
     FindingKind.BEYOND_STOCK, FindingKind.TOLERANCE, FindingKind.MACHINE,
     FindingKind.TOOL_SHAPE, FindingKind.OPEN_CONTOUR, FindingKind.SELF_INTERSECTION, FindingKind.OVERLAP, FindingKind.REGION_TOO_SMALL,
     FindingKind.NECK_TOO_NARROW, FindingKind.ENGAGEMENT, FindingKind.AMBIGUOUS, FindingKind.UNITS_ASSUMED, FindingKind.GAP_CLOSED,
     FindingKind.TINY_ENTITY, FindingKind.LEFT_OUT, FindingKind.ASSUMED, FindingKind.HIDDEN, FindingKind.LEFT_UNREACHABLE,
     FindingKind.SKIN, FindingKind.ENTRY,
 )
-_RED = {FindingKind.GOUGE, FindingKind.CLAMP, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK, FindingKind.PLUNGE,
+_RED = {FindingKind.AREA, FindingKind.GOUGE, FindingKind.CLAMP, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK,
+        FindingKind.PLUNGE,
         FindingKind.HOLDER_CONTACT, FindingKind.SHANK_CONTACT, FindingKind.BELOW_TABLE, FindingKind.LEFT_REACHABLE}
 
 _NAMES = {
+    FindingKind.AREA: "area lost or gained",
     FindingKind.GOUGE: "gouge", FindingKind.RAPID_IN_MATERIAL: "rapid in material", FindingKind.LEFT_REACHABLE: "material left",
     FindingKind.CLAMP: "clamp hit", FindingKind.TOLERANCE: "tolerance not met", FindingKind.OPEN_CONTOUR: "open contour",
     FindingKind.SELF_INTERSECTION: "crossing contours", FindingKind.OVERLAP: "overlap",

@@ -25,6 +25,8 @@ from app.nc.write import NcFile, NcText
 from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
 from app.toolpath.coverage import Coverage, coverage_findings, measure
+from app.toolpath.wanted import CHORD
+from app.toolpath.witness import about_floors
 from app.workflow.bitmap_options import is_picture
 from app.workflow.cut import CutProgram
 from app.workflow.cut_job import cut_job, news
@@ -194,7 +196,7 @@ def finish(
     metal = cut_job(program, job, written, (depths, coverage), progress.part(0.7, 0.98)) if written.files else None
     own = (*unsafe, *(news(metal, unsafe) if metal is not None else ()), *_shape_findings(program, job),
            *written.coarseness(job.out_units), *(written.misfits() if machine else ()),
-           *coverage_findings(coverage), *_ring_findings(program))
+           *coverage_findings(coverage), *about_floors(program.areas, CHORD), *_ring_findings(program))
     findings = worst_first((*own, *program.findings, *drawing_findings))
     progress.step(1.0, "Done")
     report = make_report(Measured(program, job, written, deepest, rapids, coverage, findings, metal))

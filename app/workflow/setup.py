@@ -222,6 +222,8 @@ def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
     from app.toolpath.drawn import drawn
     from app.toolpath.missed import missed
     from app.toolpath.sheets import Sheets
+    from app.toolpath.wanted import CHORD
+    from app.toolpath.witness import about_floors
 
     assert wishes.against is not None
     header, (name, data) = _header(programs), wishes.against
@@ -230,7 +232,8 @@ def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
     drawing = read_drawing(name, data, units, layers_to_read(asked))
     job = with_layers_spelled(replace(asked, part=drawing.part))
     parts = drawn(job)
-    regions, lines = machined(parts), followed_lines(job, parts)
+    made, lines = machined(parts), followed_lines(job, parts)
+    regions = made.regions
     if not regions and not lines:
         said = " ".join(finding.text for finding in parts.findings[:3])
         raise InputError(f"{name}: there is no closed contour to compare with; choose other layers, or join loose ends: "
@@ -239,9 +242,11 @@ def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
     tolerance = TOLERANCE if wishes.tolerance is None else wishes.tolerance
     tabs, dog_bones = _on_purpose(programs)
     sheets = Sheets(job, parts)
+    areas = sheets.areas()
     part = FlatPart(job, regions, _origin(job, (regions, lines), wishes, header), tolerance if proven is None else proven, tolerance,
-                    header.allowance or 0.0, sheets.areas(), lines, clamps=parts.clamps, tabs=tabs, dog_bones=dog_bones)
-    return part, (*drawing.findings, *about_drawing(job, parts, lines), *missed(sheets, regions))
+                    header.allowance or 0.0, areas, lines, clamps=parts.clamps, tabs=tabs, dog_bones=dog_bones)
+    return part, (*drawing.findings, *about_drawing(job, parts, lines), *made.findings, *sheets.findings, *about_floors(areas, CHORD),
+                  *missed(sheets, regions))
 
 
 def _on_purpose(programs: tuple[Examined, ...]) -> tuple[tuple[Tab, ...], tuple[DogBone, ...]]:

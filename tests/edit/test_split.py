@@ -49,6 +49,13 @@ def test_what_is_closed_needs_two_points(whole: Curve) -> None:
     assert (high.start[0] > 0) is ccw
 
 
+def test_points_on_either_side_of_where_angles_begin_again_are_one() -> None:
+    """A circle's angles go round from pi to -pi; two points a nanometre apart there cut it once with a third one, not into a hair."""
+    pieces = split(Circle((0, 0), 10), [(-10.0, 3e-8), (-10.0, -3e-8), (10.0, 0.0)])
+    assert [curve_length(piece) for piece in pieces] == pytest.approx([10 * math.pi] * 2)
+    assert len(split(Circle((0, 0), 10), [(-10.0, 3e-8), (-10.0, -3e-8)])) == 1
+
+
 @pytest.mark.parametrize(("a", "b", "count"), [
     (Line((0, 0), (10, 0)), Line((5, -5), (5, 5)), 1), (Line((0, 0), (4, 0)), Line((5, -5), (5, 5)), 0),
     (Line((-20, 3), (20, 3)), Circle((0, 0), 5), 2), (Line((-20, 5), (20, 5)), Circle((0, 0), 5), 1),

@@ -100,7 +100,7 @@ def test_levels_do_not_depend_on_the_ones_before() -> None:
 
 def check_random(seed: int) -> None:
     contours, crossing = random_part(seed)
-    contours = list(without_crossings(contours)) if crossing else contours
+    contours = list(without_crossings(contours).contours) if crossing else contours
     distances = [0.5, 1.0, 1.5, 2.0, 3.0, 4.0] if seed % 2 else list(np.cumsum(np.random.default_rng(seed).uniform(0.1, 2, 6)))
     cells = sheared_grid(contours)
     field = np.where(plain_distance.inside(cells, contours), plain_distance.distance(cells, contours), -1)
@@ -177,7 +177,7 @@ def test_cusps_that_point_out_of_the_area_get_no_arc_and_those_that_point_in_do(
 @pytest.mark.parametrize("island", [circle(10, 50, 20), circle(6, 6, 20), square(10, 0, 5)])
 def test_islands_that_touch_the_wall_keep_lines_and_arcs(island: Contour) -> None:
     wall = polygon_contour([(0, 0), (60, 0), (60, 40), (0, 40)])
-    contours = list(without_crossings([wall, island]))
+    contours = list(without_crossings([wall, island]).contours)
     for level in levels_of(contours, [1.0, 4.0, 7.0]):
         assert level.rings and not any(ring.polyline for ring in level.rings)
         assert len(level.rings[0].rows) < 20

@@ -212,7 +212,7 @@ def whole(shape: shapely.Geometry, islands: int) -> bool:
 
 def check_widths(contours: list[Contour], crossing: bool) -> None:
     """Against shapely: discs are free and touch, the passage and the clearing tool are not too large."""
-    regions = nest(without_crossings(contours) if crossing else contours)
+    regions = nest(without_crossings(contours).contours if crossing else contours)
     if not regions:
         return
     field = DistanceField.of(pack(regions).rows)
@@ -243,7 +243,7 @@ def test_random_parts(seed: int) -> None:
 @given(st.integers(0, 10**6))
 def test_a_tool_that_clears_leaves_nothing_but_corners(seed: int) -> None:
     contours, crossing = random_part(seed)
-    regions = nest(without_crossings(contours) if crossing else contours)
+    regions = nest(without_crossings(contours).contours if crossing else contours)
     for region, found in zip(regions, advise(regions, tools(1)).regions, strict=True):
         if found.clearing.size < 0.5:
             continue

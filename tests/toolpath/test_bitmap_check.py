@@ -17,7 +17,7 @@ from tests.part_shapes import circle, fig2, random_part, square
 
 
 def field_and_level(contours: list[Contour], distance: float, crossing: bool = False) -> tuple[DistanceField, Level]:
-    primitives = pack(nest(without_crossings(contours) if crossing else contours))
+    primitives = pack(nest(without_crossings(contours).contours if crossing else contours))
     return DistanceField.of(primitives.rows), offset_levels(primitives, [distance])[0]
 
 

@@ -26,7 +26,7 @@ from tests.part_shapes import circle, fig2, random_part, square
 
 def pocket(contours: list[Contour], outermost: float, step: float, direction: Direction = Direction.CLIMB,
            crossing: bool = False) -> tuple[tuple[Level, ...], tuple[Stroke, ...]]:
-    primitives = pack(nest(without_crossings(contours) if crossing else contours))
+    primitives = pack(nest(without_crossings(contours).contours if crossing else contours))
     field = DistanceField.of(primitives.rows)
     distances = pocket_distances(outermost, step, field)
     levels = without_empty(offset_levels(primitives, distances))

@@ -62,7 +62,7 @@ def test_bridges_are_less_than_two_hundredths_of_the_path_and_nothing_is_left(na
 @given(st.integers(0, 10**6), st.sampled_from(list(Direction)), st.booleans())
 def test_random_parts(seed: int, direction: Direction, outside_in: bool) -> None:
     contours, crossing = random_part(seed)
-    contours = list(without_crossings(contours)) if crossing else contours
+    contours = list(without_crossings(contours).contours) if crossing else contours
     stepover = float(np.random.default_rng(seed).uniform(0.4, 1.0))
     made, sheet = cleared(nest(contours), stepover, Manner(direction, outside_in))
     if not made.levels:

@@ -39,7 +39,7 @@ def rings(primitives: Primitives, first: float, stepover: float, radius: float) 
 
 
 def filled(contours: list[Contour], first: float, stepover: float, radius: float) -> tuple[tuple[Level, ...], Filling, DistanceField]:
-    primitives = pack(nest(without_crossings(contours)))
+    primitives = pack(nest(without_crossings(contours).contours))
     field = DistanceField.of(primitives.rows)
     levels, halves = rings(primitives, first, stepover, radius)
     return levels, fill(levels, halves, field, radius) if halves and levels else NOTHING, field
@@ -53,7 +53,7 @@ def left_by_squares(levels: tuple[Level, ...], strokes: tuple[Stroke, ...], fiel
 
 def left_by_polygons(contours: list[Contour], first: float, strokes: tuple[Stroke, ...], radius: float) -> float:
     """Area of the opening without the strokes' swath, by the library's polygons, chords within a micrometre, mm2."""
-    regions = region_shapes(nest(without_crossings(contours)), 1e-4)
+    regions = region_shapes(nest(without_crossings(contours).contours), 1e-4)
     reach = shapely.union_all(shapely.buffer(shapely.buffer(regions, -first - 2e-3, quad_segs=64), radius, quad_segs=64))
     parts = [shapely.buffer(shapely.LineString(points), radius, quad_segs=64) for stroke in strokes for points in runs_of(stroke.rows)]
     left = shapely.difference(reach, shapely.union_all(parts))

@@ -8,14 +8,15 @@ import numpy as np
 import pytest
 import shapely
 
-from app.geometry.region import polygon_contour
+from app.geometry.overlay import without_outlines
+from app.geometry.region import nest, polygon_contour
 from app.model.job import Copies, Job
 from app.model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, RestOperation, Side
 from app.model.part import Contour, Region
 from app.model.tool import Tool
 from app.toolpath.drawn import drawn
 from app.toolpath.flat import region_shapes
-from app.toolpath.sheets import Sheet, Sheets, without_clamps
+from app.toolpath.sheets import Sheet, Sheets
 from tests.part_shapes import circle, layered_part, random_part, square
 
 INSIDE, OUTSIDE, ON = (ContourOperation(Cut(2), side) for side in Side)
@@ -154,6 +155,6 @@ def test_a_drill_stays_in_its_circles() -> None:
 def test_clamps_keep_the_area_apart_where_they_cut_it() -> None:
     bar = polygon_contour([(0, 0), (100, 0), (100, 10), (0, 10)])
     (clamp,) = drawn(Job(layered_part({"k": [square(20, 40, -5)], "a": []}), operations=(), keep_out_layers=("k",))).clamps
-    regions = without_clamps([bar], [clamp])
+    regions = nest(without_outlines([bar], [clamp.boundary]).contours)
     assert [region.number for region in regions] == [1, 2]
     assert sorted(shape((region,)).area for region in regions) == pytest.approx([400, 400])

@@ -25,7 +25,7 @@ from tests.part_shapes import circle, random_part, square
 
 
 def ringed(contours: list[Contour], first: float, step: float) -> tuple[DistanceField, tuple[Level, ...]]:
-    primitives = pack(nest(without_crossings(contours)))
+    primitives = pack(nest(without_crossings(contours).contours))
     field = DistanceField.of(primitives.rows)
     return field, without_empty(offset_levels(primitives, pocket_distances(first, step, field), frame=True))
 

@@ -63,8 +63,8 @@ def test_comments_lead_to_the_same_areas(name: str, post: str) -> None:
     job = Job(part, TOOLS, OPERATIONS[name], layer_names=("outline", "Holes", "text"), copies=Copies(2, 1, 130.0 + 1 / 3),
               keep_out_layers=("clamps",), keep_out_height=8.0, post=post)  # fmt: skip
     made = drawn(job)
-    program = replace(_moves(job), regions=machined(made), areas=Sheets(job, made).areas(), lines=followed_lines(job, made), tabs=TABS,
-                      dog_bones=BONES)  # fmt: skip
+    program = replace(_moves(job), regions=machined(made).regions, areas=Sheets(job, made).areas(),
+                      lines=followed_lines(job, made), tabs=TABS, dog_bones=BONES)  # fmt: skip
     texts = [file.nc.text for file in write_files(program, job, load_post(post))]
     examined = tuple(examine(f"{k}.nc", text.encode(), ExamineOptions(load_post(post).dialect)) for k, text in enumerate(texts))
     found = setup_of(examined, Wishes(against=("plate.dxf", drawing()))).setup.part

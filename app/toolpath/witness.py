@@ -1,0 +1,168 @@
+"""Whether what is machined is what was drawn, link by link: an independent witness measures the drawn curves themselves.
+
+Curves → contours → areas of the operations → polygons that the floor is measured with. Each link is asked for its area, and what it
+has to be is known without it; a link that lost something is told, and the job is not clean.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app import tolerances
+from app.errors import GeometryError
+from app.fit.bezier import pieces_of
+from app.geometry.chain import Chaining
+from app.geometry.chain_findings import at
+from app.geometry.chain_pieces import length_of, within_reach
+from app.geometry.distance import DistanceField
+from app.geometry.even_odd import even_odd
+from app.geometry.overlay import differing
+from app.geometry.primitives import contour_rows, lengths, points_at, signed_area
+from app.geometry.region import Nesting
+from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Primitive, Spline
+from app.model.finding import Finding, FindingKind
+from app.model.moves import Area
+from app.model.part import Contour, Entity, Region
+from app.toolpath.flat import region_shapes
+
+Floats = NDArray[np.float64]
+
+_CHORD = 1e-4
+"""mm; ellipses and splines are measured as chords this near to them."""
+
+_FINEST = 14
+"""Halvings of a spline's pieces after which its chords are taken as they are."""
+
+_NAMED = 5
+"""So many curves are named in a sentence."""
+
+
+def about_chaining(entities: Sequence[Entity], chaining: Chaining, join_tolerance: float) -> list[Finding]:
+    """Return the findings that contours are not all that was drawn, or have another area than their curves.
+
+    Args:
+        entities: what was chained.
+        chaining: into this.
+        join_tolerance: mm; curves no longer than gaps may have gone into joints.
+    """
+    known = {number for contour in chaining.contours for number in contour.entity_ids}
+    known.update(number for finding in chaining.findings for number in finding.entity_ids)
+    lost = [each for each in entities if each.id not in known and _long(each.curve, 2 * join_tolerance)]
+    return [*_about_lost(lost), *_about_outlines(entities, [contour for contour in chaining.contours if contour.closed])]
+
+
+def _long(curve: Curve, least: float) -> bool:
+    if not within_reach(curve):
+        return False
+    try:
+        return sum(map(length_of, drawn_as(curve))) > least
+    except GeometryError:  # what cannot be measured is told where it is read
+        return False
+
+
+def _about_lost(lost: Sequence[Entity]) -> list[Finding]:
+    if not lost:
+        return []
+    x, y = lost[0].curve.start
+    names = ", ".join(str(each.id) for each in lost[:_NAMED]) + (f" and {len(lost) - _NAMED} more" if len(lost) > _NAMED else "")
+    text = (f"{'Curve' if len(lost) == 1 else 'Curves'} {names}, the first at {at((x, y))}, came into no contour, and nothing says why; "
+            "do not use this program, draw them again.")  # fmt: skip
+    return [Finding(FindingKind.AREA, text, x, y, entity_ids=tuple(each.id for each in lost), amount=float(len(lost)))]
+
+
+def _about_outlines(entities: Sequence[Entity], contours: Sequence[Contour]) -> list[Finding]:
+    """Return the finding that closed contours have not the area of their curves as drawn, but for gaps and what was cut from them."""
+    if not contours:
+        return []
+    wanted = {number for contour in contours for number in contour.entity_ids}
+    curves = [drawn_as(each.curve) for each in entities if each.id in wanted]
+    drawn = even_odd([Contour(primitives) for primitives in curves if primitives])
+    made = even_odd(contours)
+    moved = sum(float(lengths(contour_rows(contour)).sum()) * contour.deviation for contour in contours)
+    starts = [contour.primitives[0].start[0] for contour in contours] + [p.end[0] for contour in contours for p in contour.primitives]
+    wide = max(starts) - min(starts)
+    spare = moved + drawn.loose * wide + drawn.length * 2 * _CHORD * any(isinstance(e.curve, Ellipse | Spline) for e in entities)
+    return differing(drawn, made.area, contours, spare)
+
+
+def drawn_as(curve: Curve) -> tuple[Primitive, ...]:
+    """Return a curve as lines and arcs: itself, or the chords of an ellipse or spline."""
+    if isinstance(curve, Line | Circle):
+        return (curve,)
+    if isinstance(curve, Arc):
+        return (curve,) if curve.start != curve.end else ()
+    pieces = pieces_of(curve)
+    marks = np.arange(len(pieces) + 1, dtype=np.float64)
+    for _ in range(_FINEST):
+        points = pieces.at(marks)[0]
+        middles = (marks[1:] + marks[:-1]) / 2
+        between = pieces.at(middles)[0]
+        coarse = np.hypot(*(between - (points[1:] + points[:-1]) / 2).T) > _CHORD
+        coarse |= len(marks) < 2 * len(pieces) + 1  # two chords at least a piece: an S has its middle on its chord
+        if not coarse.any():
+            break
+        marks = np.sort(np.concatenate([marks, middles[coarse]]))
+    ends = [(float(x), float(y)) for x, y in pieces.at(marks)[0]]
+    return tuple(Line(a, b) for a, b in pairwise(ends) if a != b)
+
+
+def about_regions(contours: Sequence[Contour], outlines: Sequence[Contour], nesting: Nesting) -> list[Finding]:
+    """Return the findings that regions are not the even-odd area of contours without what outlines hold.
+
+    Args:
+        contours: closed, as they were drawn.
+        outlines: of clamps.
+        nesting: what came of them.
+    """
+    made = sum(map(exact_area, nesting.regions))
+    thin = sum(abs(signed_area(contour_rows(contour))) for contour in nesting.thin)
+    found = differing(even_odd(contours, outlines), made + thin, contours)
+    found += _about_edges([*contours, *outlines], nesting.regions)
+    if thin > tolerances.LEVEL:
+        x, y = nesting.thin[0].primitives[0].start
+        count = "1 area" if len(nesting.thin) == 1 else f"{len(nesting.thin)} areas"
+        text = f"Left out: {count} thinner than 1 um, {thin:.4f} mm2 in all, at {at((x, y))} for one."
+        found.append(Finding(FindingKind.LEFT_OUT, text, x, y, False, nesting.thin[0].entity_ids, thin))
+    return found
+
+
+def _about_edges(curves: Sequence[Contour], regions: Sequence[Region]) -> list[Finding]:
+    """Return the finding that an edge of a region lies where nothing is drawn."""
+    if not curves or not regions:
+        return []
+    rows = np.concatenate([contour_rows(contour) for region in regions for contour in region.contours])
+    middles = points_at(rows, np.full(len(rows), 0.5))
+    away = DistanceField.of(np.concatenate([contour_rows(contour) for contour in curves])).nearest(middles)[0]
+    worst = int(np.argmax(away))
+    if away[worst] <= tolerances.LEVEL:
+        return []
+    x, y = middles[worst].tolist()
+    text = f"A wall at {at((x, y))} lies {away[worst]:.4f} mm off everything that is drawn; do not use this program, draw that place again."
+    return [Finding(FindingKind.AREA, text, x, y, amount=float(away[worst]))]
+
+
+def exact_area(region: Region) -> float:
+    """Return the area of a region, mm2."""
+    return sum(signed_area(contour_rows(contour)) for contour in region.contours)
+
+
+def about_floors(areas: Sequence[Area], chord: float) -> list[Finding]:
+    """Return the findings that polygons by which floors are measured are not the areas of the operations.
+
+    Args:
+        chord: by which arcs of the polygons may miss them, mm.
+    """
+    found = []
+    for regions in {id(area.regions): area.regions for area in areas if area.regions}.values():
+        length = sum(float(lengths(contour_rows(contour)).sum()) for region in regions for contour in region.contours)
+        missing = sum(map(exact_area, regions)) - sum(float(shape.area) for shape in region_shapes(regions, chord))
+        if abs(missing) > length * chord:
+            x, y = regions[0].boundary.primitives[0].start
+            text = (f"The floor from {at((x, y))} on is measured {abs(missing):.4f} mm2 too {'small' if missing > 0 else 'large'}, "
+                    "so what is said to be left is not true; do not use this program.")  # fmt: skip
+            found.append(Finding(FindingKind.AREA, text, x, y, amount=abs(missing)))
+    return found
