@@ -14,7 +14,7 @@ from app.errors import HitofudeError, InputError
 from app.files.drawing import read_drawing
 from app.files.job_toml import JobFile
 from app.model.entry import LONGEST_LEAD, Lead
-from app.model.finding import Finding
+from app.model.finding import Finding, FindingKind
 from app.model.job import Copies, Job, OriginXY, OriginZ
 from app.model.job import Stock as JobStock
 from app.model.motion import Floats, MotionKind
@@ -162,7 +162,8 @@ def _part(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
     name, data = wishes.against
     suffix = PurePath(name).suffix.lower()
     if suffix == ".stl":
-        return _solid(name, data, wishes), ()
+        solid = read_solid(name, data)
+        return _solid(solid, wishes), _wound(name, solid)
     return _flat(programs, tools, wishes)
 
 
@@ -190,9 +191,15 @@ def _nothing_beside(name: str) -> bytes:
     raise InputError(f"{name}: the scene names this file, and it is not known where it lies; put its points into the scene.")
 
 
-def _solid(name: str, data: bytes, wishes: Wishes) -> SolidPart:
-    """Return the solid in program coordinates."""
-    triangles = read_solid(name, data).triangles * (wishes.units or Units.MM).value
+def _wound(name: str, solid: SolidStock) -> tuple[Finding, ...]:
+    """Return the remark that triangles of a solid had to be turned over, if any had."""
+    said = solid.wound_words(name)
+    return (Finding(FindingKind.ASSUMED, said, counts=False, amount=float(solid.turned)),) if said else ()
+
+
+def _solid(solid: SolidStock, wishes: Wishes) -> SolidPart:
+    """Return a solid in program coordinates."""
+    triangles = solid.triangles * (wishes.units or Units.MM).value
     low, high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
     xy, z = wishes.origin or (None, None)
     zero = np.zeros(3)
