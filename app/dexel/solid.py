@@ -23,10 +23,12 @@ class SolidStock:
     Attributes:
         triangles: (n, 3, 3) float64 corners, mm; n > 0; counter-clockwise seen from outside.
         turned: how many of them were wound the other way in their file.
+        shells: of how many closed surfaces it consists; these may overlap, or one may be a hollow in another.
     """
 
     triangles: NDArray[np.float64]
     turned: int = 0
+    shells: int = 1
 
     @property
     def box(self) -> tuple[float, float, float, float]:
@@ -78,4 +80,4 @@ def read_solid(name: str, data: bytes) -> SolidStock:
         place = "" if wound.place is None else " at ({:.3f}, {:.3f}, {:.3f})".format(*wound.place)
         raise InputError(f"{name}: the solid's surface is not closed{place}: {wound.fault}; so nobody can say where its metal is; "
                          "repair it, or export it as one closed solid.")
-    return SolidStock(np.ascontiguousarray(wound.triangles), int(np.count_nonzero(wound.turned)))
+    return SolidStock(np.ascontiguousarray(wound.triangles), int(np.count_nonzero(wound.turned)), wound.shells)

@@ -33,12 +33,14 @@ class Wound:
         turned: (n,) which of them had to be turned over.
         fault: why that cannot be done, as the end of a sentence; "" = it is done.
         place: x, y, z of the fault, mm, where it has one.
+        shells: of how many closed surfaces it consists.
     """
 
     triangles: Floats
     turned: NDArray[np.bool_]
     fault: str = ""
     place: tuple[float, float, float] | None = None
+    shells: int = 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,10 +91,10 @@ def right_side_out(triangles: Floats) -> Wound:
     patch, against, fault = _agreed(edges, len(solid))
     if fault >= 0:
         return Wound(corners, turned, "it has one side only, like a twisted strip", _middle(solid, fault))
-    turned[~flat], fault = _outward(solid, edges, patch, against)
+    turned[~flat], shells, fault = _outward(solid, edges, patch, against)
     if fault >= 0:
         return Wound(corners, np.zeros(len(corners), np.bool_), "its patches enclose nothing there", _middle(solid, fault))
-    return Wound(np.where(turned[:, None, None], corners[:, ::-1], corners), turned)
+    return Wound(np.where(turned[:, None, None], corners[:, ::-1], corners), turned, shells=shells)
 
 
 def _middle(triangles: Floats, use: int) -> tuple[float, float, float]:
@@ -131,8 +133,8 @@ def _agreed(edges: Edges, faces: int) -> tuple[Ints, NDArray[np.bool_], int]:
     return patch, against, int(pairs[wrong[0], 0]) if len(wrong) else -1
 
 
-def _outward(triangles: Floats, edges: Edges, patch: Ints, against: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], int]:
-    """Return which triangles are to be turned over, and a use at which patches do not go together, or -1.
+def _outward(triangles: Floats, edges: Edges, patch: Ints, against: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], int, int]:
+    """Return which triangles are to be turned over, how many shells there are, and a use at which patches do not go together, or -1.
 
     Patches that meet at edges of four triangles and more keep the turn to one another that most of their area has in the file.
     """
@@ -143,8 +145,10 @@ def _outward(triangles: Floats, edges: Edges, patch: Ints, against: NDArray[np.b
     balance = np.bincount(edges.edge, np.where(forward, 1, -1))
     wrong = np.flatnonzero(balance[edges.edge])
     if len(wrong):
-        return turned, int(wrong[0])
-    return _turned_shells(triangles, turned, _shells(edges, patch, forward))
+        return turned, 0, int(wrong[0])
+    shell = _shells(edges, patch, forward)
+    turned, fault = _turned_shells(triangles, turned, shell)
+    return turned, len(np.unique(shell)), fault
 
 
 def _turned_shells(triangles: Floats, turned: NDArray[np.bool_], shell: Ints) -> tuple[NDArray[np.bool_], int]:

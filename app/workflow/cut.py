@@ -259,12 +259,13 @@ class _Run:
         wanted = wanted_over(part, cut, self.setup.stock, cutters, progress.part(0.0, 0.3))
         if exact is None and self.options.judge and isinstance(part, FlatPart):
             exact = exact_of(part, [known.course for known in self.courses], self.box(), progress.part(0.3, 0.7))
-        certificate = certify(self.workpiece, wanted, self.cutters, self.trimmed, progress.part(0.7, 1.0)) if self.options.judge else None
+        solid = part if isinstance(part, SolidPart) and part.block is None and part.solid.shells == 1 else None
+        certificate = certify(self.workpiece, wanted, self.cutters, self.trimmed, progress.part(0.7, 1.0), solid) if self.options.judge else None
         lines = self.setup.lines()
-        probe = None
+        probe, lowest = None, self._lowest if isinstance(part, SolidPart) and self.options.judge else None
         if isinstance(part, SolidPart) and part.block is None and self.options.judge:  # of surfaces the cells tell enough
             probe = WallProbe(part, self._lowest, self.workpiece, lines)
-        return judge(Judging(part, cut, wanted, exact, lines, probe), certificate)
+        return judge(Judging(part, cut, wanted, exact, lines, lowest, probe), certificate)
 
     def _lowest(self, points: Floats) -> tuple[Floats, NDArray[np.int64]]:
         """Return the lowest height that all programs reach at points, and which of all their motions."""

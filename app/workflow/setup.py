@@ -115,7 +115,8 @@ def setup_of(programs: tuple[Examined, ...], wishes: Wishes = Wishes(), progress
     stock = _stock(programs, tools, part, wishes)
     setup = CutSetup(tuple(each.program for each in programs), {number: each.tool for number, each in tools.items()}, stock.stock, part,
                      tuple(each.name for each in programs))  # fmt: skip
-    found = (*assumed, *((stock.assumed,) if stock.assumed is not None else ()), *said)
+    of_stock = _wound("the stock", stock.stock) if isinstance(stock.stock, SolidStock) else ()
+    found = (*assumed, *of_stock, *((stock.assumed,) if stock.assumed is not None else ()), *said)
     return Ready(setup, programs, tools, stock, found)
 
 
@@ -210,7 +211,7 @@ def _solid(solid: SolidStock, wishes: Wishes) -> SolidPart:
     if z is not None:
         zero[2] = high[2] if z is OriginZ.TOP else low[2]
     tolerance = TOLERANCE if wishes.tolerance is None else wishes.tolerance
-    return SolidPart(SolidStock(triangles - zero), wishes.leave or 0.0, tolerance)
+    return SolidPart(replace(solid, triangles=triangles - zero), wishes.leave or 0.0, tolerance)
 
 
 def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> tuple[FlatPart, tuple[Finding, ...]]:
