@@ -29,8 +29,9 @@ class Wound:
     """A surface, right side out.
 
     Attributes:
-        triangles: (n, 3, 3) mm; counter-clockwise seen from outside, unless there is a fault.
-        turned: (n,) which of them had to be turned over.
+        triangles: (k, 3, 3) mm; counter-clockwise seen from outside, unless there is a fault. Those without an area, and pairs of them
+            at the same place, are left out.
+        turned: (n,) which of those that were given had to be turned over.
         fault: why that cannot be done, as the end of a sentence; "" = it is done.
         place: x, y, z of the fault, mm, where it has one.
         shells: of how many closed surfaces it consists.
@@ -76,14 +77,13 @@ def right_side_out(triangles: Floats) -> Wound:
     """Return a closed surface with every triangle wound counter-clockwise seen from outside.
 
     Args:
-        triangles: (n, 3, 3) mm, n > 0; those without area count for nothing.
+        triangles: (n, 3, 3) mm, n > 0.
     """
-    corners = triangles + 0.0
-    flat = np.any(np.all(corners == np.roll(corners, 1, axis=1), axis=2), axis=1)
-    solid = corners[~flat]
-    turned = np.zeros(len(corners), np.bool_)
+    corners, turned = triangles + 0.0, np.zeros(len(triangles), np.bool_)
+    counts = _counting(corners)
+    solid = corners[counts]
     if not len(solid):
-        return Wound(corners, turned, "its triangles have no area")
+        return Wound(corners, turned, "its triangles enclose nothing")
     edges = Edges.of(solid)
     loose = edges.open_uses()
     if len(loose):
@@ -91,10 +91,24 @@ def right_side_out(triangles: Floats) -> Wound:
     patch, against, fault = _agreed(edges, len(solid))
     if fault >= 0:
         return Wound(corners, turned, "it has one side only, like a twisted strip", _middle(solid, fault))
-    turned[~flat], shells, fault = _outward(solid, edges, patch, against)
+    over, shells, fault = _outward(solid, edges, patch, against)
     if fault >= 0:
-        return Wound(corners, np.zeros(len(corners), np.bool_), "its patches enclose nothing there", _middle(solid, fault))
-    return Wound(np.where(turned[:, None, None], corners[:, ::-1], corners), turned, shells=shells)
+        return Wound(corners, turned, "its triangles do not agree on an inside", _middle(solid, fault))
+    turned[counts] = over
+    return Wound(np.where(over[:, None, None], solid[:, ::-1], solid), turned, shells=shells)
+
+
+def _counting(corners: Floats) -> NDArray[np.bool_]:
+    """Return which triangles are part of a surface: those with an area, but for pairs at the same place, as where bodies touch."""
+    _, number = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
+    sides = np.sort(number.reshape(-1, 3), axis=1)
+    flat = (sides[:, 0] == sides[:, 1]) | (sides[:, 1] == sides[:, 2])
+    _, alike, many = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
+    alike = alike.ravel()
+    order = np.argsort(alike, kind="stable")
+    last = np.zeros(len(corners), np.bool_)
+    last[order[np.cumsum(many) - 1]] = True
+    return np.asarray(~flat & last & (many[alike] % 2 == 1))
 
 
 def _middle(triangles: Floats, use: int) -> tuple[float, float, float]:

@@ -38,14 +38,11 @@ Trimming = Callable[[Mapping[int, Cutter], TrimOptions, Progress], Heights]
 
 
 def certify(before: Workpiece, part: Wanted, cutters: Mapping[int, Cutter], trimming: Trimming,
-            progress: Progress = NO_PROGRESS, solid: SolidPart | None = None) -> Certificate:  # fmt: skip
+            progress: Progress = NO_PROGRESS) -> Certificate:  # fmt: skip
     """Return how far from the part any point can be that was cut or left.
 
     Rapids count as cuts for the one and as none for the other. Of metal left only what lies within reach is spoken of. The way out of
     the part is looked for on the cells round a place, and as far as these go; where a solid knows better, it is asked.
-
-    Args:
-        solid: the part, if it is one closed solid; None: the cells alone tell.
 
     Raises:
         Cancelled: the job was asked to stop.
@@ -67,8 +64,8 @@ def certify(before: Workpiece, part: Wanted, cutters: Mapping[int, Cutter], trim
         return max(by_strips(len(stock), lambda a, b: float(farthest(fixed, wanted, counts, where, sign, a, b)), progress)) + ROUNDING
 
     gouge = worst(low, stock, 1)
-    if solid is not None and gouge > pitch + 2 * half:
-        gouge = min(gouge, _in_solid(solid, part, low, before, half) + ROUNDING)
+    if part.solid is not None and gouge > pitch + 2 * half:
+        gouge = min(gouge, _in_solid(part.solid, part, low, before, half) + ROUNDING)
     return Certificate(gouge, worst(high, spoken, -1), pitch)
 
 

@@ -44,10 +44,12 @@ class Wanted:
     Attributes:
         target: heights.
         reach: (rows, cols) where some tool that cuts gets down to the part; of a solid, of what is left.
+        solid: the part, if it is one closed surface, and so can be asked how deep places lie in it.
     """
 
     target: Target
     reach: Mask
+    solid: SolidPart | None = None
 
 
 def wanted_over(part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...], progress: Progress = NO_PROGRESS) -> Wanted:
@@ -62,6 +64,7 @@ def wanted_over(part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...],
         Cancelled: the job was asked to stop.
     """
     grid = cut.before.grid
+    solid = part if isinstance(part, SolidPart) and part.block is None and part.solid.shells == 1 else None
     if isinstance(part, FlatPart):
         flat = flat_target(part, grid)
         target, reach = flat.target, flat.reach
@@ -73,7 +76,7 @@ def wanted_over(part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...],
             lowest = reach_of(part.solid, part.leave, stock.box, cutters, progress)
             sure, possible = (height <= target.high + np.float32(part.tolerance) for height in lowest.over(grid))
             reach |= reachable(left, sure, possible, max(3, math.ceil(3 * lowest.grid.pitch / grid.pitch)))
-    return Wanted(replace(target, low=np.minimum(target.low, cut.before.heights)), reach)
+    return Wanted(replace(target, low=np.minimum(target.low, cut.before.heights)), reach, solid)
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,14 +165,14 @@ def _near(spot: Spot, others: Sequence[Spot]) -> bool:
 
 
 def _apart(spots: Iterator[Spot]) -> Iterator[Spot]:
-    """Yield spots but for those near an earlier one, not too many."""
-    told: list[Spot] = []
+    """Yield spots but for those near an earlier one."""
+    told: dict[tuple[int, int], list[Spot]] = {}
     for spot in spots:
-        if not _near(spot, told):
-            told.append(spot)
+        col, row = math.floor(spot.x / APART), math.floor(spot.y / APART)
+        around = [other for dx in (-1, 0, 1) for dy in (-1, 0, 1) for other in told.get((col + dx, row + dy), ())]
+        if not _near(spot, around):
+            told.setdefault((col, row), []).append(spot)
             yield spot
-        if len(told) == MOST_GOUGES:
-            return
 
 
 def _exact_gouges(judging: Judging) -> Iterator[Spot]:
@@ -197,7 +200,8 @@ def _gouge_of_cells(judging: Judging, place: CellPlace) -> Spot:
     row, col = divmod(int(place.cells[worst]), grid.cols)
     x, y = grid.place(int(place.cells[worst]))
     line, motion = judging.line_at(row, col)
-    return Spot(SpotKind.GOUGE, x, y, float(judging.cut.heights[row, col]), float(depths[worst]), place.area_mm2, place.disc_mm, line, motion)
+    z, depth = float(judging.cut.heights[row, col]), float(depths[worst])
+    return Spot(SpotKind.GOUGE, x, y, z, depth, place.area_mm2, place.disc_mm, line, motion)
 
 
 def _worst(judging: Judging, spots: tuple[Spot, ...], gouged: int) -> Gouge:

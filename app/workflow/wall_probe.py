@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from app.dexel.solid import SolidStock
 from app.dexel.solid_rays import SolidRays
 from app.dexel.workpiece import Workpiece
+from app.model.finding import Finding, FindingKind
 from app.model.motion import Floats
 from app.workflow.judgement import Spot, SpotKind
 from app.workflow.parts import SolidPart
@@ -113,24 +114,41 @@ def metal_at(workpiece: Workpiece, places: Floats) -> Floats:
     return np.where(beside, -np.inf, there)
 
 
+def unseen_walls(part: SolidPart, pitch: float) -> Iterator[Finding]:
+    """Yield the remark that a solid has more walls than are looked at half a cell apart, and where gouges may hide."""
+    apart = _step(_walls(part.solid)[2], pitch)
+    if apart > pitch / 2:
+        text = (f"The walls of the solid are so long that they were asked every {apart:.3f} mm only, not every {pitch / 2:.3f} mm; gouges "
+                "narrower than that may be unseen beside the cells; look at a part of it (--window).")
+        yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=apart)
+
+
 def wall_points(solid: SolidStock, pitch: float) -> tuple[Floats, Floats]:
     """Return points (m, 2) on a solid's walls seen from above, half a cell apart, and the way into the solid there, of length 1."""
+    (begin, end), inwards, length = _walls(solid)
+    if not len(length):
+        return np.zeros((0, 2)), np.zeros((0, 2))
+    counts = np.maximum(1, np.ceil(length / _step(length, pitch))).astype(np.int64)
+    owner = np.repeat(np.arange(len(length)), counts)
+    share = (np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts) + 0.5) / counts[owner]
+    return begin[owner] + (end - begin)[owner] * share[:, None], inwards[owner]
+
+
+def _step(length: Floats, pitch: float) -> float:
+    """Return how far apart points on walls of some lengths lie, mm."""
+    return max(pitch / 2, float(length.sum()) / MOST_POINTS)
+
+
+def _walls(solid: SolidStock) -> tuple[tuple[Floats, Floats], Floats, Floats]:
+    """Return of each triangle that is a wall both ends (n, 2) as seen from above, the way into the solid (n, 2), and its length (n,)."""
     a, b, c = np.moveaxis(solid.triangles, 1, 0)
     normal = np.cross(b - a, c - a)
     size = np.linalg.norm(normal, axis=1)
     wall = (size > 0) & (np.abs(normal[:, 2]) < STEEP * size)
     corners, normal = solid.triangles[wall], normal[wall]
-    if not len(corners):
-        return np.zeros((0, 2)), np.zeros((0, 2))
     inwards = -normal[:, :2] / np.hypot(normal[:, 0], normal[:, 1])[:, None]
     along = np.column_stack([-inwards[:, 1], inwards[:, 0]])
     spread = np.einsum("ijk,ik->ij", corners[..., :2], along)
-    first, last = np.argmin(spread, axis=1), np.argmax(spread, axis=1)
     each = np.arange(len(corners))
-    begin, end = corners[each, first, :2], corners[each, last, :2]
-    length = np.hypot(*(end - begin).T)
-    step = max(pitch / 2, float(length.sum()) / MOST_POINTS)
-    counts = np.maximum(1, np.ceil(length / step)).astype(np.int64)
-    owner = np.repeat(each, counts)
-    share = (np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts) + 0.5) / counts[owner]
-    return begin[owner] + (end - begin)[owner] * share[:, None], inwards[owner]
+    begin, end = corners[each, np.argmin(spread, axis=1), :2], corners[each, np.argmax(spread, axis=1), :2]
+    return (begin, end), inwards, np.hypot(*(end - begin).T)
