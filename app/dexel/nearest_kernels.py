@@ -56,7 +56,11 @@ def _from_box(boxes, k, x, y, z):  # type: ignore[no-untyped-def]
 
 @kernel(f"Tuple((float64, int64))({_MANY}, {_MANY}, float64, float64, float64, int64, int64[::1])", counts=False)
 def _nearest(boxes, triangles, x, y, z, guess, stack):  # type: ignore[no-untyped-def]
-    """Return the square of the distance of a place from the nearest triangle, and which one that is; `guess` may be it, `stack` is to work in."""
+    """Return the square of the distance of a place from the nearest triangle, and which one that is.
+
+    Args:
+        guess: a triangle that may be it. stack: (_STACK,) to work in.
+    """
     best, which = _from_triangle(triangles[guess], x, y, z), guess
     leaves = (len(boxes) + 1) // 2
     stack[0], depth = 0, 1

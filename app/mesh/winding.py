@@ -168,7 +168,7 @@ def _outward(triangles: Floats, edges: Edges, patch: Ints, against: NDArray[np.b
 def _turned_shells(triangles: Floats, turned: NDArray[np.bool_], shell: Ints) -> tuple[NDArray[np.bool_], int]:
     """Return which triangles are to be turned over when whole shells are, too, and a use of a surface that encloses nothing, or -1."""
     order = np.argsort(shell, kind="stable")
-    numbers, first = np.unique(shell[order], return_index=True)
+    _, first = np.unique(shell[order], return_index=True)
     rows = np.split(order, first[1:])
     wound = np.where(turned[:, None, None], triangles[:, ::-1], triangles)
     own = wound - wound.reshape(-1, 3).mean(axis=0)

@@ -39,6 +39,9 @@ class FindingKind(Enum):
     SKIN = "skin"
     ENTRY = "entry"
     CLAMP = "clamp"
+    HOLE = "hole"
+    SIZE = "size"
+    FEED = "feed"
 
 
 @dataclass(frozen=True, slots=True)
