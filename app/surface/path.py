@@ -155,7 +155,7 @@ def cutter_path(follower: Follower, planes: Planes, area: shapely.Geometry | Non
         more = [(plane, part) for plane, beyond in enumerate(beside)
                 for piece in ((outer,) if beyond else ((outer[0], whole[0]), (whole[1], outer[1])))
                 for part in stretches(planes, plane, piece, allowed) if part[1] - part[0] > _SHORT]
-        lowest = max([overrun.floor, *(float(each[:, _z()].min()) for each in rows if len(each))])
+        lowest = max(overrun.floor, min((float(each[:, _z()].min()) for each in rows if len(each)), default=-math.inf))
         more, outside = _outside(follower, planes, more, lowest, progress.part(0.9, 1.0))
         jobs, rows = _in_a_row([*jobs, *more], [*rows, *outside])
     kept, numbers = _used(planes, beside, [plane for (plane, _), each in zip(jobs, rows, strict=True) if len(each) > 1])
