@@ -62,7 +62,7 @@ def surface_command(argv: Sequence[str], stopped: threading.Event) -> int:
         write_together(texts)
     if not arguments.quiet:
         tell("\n".join([report.summary(), *finding_lines(report.findings)]))
-    return 1 if report.findings else 0
+    return 1 if any(finding.counts for finding in report.findings) else 0
 
 
 def _parser() -> OptionParser:

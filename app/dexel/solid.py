@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,12 +9,11 @@ from numpy.typing import NDArray
 
 from app.dexel.workpiece import Grid, Workpiece, ensure_memory
 from app.errors import InputError
+from app.mesh.read import stl_triangles
+from app.mesh.winding import right_side_out
 
 CHUNK = 20_000
 """Triangles that are laid over the grid at a time."""
-
-HEADER, TRIANGLE = 84, 50
-"""Bytes of a binary STL file: its header with the number of triangles, and each triangle."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,10 +21,14 @@ class SolidStock:
     """A closed solid.
 
     Attributes:
-        triangles: (n, 3, 3) float64 corners, mm; n > 0.
+        triangles: (n, 3, 3) float64 corners, mm; n > 0; counter-clockwise seen from outside.
+        turned: how many of them were wound the other way in their file.
+        shells: of how many closed surfaces it consists; these may overlap, or one may be a hollow in another.
     """
 
     triangles: NDArray[np.float64]
+    turned: int = 0
+    shells: int = 1
 
     @property
     def box(self) -> tuple[float, float, float, float]:
@@ -50,33 +52,32 @@ class SolidStock:
             drop(self.triangles, where, first, min(first + CHUNK, len(self.triangles)), heights, crossings)
         return Workpiece(grid, heights, floor, int(np.count_nonzero(crossings > 2)))
 
+    def wound_words(self, name: str) -> str:
+        """Return the sentence that says which triangles of a file were turned over; "" where none was."""
+        if not self.turned:
+            return ""
+        if self.turned == len(self.triangles):
+            return f"{name}: the solid is inside out, as all of its triangles are wound clockwise; it is taken right side out."
+        return (f"{name}: {self.turned} of {len(self.triangles)} triangles are wound against the others; the solid is closed, so they are "
+                "taken the right way round.")
+
 
 def read_solid(name: str, data: bytes) -> SolidStock:
-    """Return the solid of an STL file, text or binary; its numbers are mm.
+    """Return the solid of an STL file, text or binary, right side out; its numbers are mm.
 
     Args:
         name: of the file, for errors.
         data: the file.
 
     Raises:
-        InputError: it is no STL file, holds nothing, or its surface is not closed.
+        InputError: it is no STL file, holds nothing, its surface is not closed, or has no inside.
     """
-    import trimesh
-
-    try:
-        mesh = trimesh.load_mesh(io.BytesIO(_plain(data)), file_type="stl")
-        triangles = np.array(mesh.triangles, np.float64, order="C")
-    except Exception as error:  # the library lets through whatever its parsers trip over
-        raise InputError(f"{name}: this is no STL file, or it is damaged; export the solid again, as binary STL.") from error
+    triangles = stl_triangles(name, data)
     if not len(triangles) or not np.isfinite(triangles).all():
         raise InputError(f"{name}: the STL file holds no triangles; export the solid again.")
-    if not mesh.is_watertight:
-        raise InputError(f"{name}: the solid's surface is not closed, so nobody can say where its metal is; "
+    wound = right_side_out(triangles)
+    if wound.fault:
+        place = "" if wound.place is None else " at ({:.3f}, {:.3f}, {:.3f})".format(*wound.place)
+        raise InputError(f"{name}: the solid's surface is not closed{place}: {wound.fault}; so nobody can say where its metal is; "
                          "repair it, or export it as one closed solid.")
-    return SolidStock(triangles)
-
-
-def _plain(data: bytes) -> bytes:
-    """Return the file for the library's parsers: of a text only plain letters, as names may be spelled in any code page."""
-    text = data.lstrip()[:5].lower() == b"solid" and len(data) != HEADER + TRIANGLE * int.from_bytes(data[HEADER - 4 : HEADER], "little")
-    return data.decode("latin-1").encode("ascii", "replace") if text else data
+    return SolidStock(np.ascontiguousarray(wound.triangles), int(np.count_nonzero(wound.turned)), wound.shells)

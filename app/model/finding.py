@@ -40,6 +40,9 @@ class FindingKind(Enum):
     ENTRY = "entry"
     CLAMP = "clamp"
     AREA = "area"
+    HOLE = "hole"
+    SIZE = "size"
+    FEED = "feed"
 
 
 @dataclass(frozen=True, slots=True)

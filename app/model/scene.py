@@ -138,6 +138,7 @@ class Passes:
         boundary: where to go; none: wherever there is a surface.
         floor: the tip goes no lower, mm, or None.
         link_gap: ends of passes nearer than this are joined over the surface rather than by a retract, mm; None: as the tool needs.
+        overrun: how far the tool's centre may leave the box round the surfaces, mm; None: as far as it touches one, and stock is there.
         feed_rate, plunge_rate, spindle_speed: other than the tool's, mm/min and rpm.
     """
 
@@ -154,6 +155,7 @@ class Passes:
     chord_tolerance: float = 0.01
     floor: float | None = None
     link_gap: float | None = None
+    overrun: float | None = None
     feed_rate: float | None = None
     plunge_rate: float | None = None
     spindle_speed: float | None = None
@@ -168,7 +170,7 @@ class Passes:
                 raise ParameterError(f"{name.replace('_', ' ').capitalize()} is {value:g} mm; use 0.00001 to 100000 mm.")
         if not all(abs(value) < MOST_LENGTH for value in (self.angle_deg, *self.through, *(self.line or ()), self.floor or 0.0)):
             raise ParameterError(f"The place of passes is out of range; stay within {MOST_LENGTH:g} mm and degrees.")
-        for name in ("stock_to_leave", "link_gap"):
+        for name in ("stock_to_leave", "link_gap", "overrun"):
             value = getattr(self, name)
             if value is not None and not 0 <= value < 1e5:
                 raise ParameterError(f"{name.replace('_', ' ').capitalize()} is {value:g} mm; use 0 or more.")

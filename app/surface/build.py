@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 from dataclasses import dataclass, replace
 
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 
 from app.errors import GeometryError, HitofudeError, InputError
 from app.geometry.region import nest, polygon_contour
+from app.mesh.read import read_mesh
 from app.model.curves import Circle
 from app.model.part import Contour, Region
 from app.model.scene import Outline, Scene, Side, Surface
@@ -160,18 +160,9 @@ def triangles_of(shape: MeshShape, sources: Sources) -> Floats:
     """Return the triangles (n, 3, 3) of a mesh's file, mm.
 
     Raises:
-        InputError: there are none in it.
+        InputError: the file cannot be read, or there are none in it.
     """
-    import trimesh
-
-    data = sources.data(shape.file)
-    try:
-        mesh = trimesh.load_mesh(io.BytesIO(data), file_type=shape.file.lower().rpartition(".")[2], process=False)
-        triangles = np.array(mesh.triangles, np.float64) * shape.scale
-    except Exception as error:  # readers of meshes raise whatever broken bytes make them
-        raise InputError(f"{shape.file}: this mesh cannot be read ({error}); export it again.") from error
-    if len(triangles) == 0 or not np.isfinite(triangles).all():
-        raise InputError(f"{shape.file}: there is no triangle in it, or one with a corner that is no number; export it again.")
+    triangles: Floats = read_mesh(shape.file, sources.data(shape.file)) * shape.scale
     return triangles
 
 

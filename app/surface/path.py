@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -31,6 +31,24 @@ _WHILE_MADE = 9.7e-5
 _FINE = 1e-7
 _ROOM = 4096
 _CHORDS = 2_000
+_NEAR = 1e-9
+_SHORT = 1e-3
+"""mm; shorter stretches beside the surfaces are none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Overrun:
+    """How a cutter's centre leaves the box round the surfaces, to reach their feet.
+
+    Attributes:
+        far: beyond the box, mm, >= 0.
+        box: x0, y0, x1, y1, mm: it stays in there as well, infinite where nothing is in the way.
+        floor: the tip goes no lower out there, mm; nor lower than anywhere within the surfaces' box.
+    """
+
+    far: float
+    box: tuple[float, float, float, float] = (-math.inf, -math.inf, math.inf, math.inf)
+    floor: float = -math.inf
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +72,7 @@ class Follower:
     def __init__(self, facets: Facets, tool: Tool, options: FollowOptions = FollowOptions()) -> None:
         from app.surface import contact_kernels, follow_kernels
 
-        self.facets = facets
+        self.facets, self.tolerance = facets, options.tolerance
         self._kernels = follow_kernels
         tree = facets.tree
         self._held = tree.held
@@ -111,23 +129,55 @@ class Follower:
         return rows
 
 
-def cutter_path(follower: Follower, planes: Planes, area: shapely.Geometry | None = None,
-                progress: Progress = NO_PROGRESS) -> Compound:  # fmt: skip
+def cutter_path(follower: Follower, planes: Planes, area: shapely.Geometry | None = None, progress: Progress = NO_PROGRESS,
+                overrun: Overrun = Overrun(0.0)) -> Compound:  # fmt: skip
     """Return the path of a cutter's tip over surfaces: one run or more on each plane, rising along it.
 
-    Its centre stays within the box round the surfaces, seen along the planes. Where it passes from one surface to another, a
-    boundary point is solved for: there it touches both.
+    Its centre stays within the box round the surfaces, seen along the planes, but for the overrun. Where it passes from one surface
+    to another, a boundary point is solved for: there it touches both.
 
     Args:
         area: where the cutter's centre may be, XY; None: everywhere.
+        overrun: how far it leaves the box. Planes beside the box on which it then touches nothing are left out.
 
     Raises:
         GeometryError: a chord could not be proven.
         Cancelled: the job was asked to stop.
     """
     facets = follower.facets
-    whole, _ = extent_on(planes, facets.triangles[:, :, :2].reshape(-1, 2))
-    jobs = [(plane, part) for plane in range(len(planes.offsets)) for part in stretches(planes, plane, whole, area)]
+    whole, across = extent_on(planes, facets.triangles[:, :, :2].reshape(-1, 2))
+    beside = [overrun.far > 0 and not across[0] - _NEAR <= offset <= across[1] + _NEAR for offset in planes.offsets]
+    jobs = [(plane, part) for plane in range(len(beside)) if not beside[plane] for part in stretches(planes, plane, whole, area)]
+    rows = _followed(follower, planes, jobs, progress.part(0.0, 0.9 if overrun.far > 0 else 1.0))
+    if overrun.far > 0:
+        outer = whole[0] - overrun.far, whole[1] + overrun.far
+        allowed = _allowed(planes, outer, overrun, area)
+        more = [(plane, part) for plane, beyond in enumerate(beside)
+                for piece in ((outer,) if beyond else ((outer[0], whole[0]), (whole[1], outer[1])))
+                for part in stretches(planes, plane, piece, allowed) if part[1] - part[0] > _SHORT]
+        lowest = max(overrun.floor, min((float(each[:, _z()].min()) for each in rows if len(each)), default=-math.inf))
+        more, outside = _outside(follower, planes, more, lowest, progress.part(0.9, 1.0))
+        jobs, rows = _in_a_row([*jobs, *more], [*rows, *outside])
+    kept, numbers = _used(planes, beside, [plane for (plane, _), each in zip(jobs, rows, strict=True) if len(each) > 1])
+    chosen = [k for k, (plane, _) in enumerate(jobs) if plane in numbers]
+    return _compound(facets, kept, [numbers[jobs[k][0]] for k in chosen], [rows[k] for k in chosen])
+
+
+def _z() -> int:
+    from app.surface.follow_kernels import Z
+
+    return Z
+
+
+def _allowed(planes: Planes, outer: Stretch, overrun: Overrun, area: shapely.Geometry | None) -> shapely.Geometry:
+    """Return where the centre may be in the overrun."""
+    far = max(abs(outer[0]), abs(outer[1])) + max(map(abs, planes.offsets), default=0.0) + max(map(abs, planes.origin)) + 1.0
+    box = shapely.box(*(min(max(side, -far), far) for side in overrun.box))
+    return box if area is None else shapely.intersection(box, area)
+
+
+def _followed(follower: Follower, planes: Planes, jobs: Sequence[tuple[int, Stretch]], progress: Progress) -> list[Floats]:
+    """Return the rows of points of each stretch of a plane."""
     waiting = [pool().submit(follower.along, planes, plane, part) for plane, part in jobs]
     rows: list[Floats] = []
     try:
@@ -138,7 +188,65 @@ def cutter_path(follower: Follower, planes: Planes, area: shapely.Geometry | Non
         for each in waiting:
             each.cancel()
         raise
-    return _compound(facets, planes, [plane for plane, _ in jobs], rows)
+    return rows
+
+
+def _outside(follower: Follower, planes: Planes, jobs: Sequence[tuple[int, Stretch]], lowest: float,
+             progress: Progress) -> tuple[list[tuple[int, Stretch]], list[Floats]]:  # fmt: skip
+    """Return stretches of planes as far as the tip is no lower than a height on them, and the rows of points there."""
+    rows = _followed(follower, planes, jobs, progress)
+    short: list[tuple[int, Stretch]] = []
+    for (plane, _), each in zip(jobs, rows, strict=True):
+        short += [(plane, part) for part in _above(each, lowest, follower.tolerance)]
+    return short, _followed(follower, planes, short, NO_PROGRESS)
+
+
+def _above(rows: Floats, lowest: float, tolerance: float) -> list[Stretch]:
+    """Return from where to where points are above a height; where a chord goes below it, so early that the true path does not."""
+    from app.surface import follow_kernels as k
+
+    found: list[Stretch] = []
+    start = None
+    for n, row in enumerate(rows):
+        begins, here = n == 0 or row[k.NEW] == k.BEGINS, row[k.Z] >= lowest
+        if begins and start is not None:
+            found.append((start, float(rows[n - 1, k.S])))
+        start = None if begins else start
+        if begins and here:
+            start = float(row[k.S])
+        elif not begins and here != (rows[n - 1, k.Z] >= lowest):
+            drop = float(row[k.Z] - rows[n - 1, k.Z])
+            share = min(max((lowest + tolerance - float(rows[n - 1, k.Z])) / drop, 0.0), 1.0)
+            at = float(rows[n - 1, k.S] + share * (row[k.S] - rows[n - 1, k.S]))
+            found += [] if start is None else [(start, at)]
+            start = at if here else None
+    if start is not None:
+        found.append((start, float(rows[-1, k.S])))
+    return [part for part in found if part[1] - part[0] > _SHORT]
+
+
+def _in_a_row(jobs: Sequence[tuple[int, Stretch]], rows: Sequence[Floats]) -> tuple[list[tuple[int, Stretch]], list[Floats]]:
+    """Return the stretches in the order of their planes and along them, those joined that meet at one point."""
+    from app.surface import follow_kernels as k
+
+    found: list[tuple[int, Stretch]] = []
+    made: list[Floats] = []
+    for n in sorted(range(len(jobs)), key=lambda n: jobs[n]):
+        (plane, part), own = jobs[n], rows[n]
+        last = made[-1] if made and found[-1][0] == plane else own[:0]
+        if len(last) and len(own) and abs(last[-1, k.S] - own[0, k.S]) <= _NEAR and last[-1, k.Z] == own[0, k.Z]:
+            own = own[1:]
+            made[-1] = np.concatenate([last, own])
+        else:
+            found.append((plane, part))
+            made.append(own)
+    return found, made
+
+
+def _used(planes: Planes, beside: Sequence[bool], touched: Sequence[int]) -> tuple[Planes, dict[int, int]]:
+    """Return the planes without those beside the surfaces on which nothing is touched, and the new number of each."""
+    kept = [plane for plane in range(len(beside)) if not beside[plane] or plane in set(touched)]
+    return replace(planes, offsets=tuple(planes.offsets[plane] for plane in kept)), {plane: n for n, plane in enumerate(kept)}
 
 
 def _compound(facets: Facets, planes: Planes, numbers: Sequence[int], parts: Sequence[Floats]) -> Compound:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -59,3 +60,14 @@ def stretches(planes: Planes, plane: int, whole: Stretch, area: shapely.Geometry
             at = [(x - planes.origin[0]) * c + (y - planes.origin[1]) * s for x, y in part.coords]
             found.append((min(at), max(at)))
     return sorted(found)
+
+
+def widened(planes: Planes, places: Floats, far: float, step: float) -> Planes:
+    """Return planes with more of them on both sides, up to so far beyond places (n, 2), mm, one step from one another."""
+    _, (low, high) = extent_on(planes, places)
+    first, last = planes.offsets[0], planes.offsets[-1]
+    before, after = (max(0, math.floor((room + far) / step + _NEAR)) for room in (first - low, high - last))
+    if before + after >= MOST_PLANES:
+        raise ParameterError(f"An overrun of {far:g} mm makes more than {MOST_PLANES:,} passes; use a smaller one.")
+    offsets = (*(first - k * step for k in range(before, 0, -1)), *planes.offsets, *(last + k * step for k in range(1, after + 1)))
+    return replace(planes, offsets=offsets)

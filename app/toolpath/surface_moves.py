@@ -17,6 +17,13 @@ from app.surface.path import Follower
 
 Floats = NDArray[np.float64]
 
+PLUNGE_ANGLE = math.radians(60.0)
+"""To the level; descents that are steeper go at the plunge rate, as a ball's middle cuts there."""
+
+LEAST_PLUNGE = 0.1
+"""mm; steep descents of less, one after the other, are none: of so short a way no control makes a slower one."""
+
+
 @dataclass(frozen=True, eq=False)
 class Milling:
     """One family of passes, ready to be milled.
@@ -86,8 +93,8 @@ def _milled(family: Milling, number: int, clearance: float, approach: float) -> 
         x, y = place[:2].tolist()
         return _Row((x, y, z), MoveKind.RAPID, Purpose.RAPID, number, tool.number, 0.0)
 
-    def line(point: Sequence[float], purpose: Purpose, surface: int = NO_SURFACE) -> _Row:
-        feed = tool.plunge_rate if purpose is Purpose.PLUNGE else tool.feed_rate
+    def line(point: Sequence[float], purpose: Purpose, surface: int = NO_SURFACE, steep: bool = False) -> _Row:
+        feed = tool.plunge_rate if purpose is Purpose.PLUNGE else min(tool.feed_rate, tool.plunge_rate) if steep else tool.feed_rate
         x, y, z = point
         return _Row((x, y, z), MoveKind.LINE, purpose, number, tool.number, feed, surface)
 
@@ -95,7 +102,8 @@ def _milled(family: Milling, number: int, clearance: float, approach: float) -> 
         z = float(run.points[0, 2])
         way = _link(family, at, run.points[0])
         if way is not None:
-            yield from (line(point, Purpose.LINK) for point in way[1:].tolist())
+            down = plunging(way).tolist()
+            yield from (line(point, Purpose.LINK, steep=steep) for point, steep in zip(way[1:].tolist(), down, strict=True))
         else:
             if at is not None:
                 yield rapid(at, clearance)
@@ -104,10 +112,20 @@ def _milled(family: Milling, number: int, clearance: float, approach: float) -> 
             if z < approach:
                 yield line(run.points[0].tolist(), Purpose.PLUNGE)
         owner = run.owner.tolist()
-        yield from (line(point, Purpose.CONTOUR, surface) for point, surface in zip(run.points[1:].tolist(), owner, strict=True))
+        cuts = zip(run.points[1:].tolist(), owner, plunging(run.points).tolist(), strict=True)
+        yield from (line(point, Purpose.CONTOUR, surface, steep) for point, surface, steep in cuts)
         at = run.points[-1]
     if at is not None:
         yield rapid(at, clearance)
+
+
+def plunging(points: Floats) -> NDArray[np.bool_]:
+    """Return which of the ways (n - 1,) from point to point (n, 3) go down more steeply than PLUNGE_ANGLE, together by LEAST_PLUNGE."""
+    way = np.diff(points, axis=0)
+    steep = -way[:, 2] > math.tan(PLUNGE_ANGLE) * np.hypot(way[:, 0], way[:, 1])
+    group = np.cumsum(np.diff(steep, prepend=False))
+    down = np.bincount(group, np.where(steep, -way[:, 2], 0.0))
+    return np.asarray(steep & (down[group] >= LEAST_PLUNGE))
 
 
 def _ordered(runs: Sequence[Run], strategy: Strategy) -> Iterator[Run]:

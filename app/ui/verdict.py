@@ -21,9 +21,9 @@ class Level(Enum):
 
 
 _WORST_FIRST = (
-    FindingKind.AREA, FindingKind.GOUGE, FindingKind.CLAMP, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK,
-    FindingKind.PLUNGE, FindingKind.HOLDER_CONTACT, FindingKind.SHANK_CONTACT, FindingKind.BELOW_TABLE, FindingKind.LEFT_REACHABLE,
-    FindingKind.BEYOND_STOCK, FindingKind.TOLERANCE, FindingKind.MACHINE,
+    FindingKind.AREA, FindingKind.GOUGE, FindingKind.CLAMP, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK, FindingKind.PLUNGE,
+    FindingKind.HOLDER_CONTACT, FindingKind.SHANK_CONTACT, FindingKind.BELOW_TABLE, FindingKind.LEFT_REACHABLE,
+    FindingKind.BEYOND_STOCK, FindingKind.HOLE, FindingKind.SIZE, FindingKind.FEED, FindingKind.TOLERANCE, FindingKind.MACHINE,
     FindingKind.TOOL_SHAPE, FindingKind.OPEN_CONTOUR, FindingKind.SELF_INTERSECTION, FindingKind.OVERLAP, FindingKind.REGION_TOO_SMALL,
     FindingKind.NECK_TOO_NARROW, FindingKind.ENGAGEMENT, FindingKind.AMBIGUOUS, FindingKind.UNITS_ASSUMED, FindingKind.GAP_CLOSED,
     FindingKind.TINY_ENTITY, FindingKind.LEFT_OUT, FindingKind.ASSUMED, FindingKind.HIDDEN, FindingKind.LEFT_UNREACHABLE,
@@ -47,6 +47,7 @@ _NAMES = {
     FindingKind.PLUNGE: "plunge in metal", FindingKind.BELOW_TABLE: "cut into the table", FindingKind.ASSUMED: "assumed",
     FindingKind.HIDDEN: "metal below metal", FindingKind.BEYOND_STOCK: "part beyond the stock",
     FindingKind.AMBIGUOUS: "doubtful place in the picture", FindingKind.SKIN: "skin along the walls", FindingKind.ENTRY: "another entry",
+    FindingKind.HOLE: "hole in a surface", FindingKind.SIZE: "doubtful size", FindingKind.FEED: "plunge at full feed",
 }
 
 

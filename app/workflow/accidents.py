@@ -126,8 +126,8 @@ def _rapids(stage: Stage, looked: Looked) -> Iterator[Finding]:
 def _unseen(stage: Stage, count: int, what: str) -> Iterator[Finding]:
     """Yield a remark where there was too much to look at between the cells."""
     if count:
-        text = (f"{count} {what} of narrow cutters, the last ones, were not looked at between the cells, {stage.before.grid.pitch:.3g} mm "
-                "wide; use more cells (--grid).")
+        text = (f"{count} {what} of narrow cutters were not, or not all along, looked at between the cells, "
+                f"{stage.before.grid.pitch:.3g} mm wide; use more cells (--grid).")
         yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=float(count))
 
 

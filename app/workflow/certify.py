@@ -21,12 +21,17 @@ from app.dexel.workpiece import Heights, Workpiece
 from app.progress import NO_PROGRESS, Progress
 from app.workflow.judge import Wanted
 from app.workflow.judgement import Certificate
+from app.workflow.parts import SolidPart
+from app.workflow.solid_depth import Columns, DepthInSolid
 
 ROUNDING = 2e-5
 """mm that heights in float32 and chords of curves may be off."""
 
 NOWHERE = 1e6
 """mm to which a cutter is lifted that is slimmer than a cell."""
+
+PORTION, MOST_ASKED = 4096, 400_000
+"""Cells that a solid is asked at together, and at most."""
 
 Trimming = Callable[[Mapping[int, Cutter], TrimOptions, Progress], Heights]
 """Cuts all programs with other cutters, and gives the heights that are left."""
@@ -36,7 +41,8 @@ def certify(before: Workpiece, part: Wanted, cutters: Mapping[int, Cutter], trim
             progress: Progress = NO_PROGRESS) -> Certificate:  # fmt: skip
     """Return how far from the part any point can be that was cut or left.
 
-    Rapids count as cuts for the one and as none for the other. Of metal left only what lies within reach is spoken of.
+    Rapids count as cuts for the one and as none for the other. Of metal left only what lies within reach is spoken of. The way out of
+    the part is looked for on the cells round a place, and as far as these go; where a solid knows better, it is asked.
 
     Raises:
         Cancelled: the job was asked to stop.
@@ -57,4 +63,33 @@ def certify(before: Workpiece, part: Wanted, cutters: Mapping[int, Cutter], trim
         fixed, where = frozen(heights), (pitch, half)
         return max(by_strips(len(stock), lambda a, b: float(farthest(fixed, wanted, counts, where, sign, a, b)), progress)) + ROUNDING
 
-    return Certificate(worst(low, stock, 1), worst(high, spoken, -1), pitch)
+    gouge = worst(low, stock, 1)
+    if part.solid is not None and gouge > pitch + 2 * half:
+        gouge = min(gouge, _in_solid(part.solid, part, low, before, half) + ROUNDING)
+    return Certificate(gouge, worst(high, spoken, -1), pitch)
+
+
+def _in_solid(part: SolidPart, wanted: Wanted, low: Heights, before: Workpiece, half: float) -> float:
+    """Return how deep any point can be that was cut, mm: by the solid itself where the cells round it promise too much.
+
+    No point of a cell's column is deeper than the deepest of its middle line and half the cell's diagonal. The cells that seem
+    deepest are asked first, until no other can be deeper; where that takes too many, what they seem counts.
+    """
+    from app.dexel.judge_kernels import ways_out
+
+    grid = before.grid
+    cut = np.flatnonzero(low < before.heights)
+    seems = np.empty(len(cut))
+    ways_out(frozen(wanted.target.around), frozen(low), cut, (grid.pitch, half), seems)
+    order = np.argsort(-seems, kind="stable")
+    cut, seems = cut[order], seems[order]
+    rows, cols = np.divmod(cut, grid.cols)
+    places = np.column_stack([grid.x0 + (cols + 0.5) * grid.pitch, grid.y0 + (rows + 0.5) * grid.pitch])
+    columns = Columns(places, low.ravel()[cut].astype(np.float64), before.heights.ravel()[cut].astype(np.float64))
+    depth_in, fine, worst = DepthInSolid(part.solid, part.leave), part.tolerance / 10, part.leave + half
+    for first in range(0, len(cut), PORTION):
+        if seems[first] <= worst or first >= MOST_ASKED:
+            return max(worst, float(seems[first]) if first >= MOST_ASKED else 0.0)
+        asked = slice(first, first + PORTION)
+        worst = max(worst, float(depth_in.of(columns.only(asked), worst - half, fine).max()) + half + fine)
+    return worst

@@ -29,7 +29,7 @@ SIDE, LONG = 192, 20_000
 """Cells of one look along its shorter and its longer side, at most."""
 
 LOOKS = 256
-"""Looks at one way, at most; a longer one is looked at in as many places, evenly spread."""
+"""Looks at one way, at most; a longer one is looked at in as many places, evenly spread, and `Metal.wholly` says so."""
 
 MOST = 3000
 """Ways of one kind that are looked at closer in a program."""
@@ -98,6 +98,12 @@ class Metal:
                     deepest = replace(hit, motion=way.row, cells=max(1, round(hit.cells * (grid.pitch / pitch) ** 2)))
         return deepest
 
+    @staticmethod
+    def wholly(way: Way, top: float, pitch: float) -> bool:
+        """Return whether `met` looks at all of a way."""
+        radius = way.radius(top)
+        return radius <= 0 or len(_pieces(way, min(radius / FINE, pitch))) <= LOOKS
+
     def _near(self, k: int, box: Box) -> NDArray[np.intp]:
         """Return the rows of a course that may cut in a box."""
         low, high = self._reaches[k]
@@ -124,7 +130,7 @@ def _looks(way: Way, top: float, pitch: float, stock: Box) -> Iterator[Grid]:
     if radius <= 0:
         return
     fine = min(radius / FINE, pitch)
-    pieces = [piece for start, end in _legs(way.points) for piece in _chopped(start, end, fine)]
+    pieces = _pieces(way, fine)
     step = max(1, math.ceil(len(pieces) / LOOKS))
     for start, end in pieces[::step]:
         low, high = np.minimum(start, end), np.maximum(start, end)
@@ -134,6 +140,11 @@ def _looks(way: Way, top: float, pitch: float, stock: Box) -> Iterator[Grid]:
         x1, y1 = np.minimum(high[:2] + radius, stock[2:]).tolist()
         if x1 > x0 and y1 > y0:
             yield Grid(x0, y0, fine, max(1, math.ceil((y1 - y0) / fine)), max(1, math.ceil((x1 - x0) / fine)))
+
+
+def _pieces(way: Way, fine: float) -> list[tuple[Floats, Floats]]:
+    """Return a way in pieces that are looked at one by one."""
+    return [piece for start, end in _legs(way.points) for piece in _chopped(start, end, fine)]
 
 
 def _legs(points: Floats) -> Iterator[tuple[Floats, Floats]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -29,7 +29,7 @@ from app.workflow.holder_contacts import HolderLook
 from app.workflow.judge import Judging, judge, wanted_over
 from app.workflow.judgement import Judgement, findings_of
 from app.workflow.parts import FlatPart, Part, SolidPart, beyond
-from app.workflow.wall_probe import WallProbe
+from app.workflow.wall_probe import WallProbe, unseen_walls
 
 __all__ = ["CELLS", "CutOptions", "CutProgram", "CutSetup", "Engine", "cut"]
 
@@ -143,7 +143,7 @@ def cut(setup: CutSetup, options: CutOptions = CutOptions(), progress: Progress 
     judgement = run.judged(done.cut, exact, progress.part(0.4, 1.0)) if setup.part is not None else None
     outside = beyond(setup.part, run.box()) if setup.part is not None and options.judge else ()
     judged = findings_of(judgement, setup.where) if judgement is not None else ()
-    findings = worst_first((*done.accidents, *outside, *judged, *_fallen_back(done.told, options.engine)))
+    findings = worst_first((*done.accidents, *outside, *judged, *run.unseen(), *_fallen_back(done.told, options.engine)))
     return CutProgram(setup, options, done.cut, float(run.workpiece.heights.max()), run.workpiece.floor, judgement, findings, done.told,
                       done.holders)  # fmt: skip
 
@@ -261,10 +261,16 @@ class _Run:
             exact = exact_of(part, [known.course for known in self.courses], self.box(), progress.part(0.3, 0.7))
         certificate = certify(self.workpiece, wanted, self.cutters, self.trimmed, progress.part(0.7, 1.0)) if self.options.judge else None
         lines = self.setup.lines()
-        probe = None
+        probe, lowest = None, self._lowest if isinstance(part, SolidPart) and self.options.judge else None
         if isinstance(part, SolidPart) and part.block is None and self.options.judge:  # of surfaces the cells tell enough
             probe = WallProbe(part, self._lowest, self.workpiece, lines)
-        return judge(Judging(part, cut, wanted, exact, lines, probe), certificate)
+        return judge(Judging(part, cut, wanted, exact, lines, lowest, probe), certificate)
+
+    def unseen(self) -> Iterator[Finding]:
+        """Yield what of a solid could not be looked at as closely as the cells are."""
+        part = self.setup.part
+        if isinstance(part, SolidPart) and part.block is None and self.options.judge:
+            yield from unseen_walls(part, self.workpiece.grid.pitch)
 
     def _lowest(self, points: Floats) -> tuple[Floats, NDArray[np.int64]]:
         """Return the lowest height that all programs reach at points, and which of all their motions."""

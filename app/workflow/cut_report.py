@@ -22,7 +22,7 @@ from app.nc.read.program import Severity
 from app.workflow.cut import CutProgram
 from app.workflow.examine import COORDINATES, KINDS, Examined
 from app.workflow.judgement import Judgement, Spot
-from app.workflow.parts import SolidPart
+from app.workflow.parts import Part, SolidPart
 from app.workflow.setup import Ready
 from app.workflow.setup_stock import cut_box
 from app.workflow.setup_tools import KnownTool
@@ -36,10 +36,14 @@ ENGINES = {
 }  # fmt: skip
 BESIDE = "; by the cpu: which motion cut each cell, volumes, rapids in metal, certificates"
 LENGTH_METHOD = "cut: motions at feed rate that took metal from the cells; link: those at feed rate that took none; G0 is rapid"
-GOUGE_METHODS = {True: "closed-form distance of every motion from every wall, less tool radius and stock to leave; floors by the cells",
-                 False: "the cells' heights below the part's"}  # fmt: skip
+GOUGE_METHODS = {
+    "drawing": "closed-form distance of every motion from every wall, less tool radius and stock to leave; floors by the cells",
+    "solid": "exact distance from the solid's surface at the deepest place that was found, from the cells on and between them; nothing is "
+             "deeper than at_most_mm, if that is known",
+    "cells": "the cells' heights below the part's",
+}  # fmt: skip
 _TELLING = 10.0
-"""Cells; a bound on gouges between the cells that is wider says nothing that a person could use."""
+"""Cells beyond the gouge that is told; a bound between the cells that is wider says nothing that a person could use."""
 
 HEIGHTS = 5e-6
 HEIGHTS_METHODS = {
@@ -153,7 +157,7 @@ def _judged(done: CutProgram, motions: _Motions) -> Json:
     told: Json = {"gouge": None, "left": None, "worst": [], "worst_count": 0, "bands": [], "certificate": None}
     if judged is not None:
         told = {
-            "gouge": _gouge(judged, motions),
+            "gouge": _gouge(judged, done.setup.part, motions),
             "left": {"reachable_mm2": judged.reachable_mm2, "unreachable_mm2": judged.unreachable_mm2,
                      **({"given_up_mm2": judged.skin_mm2} if judged.skin_mm2 else {}),
                      "largest_disc_mm": judged.largest_disc_mm},
@@ -174,10 +178,13 @@ def _contacts(done: CutProgram, motions: _Motions) -> list[Json] | None:
              "depth_mm": each.depth, "motions": each.count} for each in done.holders.contacts]  # fmt: skip
 
 
-def _gouge(judged: Judgement, motions: _Motions) -> Json:
-    gouge = judged.gouge
-    return {"max_mm": gouge.max_mm, "x": gouge.x, "y": gouge.y, "z": gouge.z, **motions.where(gouge.move), "count": gouge.count,
-            "method": GOUGE_METHODS[judged.exact]}  # fmt: skip
+def _gouge(judged: Judgement, part: Part | None, motions: _Motions) -> Json:
+    """Return the deepest gouge; of a solid also how deep any other place may be at most, null where nobody knows."""
+    gouge, sure = judged.gouge, judged.certificate
+    told = {"max_mm": gouge.max_mm, "x": gouge.x, "y": gouge.y, "z": gouge.z, **motions.where(gouge.move), "count": gouge.count}
+    if not isinstance(part, SolidPart):
+        return told | {"method": GOUGE_METHODS["drawing" if judged.exact else "cells"]}
+    return told | {"at_most_mm": max(gouge.max_mm, sure.gouge_mm) if sure else None, "method": GOUGE_METHODS["solid"]}
 
 
 def _spot(spot: Spot, motions: _Motions) -> Json:
@@ -291,7 +298,7 @@ def _summary(data: Json) -> Iterator[str]:
                       _counted(data["strokes"], "stroke"), _counted(data["retracts"], "retract")))  # fmt: skip
     yield (f"{names}: {data['removed_mm3']:.1f} mm3 removed; {part}; {path}, {sum(data['length_mm'].values()):.0f} mm, "
            f"{_clock(data['time_s'])} min")
-    if certificate is not None and certificate["gouge_mm"] < _TELLING * certificate["pitch_mm"]:
+    if certificate is not None and certificate["gouge_mm"] - gouge["max_mm"] < _TELLING * certificate["pitch_mm"]:
         yield (f"  between the cells, {certificate['pitch_mm']:.4g} mm wide, too: no point deeper than {certificate['gouge_mm']:.4f} mm "
                "inside the part was cut")
     if (apart := data["apart_from_cpu"]) is not None:

@@ -25,7 +25,7 @@ from app.workflow.flat_target import flat_target
 from app.workflow.judgement import BANDS, Band, Certificate, Judgement, Spot, SpotKind
 from app.workflow.parts import FlatPart, Part, SolidPart
 from app.workflow.places import CellPlace, places_of
-from app.workflow.solid_depth import DepthInSolid
+from app.workflow.solid_gouges import Probe, SolidGouges
 from app.workflow.verdict import Gouge
 from app.workflow.wall_probe import WallProbe
 
@@ -36,10 +36,6 @@ APART = 1.0
 
 MOST_GOUGES = 100
 
-LIKELY, MOST_ASKED = 0.8, 16
-"""Of the cells of a gouge those as deep as this share of the deepest one, as the cells around tell, are asked of the solid itself;
-so many of them."""
-
 
 @dataclass(frozen=True, eq=False)
 class Wanted:
@@ -48,10 +44,12 @@ class Wanted:
     Attributes:
         target: heights.
         reach: (rows, cols) where some tool that cuts gets down to the part; of a solid, of what is left.
+        solid: the part, if it is one closed surface, and so can be asked how deep places lie in it.
     """
 
     target: Target
     reach: Mask
+    solid: SolidPart | None = None
 
 
 def wanted_over(part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...], progress: Progress = NO_PROGRESS) -> Wanted:
@@ -66,6 +64,7 @@ def wanted_over(part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...],
         Cancelled: the job was asked to stop.
     """
     grid = cut.before.grid
+    solid = part if isinstance(part, SolidPart) and part.block is None and part.solid.shells == 1 else None
     if isinstance(part, FlatPart):
         flat = flat_target(part, grid)
         target, reach = flat.target, flat.reach
@@ -77,18 +76,24 @@ def wanted_over(part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...],
             lowest = reach_of(part.solid, part.leave, stock.box, cutters, progress)
             sure, possible = (height <= target.high + np.float32(part.tolerance) for height in lowest.over(grid))
             reach |= reachable(left, sure, possible, max(3, math.ceil(3 * lowest.grid.pitch / grid.pitch)))
-    return Wanted(replace(target, low=np.minimum(target.low, cut.before.heights)), reach)
+    return Wanted(replace(target, low=np.minimum(target.low, cut.before.heights)), reach, solid)
 
 
 @dataclass(frozen=True, eq=False)
 class Judging:
-    """What a judgement is made of: the cut, the part over it, what closed forms say, the lines of the motions, who asks walls."""
+    """What a judgement is made of: the cut, the part over it, what closed forms say, the lines of the motions.
+
+    Attributes:
+        lowest: of a solid, gives the height that is cut down to at any places, and by whom.
+        probe: who asks walls.
+    """
 
     part: Part
     cut: Cut
     wanted: Wanted
     exact: Exact | None
     lines: NDArray[np.int32]
+    lowest: Probe | None = None
     probe: WallProbe | None = None
 
     @property
@@ -142,16 +147,16 @@ def _gouges(judging: Judging, deviation: NDArray[np.float32]) -> tuple[tuple[Spo
     exact = tuple(_exact_gouges(judging))
     if exact:
         return exact, len(exact)
-    places, count = places_of(deviation < -part.tolerance, -deviation, judging.grid)
-    narrow = list(_apart(judging.probe.spots())) if judging.probe is not None else []
-    depth_in = DepthInSolid(part.solid, part.leave) if isinstance(part, SolidPart) and (places or narrow) else None
-    if depth_in is not None:
-        narrow = [replace(spot, depth_mm=depth_in.over((spot.x, spot.y), (spot.z, math.inf), spot.depth_mm)) for spot in narrow]
-    spots = [_gouge_of_cells(judging, place, depth_in) for place in places]
-    deep = [spot for spot in spots if spot.depth_mm > part.tolerance]
-    told = [spot for spot in narrow if spot.depth_mm > part.tolerance and not _near(spot, [each for each in deep if each.depth_mm > APART])]
-    deep = [spot for spot in deep if not _near(spot, told)]
-    return tuple(sorted((*deep, *told), key=lambda spot: -spot.depth_mm)), len(deep) + len(told) + count - len(places)
+    gouged = np.asarray(deviation < -part.tolerance)
+    places, count = places_of(gouged, -deviation, judging.grid)
+    if isinstance(part, SolidPart) and judging.lowest is not None:
+        narrow = list(_apart(judging.probe.spots())) if judging.probe is not None else []
+        cut, around = judging.cut, judging.wanted.target.around
+        measure = SolidGouges(part, judging.lowest, cut.before, cut.heights, gouged, around, judging.lines)
+        spots = measure.spots(places, narrow)
+        return tuple(spots), len(spots) + count - len(places)
+    spots = [spot for spot in (_gouge_of_cells(judging, place) for place in places) if spot.depth_mm > part.tolerance]
+    return tuple(sorted(spots, key=lambda spot: -spot.depth_mm)), len(spots) + count - len(places)
 
 
 def _near(spot: Spot, others: Sequence[Spot]) -> bool:
@@ -160,14 +165,14 @@ def _near(spot: Spot, others: Sequence[Spot]) -> bool:
 
 
 def _apart(spots: Iterator[Spot]) -> Iterator[Spot]:
-    """Yield spots but for those near an earlier one, not too many."""
-    told: list[Spot] = []
+    """Yield spots but for those near an earlier one."""
+    told: dict[tuple[int, int], list[Spot]] = {}
     for spot in spots:
-        if not _near(spot, told):
-            told.append(spot)
+        col, row = math.floor(spot.x / APART), math.floor(spot.y / APART)
+        around = [other for dx in (-1, 0, 1) for dy in (-1, 0, 1) for other in told.get((col + dx, row + dy), ())]
+        if not _near(spot, around):
+            told.setdefault((col, row), []).append(spot)
             yield spot
-        if len(told) == MOST_GOUGES:
-            return
 
 
 def _exact_gouges(judging: Judging) -> Iterator[Spot]:
@@ -185,30 +190,18 @@ def _exact_gouges(judging: Judging) -> Iterator[Spot]:
             yield Spot(SpotKind.GOUGE, x, y, z, float(depths.depth[k]), 0.0, 0.0, int(judging.lines[motion]), motion)
 
 
-def _gouge_of_cells(judging: Judging, place: CellPlace, depth_in: DepthInSolid | None) -> Spot:
+def _gouge_of_cells(judging: Judging, place: CellPlace) -> Spot:
     """Return a gouge as the cells show it; its depth is the way out of the part, not straight up."""
     from app.dexel.judge_kernels import ways_out
 
     target, grid, depths = judging.wanted.target, judging.grid, np.zeros(len(place.cells))
     ways_out(frozen(target.around), frozen(judging.cut.heights), place.cells, (grid.pitch, 0.0), depths)
     worst = int(np.argmax(depths))
-    depth = float(depths[worst])
-    if depth_in is not None:
-        likely = np.flatnonzero(depths >= LIKELY * depth)
-        order = likely[np.argsort(-depths[likely], kind="stable")]
-        asked = np.unique(np.concatenate([order[:MOST_ASKED], order[:: 1 + len(order) // MOST_ASKED]])).tolist()
-        depth, worst = max((_exact_depth(judging, depth_in, int(place.cells[k]), depths[k]), k) for k in asked)
     row, col = divmod(int(place.cells[worst]), grid.cols)
     x, y = grid.place(int(place.cells[worst]))
     line, motion = judging.line_at(row, col)
-    return Spot(SpotKind.GOUGE, x, y, float(judging.cut.heights[row, col]), depth, place.area_mm2, place.disc_mm, line, motion)
-
-
-def _exact_depth(judging: Judging, depth_in: DepthInSolid, cell: int, rough: float) -> float:
-    """Return how deep in the solid metal was cut over a cell's centre, mm."""
-    row, col = divmod(cell, judging.grid.cols)
-    low, high = float(judging.cut.heights[row, col]), float(judging.wanted.target.wanted[row, col])
-    return depth_in.over(judging.grid.place(cell), (low, high), rough)
+    z, depth = float(judging.cut.heights[row, col]), float(depths[worst])
+    return Spot(SpotKind.GOUGE, x, y, z, depth, place.area_mm2, place.disc_mm, line, motion)
 
 
 def _worst(judging: Judging, spots: tuple[Spot, ...], gouged: int) -> Gouge:

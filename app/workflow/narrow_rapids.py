@@ -23,7 +23,7 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class Looked:
-    """The rapids of a program that go through metal, in their order, and how many could not be looked at closer."""
+    """The rapids of a program that go through metal, in their order, and how many could not, or not wholly, be looked at closer."""
 
     rapids: tuple[RapidHit, ...]
     unseen: int = 0
@@ -41,13 +41,15 @@ def narrow_rapids(course: Course, metal: Metal, before: Workpiece, seen: tuple[R
     top, pitch = float(before.heights.max()), before.grid.pitch
     rows = np.flatnonzero(_in_question(course, metal, top, pitch) & ~np.isin(np.arange(len(course.motions)), [hit.motion for hit in seen]))
     rows = rows[~_goes_where_it_was(course, rows)]
-    hits = list(seen)
+    hits, unseen = list(seen), max(0, len(rows) - MOST)
     for k, row in enumerate(rows[:MOST].tolist()):
         progress.step(k / len(rows), "Looking at rapids")
         ends = np.array([course.motions.start[row], course.motions.end[row]])
-        hit = metal.met(Way(row, ends, metal.cutters[int(course.tool[row])]), top, pitch)
+        way = Way(row, ends, metal.cutters[int(course.tool[row])])
+        hit = metal.met(way, top, pitch)
         hits += [hit] if hit is not None else []
-    return Looked(tuple(sorted(hits, key=lambda hit: hit.motion)), max(0, len(rows) - MOST))
+        unseen += hit is None and not metal.wholly(way, top, pitch)
+    return Looked(tuple(sorted(hits, key=lambda hit: hit.motion)), unseen)
 
 
 def _in_question(course: Course, metal: Metal, top: float, pitch: float) -> Mask:

@@ -116,7 +116,8 @@ def setup_of(programs: tuple[Examined, ...], wishes: Wishes = Wishes(), progress
     stock = _stock(programs, tools, part, wishes)
     setup = CutSetup(tuple(each.program for each in programs), {number: each.tool for number, each in tools.items()}, stock.stock, part,
                      tuple(each.name for each in programs))  # fmt: skip
-    found = (*_unfollowed(programs), *assumed, *((stock.assumed,) if stock.assumed is not None else ()), *said)
+    of_stock = _wound("the stock", stock.stock) if isinstance(stock.stock, SolidStock) else ()
+    found = (*_unfollowed(programs), *assumed, *of_stock, *((stock.assumed,) if stock.assumed is not None else ()), *said)
     return Ready(setup, programs, tools, stock, found)
 
 
@@ -172,7 +173,8 @@ def _part(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
     name, data = wishes.against
     suffix = PurePath(name).suffix.lower()
     if suffix == ".stl":
-        return _solid(name, data, wishes), ()
+        solid = read_solid(name, data)
+        return _solid(solid, wishes), _wound(name, solid)
     return _flat(programs, tools, wishes)
 
 
@@ -200,9 +202,15 @@ def _nothing_beside(name: str) -> bytes:
     raise InputError(f"{name}: the scene names this file, and it is not known where it lies; put its points into the scene.")
 
 
-def _solid(name: str, data: bytes, wishes: Wishes) -> SolidPart:
-    """Return the solid in program coordinates."""
-    triangles = read_solid(name, data).triangles * (wishes.units or Units.MM).value
+def _wound(name: str, solid: SolidStock) -> tuple[Finding, ...]:
+    """Return the remark that triangles of a solid had to be turned over, if any had."""
+    said = solid.wound_words(name)
+    return (Finding(FindingKind.ASSUMED, said, counts=False, amount=float(solid.turned)),) if said else ()
+
+
+def _solid(solid: SolidStock, wishes: Wishes) -> SolidPart:
+    """Return a solid in program coordinates."""
+    triangles = solid.triangles * (wishes.units or Units.MM).value
     low, high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
     xy, z = wishes.origin or (None, None)
     zero = np.zeros(3)
@@ -213,7 +221,7 @@ def _solid(name: str, data: bytes, wishes: Wishes) -> SolidPart:
     if z is not None:
         zero[2] = high[2] if z is OriginZ.TOP else low[2]
     tolerance = TOLERANCE if wishes.tolerance is None else wishes.tolerance
-    return SolidPart(SolidStock(triangles - zero), wishes.leave or 0.0, tolerance)
+    return SolidPart(replace(solid, triangles=triangles - zero), wishes.leave or 0.0, tolerance)
 
 
 def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> tuple[FlatPart, tuple[Finding, ...]]:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from app.errors import GeometryError, ParameterError
 from app.files.scene_toml import read_scene
+from app.model.finding import Finding
 from app.model.job import Job, OriginXY, OriginZ
 from app.model.part import Part
 from app.model.scene import Boundary, Centre, Passes, Scene
@@ -23,12 +24,13 @@ from app.progress import NO_PROGRESS, Progress
 from app.surface.build import Built, build, regions_of
 from app.surface.compound import Compound, Planes
 from app.surface.facets import Facets, joined
-from app.surface.path import Follower, FollowOptions, cutter_path
-from app.surface.planes import even_planes
-from app.surface.scallop import scallop_planes
+from app.surface.path import Follower, FollowOptions, Overrun, cutter_path
+from app.surface.planes import even_planes, widened
+from app.surface.scallop import corner_radius, scallop_planes, stepover_for_scallop
 from app.surface.scene_facets import SceneFacets, region_area, scene_facets
 from app.surface.section import compound_surface
 from app.toolpath.surface_moves import Milling, SurfaceMoves, surface_moves
+from app.workflow.scene_findings import moves_findings, scene_findings
 
 FLOOR = "floor"
 """Name of what a tool is on where it stays at the lowest height that it may have."""
@@ -70,6 +72,7 @@ class Computed:
         moves: of all of them; `moves.surface` counts the scene's surfaces.
         stock: the block. origin: the work origin in the scene's coordinates, mm: NC = scene - origin.
         grid: of the coordinates that are written, mm.
+        findings: what is wrong with the surfaces, their place, and where the tools go.
     """
 
     scene: Scene
@@ -80,6 +83,7 @@ class Computed:
     stock: StockBox
     origin: tuple[float, float, float]
     grid: float
+    findings: tuple[Finding, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -119,13 +123,15 @@ def compute(scene: Scene, sources: Sources, progress: Progress = NO_PROGRESS) ->
     families = []
     for number, passes in enumerate(wanted):
         share = progress.part(0.15 + 0.75 * number / len(wanted), 0.15 + 0.75 * (number + 1) / len(wanted))
-        families.append(_family(scene, facets, passes, (grid, sources), share).numbered(numbers))
+        families.append(_family(scene, facets, passes, (grid, sources, stock), share).numbered(numbers))
     progress.step(0.9, "Joining passes")
     top = max(stock.z1, float(facets.facets.triangles[:, :, 2].max()))
     moves = surface_moves([_milling(family) for family in families], top + scene.safe_z, top + scene.retract_z)
     trimmed, uncut = (replace(each, owner=numbers[each.owner]) for each in (facets.facets, facets.uncut))
     own = SceneFacets(trimmed, uncut, {order[number]: area for number, area in facets.areas.items()})
-    return Computed(scene, built, own, tuple(families), moves, stock, (origin[0], origin[1], origin[2]), grid)
+    tools = [family.tool for family in families]
+    found = (*scene_findings(built, facets.facets, stock, tools), *moves_findings(moves, stock, tools))
+    return Computed(scene, built, own, tuple(families), moves, stock, (origin[0], origin[1], origin[2]), grid, found)
 
 
 def stock_of(scene: Scene, facets: Facets) -> StockBox:
@@ -147,22 +153,39 @@ def origin_of(scene: Scene, stock: StockBox) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _family(scene: Scene, facets: SceneFacets, passes: Passes, rest: tuple[float, Sources], progress: Progress) -> Family:
-    """Compute one family of passes; `rest` is the grid and what reads files."""
-    grid, sources = rest
+def _family(scene: Scene, facets: SceneFacets, passes: Passes, rest: tuple[float, Sources, StockBox], progress: Progress) -> Family:
+    """Compute one family of passes; `rest` is the grid, what reads files, and the stock."""
+    grid, sources, stock = rest
     tool = _tool(scene, passes)
     if passes.pitch is not None:
         planes = even_planes(passes.origin, passes.angle, passes.pitch, facets.facets.triangles[:, :, :2].reshape(-1, 2))
     else:
         planes = scallop_planes(facets.facets, tool, passes.scallop or 0.0, passes.origin, passes.angle)
-    surface = compound_surface(facets.uncut, planes, passes.chord_tolerance, facets.areas, progress.part(0.0, 0.3))
-    below = facets.facets if passes.floor is None else _with_floor(facets.facets, passes.floor, len(scene.surfaces), tool)
+    overrun, places = _overrun(passes, tool, stock), facets.facets.triangles[:, :, :2].reshape(-1, 2)
+    if overrun.far > 0:
+        planes = widened(planes, places, overrun.far, _step(passes, tool))
+    below = facets.facets if passes.floor is None else _with_floor(facets.facets, passes.floor, len(scene.surfaces), overrun.far)
     follower = Follower(below, tool, FollowOptions(passes.stock_to_leave, passes.chord_tolerance, grid))
-    path = cutter_path(follower, planes, _area(passes.boundary, tool, sources), progress.part(0.3, 1.0))
+    path = cutter_path(follower, planes, _area(passes.boundary, tool, sources), progress.part(0.0, 0.7), overrun)
     if not path.runs:
         name = passes.name or f"with T{tool.number}"
         raise GeometryError(f"passes {name} touch no surface; check their boundary and the surfaces' trims.")
+    surface = compound_surface(facets.uncut, path.planes, passes.chord_tolerance, facets.areas, progress.part(0.7, 1.0))
     return Family(passes, tool, surface, path, follower)
+
+
+def _overrun(passes: Passes, tool: Tool, stock: StockBox) -> Overrun:
+    """Return how far passes leave the surfaces' box: as far as the tool still touches one, and metal is in its way."""
+    far = tool.radius if passes.overrun is None else passes.overrun
+    box = stock.x0 - tool.radius, stock.y0 - tool.radius, stock.x1 + tool.radius, stock.y1 + tool.radius
+    return Overrun(far, box, stock.z0)
+
+
+def _step(passes: Passes, tool: Tool) -> float:
+    """Return how far apart passes are beside the surfaces, mm."""
+    if passes.pitch is not None:
+        return passes.pitch
+    return stepover_for_scallop(corner_radius(tool), passes.scallop or 0.0)
 
 
 def _tool(scene: Scene, passes: Passes) -> Tool:
@@ -172,9 +195,10 @@ def _tool(scene: Scene, passes: Passes) -> Tool:
     return replace(tool, **own)
 
 
-def _with_floor(facets: Facets, floor: float, number: int, tool: Tool) -> Facets:
+def _with_floor(facets: Facets, floor: float, number: int, far: float) -> Facets:
     """Return facets with a level one below everything, as wide as a tool's centre comes."""
-    (x0, y0), (x1, y1) = facets.triangles[:, :, :2].min(axis=(0, 1)).tolist(), facets.triangles[:, :, :2].max(axis=(0, 1)).tolist()
+    places = facets.triangles[:, :, :2]
+    (x0, y0), (x1, y1) = (places.min(axis=(0, 1)) - far).tolist(), (places.max(axis=(0, 1)) + far).tolist()
     if not math.isfinite(floor):
         raise ParameterError("The floor is no number; give a height in mm.")
     a, b, c, d = ([x, y, floor] for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1)))

@@ -54,12 +54,12 @@ class WrittenScene:
         return sum(duration(program, machine).total for program in self.programs)
 
     def findings(self) -> tuple[Finding, ...]:
-        """Return what is wrong with it."""
-        return tuple(
+        """Return what is wrong with it, and with its scene."""
+        return (*self.computed.findings, *(
             Finding(FindingKind.GOUGE, f"The move to ({x:.3f}, {y:.3f}, {z:.3f}) could not be proven to stay within {ALLOWED:g} mm of the "
                     "surfaces; make the chord tolerance larger, or check the surfaces there.", x, y)
             for x, y, z in self.unproven.tolist()
-        )  # fmt: skip
+        ))  # fmt: skip
 
 
 def write_scene_nc(computed: Computed, progress: Progress = NO_PROGRESS) -> WrittenScene:

@@ -51,7 +51,7 @@ class SurfaceReport:
 
 def surface_report(computed: Computed, written: WrittenScene | None = None) -> SurfaceReport:
     """Return the report of a computed scene, and of its program if one was written."""
-    findings = written.findings() if written is not None else ()
+    findings = written.findings() if written is not None else computed.findings
     data = {
         "scene": computed.scene.name,
         **(_program(written) if written is not None else {}),
@@ -65,7 +65,8 @@ def surface_report(computed: Computed, written: WrittenScene | None = None) -> S
                      "high": [computed.stock.x1, computed.stock.y1, computed.stock.z1]},
         "origin_mm": list(computed.origin),
         "skipped": [], "open_contours": [],
-        "findings": [{"kind": each.kind.value, "text": each.text, "x": each.x, "y": each.y, "counts": each.counts} for each in findings],
+        "findings": [{"kind": each.kind.value, "text": each.text, "x": each.x, "y": each.y, "counts": each.counts,
+                      "amount": each.amount} for each in findings],
     }  # fmt: skip
     return SurfaceReport(data, findings)
 

@@ -166,6 +166,8 @@ def passes_asks(passes: Passes, scene: Scene) -> tuple[Ask, ...]:
         Ask(Kind.NUMBER, "Floor", ("floor",), passes.floor, tip="The tip goes no lower", auto="none"),
         Ask(Kind.NUMBER, "Link gap", ("link_gap",), passes.link_gap, low=0.0, auto="auto",
             tip="Ends nearer than this are joined over the surface, others by a retract"),
+        Ask(Kind.NUMBER, "Overrun", ("overrun",), passes.overrun, low=0.0, auto="auto",
+            tip="How far the tool's centre leaves the box round the surfaces; auto: as far as it touches one"),
         _rate("Feed", "feed_rate", passes.feed_rate, "mm/min"),
         _rate("Plunge", "plunge_rate", passes.plunge_rate, "mm/min"),
         _rate("Speed", "spindle_speed", passes.spindle_speed, "rpm"),

@@ -1,0 +1,228 @@
+"""Which side of a surface of triangles is out: patches that are wound against their neighbours, and solids that are inside out.
+
+The corners of a triangle go counter-clockwise round its outward normal. Files do not always keep to that, and whoever asks a normal
+which side the metal is on believes them. So neighbours are made to agree across every edge that two triangles share, which
+settles each connected patch but for one sign; that comes from the volume that it encloses. A shell within another one keeps its
+turn to it: a hollow is wound against what it is in, and where the outer shell has to be turned over, all that is in it turns as well.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+_WITHIN = 0.75
+"""Of a turn: a place that a surface winds round by more is in it; one on it has a half."""
+
+_NOTHING = 1e-9
+"""Of the extent cubed: a surface that encloses no more is folded flat."""
+
+
+@dataclass(frozen=True, eq=False)
+class Wound:
+    """A surface, right side out.
+
+    Attributes:
+        triangles: (k, 3, 3) mm; counter-clockwise seen from outside, unless there is a fault. Those without an area, and pairs of them
+            at the same place, are left out.
+        turned: (n,) which of those that were given had to be turned over.
+        fault: why that cannot be done, as the end of a sentence; "" = it is done.
+        place: x, y, z of the fault, mm, where it has one.
+        shells: of how many closed surfaces it consists.
+    """
+
+    triangles: Floats
+    turned: NDArray[np.bool_]
+    fault: str = ""
+    place: tuple[float, float, float] | None = None
+    shells: int = 1
+
+
+@dataclass(frozen=True, eq=False)
+class Edges:
+    """The edges of n triangles, 3 n uses of them.
+
+    Attributes:
+        edge: (3 n,) number of the edge of each use; the uses of triangle k are 3 k, 3 k + 1 and 3 k + 2.
+        forward: (3 n,) whether it is run through from the corner with the smaller number to that with the larger one.
+        count: uses of each edge.
+    """
+
+    edge: Ints
+    forward: NDArray[np.bool_]
+    count: Ints
+
+    @staticmethod
+    def of(triangles: Floats) -> Edges:
+        """Return the edges of triangles (n, 3, 3); corners at exactly the same place are one."""
+        _, corner = np.unique(triangles.reshape(-1, 3) + 0.0, axis=0, return_inverse=True)  # + 0.0: there is one zero only
+        corners = corner.reshape(-1, 3)
+        start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
+        both = np.minimum(start, end) * (int(corner.max(initial=0)) + 1) + np.maximum(start, end)
+        _, edge, count = np.unique(both, return_inverse=True, return_counts=True)
+        return Edges(edge.ravel(), np.asarray(start < end), count)
+
+    def open_uses(self) -> Ints:
+        """Return the uses of edges that belong to an odd number of triangles: there the surface ends."""
+        return np.flatnonzero(self.count[self.edge] % 2)
+
+
+def right_side_out(triangles: Floats) -> Wound:
+    """Return a closed surface with every triangle wound counter-clockwise seen from outside.
+
+    Args:
+        triangles: (n, 3, 3) mm, n > 0.
+    """
+    corners, turned = triangles + 0.0, np.zeros(len(triangles), np.bool_)
+    counts = _counting(corners)
+    solid = corners[counts]
+    if not len(solid):
+        return Wound(corners, turned, "its triangles enclose nothing")
+    edges = Edges.of(solid)
+    loose = edges.open_uses()
+    if len(loose):
+        return Wound(corners, turned, f"{len(loose)} of its edges belong to one triangle only", _middle(solid, int(loose[0])))
+    patch, against, fault = _agreed(edges, len(solid))
+    if fault >= 0:
+        return Wound(corners, turned, "it has one side only, like a twisted strip", _middle(solid, fault))
+    over, shells, fault = _outward(solid, edges, patch, against)
+    if fault >= 0:
+        return Wound(corners, turned, "its triangles do not agree on an inside", _middle(solid, fault))
+    turned[counts] = over
+    return Wound(np.where(over[:, None, None], solid[:, ::-1], solid), turned, shells=shells)
+
+
+def _counting(corners: Floats) -> NDArray[np.bool_]:
+    """Return which triangles are part of a surface: those with an area, but for pairs at the same place, as where bodies touch."""
+    _, number = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
+    sides = np.sort(number.reshape(-1, 3), axis=1)
+    flat = (sides[:, 0] == sides[:, 1]) | (sides[:, 1] == sides[:, 2])
+    _, alike, many = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
+    alike = alike.ravel()
+    order = np.argsort(alike, kind="stable")
+    last = np.zeros(len(corners), np.bool_)
+    last[order[np.cumsum(many) - 1]] = True
+    return np.asarray(~flat & last & (many[alike] % 2 == 1))
+
+
+def _middle(triangles: Floats, use: int) -> tuple[float, float, float]:
+    """Return the middle of an edge by one of its uses."""
+    face, k = divmod(use, 3)
+    x, y, z = (triangles[face, k] + triangles[face, (k + 1) % 3]) / 2
+    return float(x), float(y), float(z)
+
+
+def _agreed(edges: Edges, faces: int) -> tuple[Ints, NDArray[np.bool_], int]:
+    """Return the patch of each triangle, whether it is wound against the first one of it, and a use at which that fails, or -1.
+
+    Patches hang together by edges of two triangles. From each triangle a walk goes on in all directions at once.
+    """
+    order = np.argsort(edges.edge, kind="stable")
+    pairs = order[edges.count[edges.edge[order]] == 2].reshape(-1, 2)
+    one, other = pairs.T // 3
+    alike = edges.forward[pairs[:, 0]] == edges.forward[pairs[:, 1]]
+    ends, begins, unlike = np.concatenate([one, other]), np.concatenate([other, one]), np.concatenate([alike, alike])
+    by = np.argsort(begins, kind="stable")
+    ends, unlike, first = ends[by], unlike[by], np.searchsorted(begins[by], np.arange(faces + 1))
+    patch, against = np.full(faces, -1, np.int64), np.zeros(faces, np.bool_)
+    for seed in range(faces):
+        if patch[seed] >= 0:
+            continue
+        patch[seed], front = seed, np.array([seed])
+        while len(front):
+            many = first[front + 1] - first[front]
+            links = np.repeat(first[front] - np.cumsum(many) + many, many) + np.arange(int(many.sum()))
+            to, turn = ends[links], against[np.repeat(front, many)] ^ unlike[links]
+            new = patch[to] < 0
+            to, turn = to[new], turn[new]
+            patch[to], against[to] = seed, turn
+            front = np.unique(to)
+    wrong = np.flatnonzero((against[one] ^ against[other]) != alike)
+    return patch, against, int(pairs[wrong[0], 0]) if len(wrong) else -1
+
+
+def _outward(triangles: Floats, edges: Edges, patch: Ints, against: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], int, int]:
+    """Return which triangles are to be turned over, how many shells there are, and a use at which patches do not go together, or -1.
+
+    Patches that meet at edges of four triangles and more keep the turn to one another that most of their area has in the file.
+    """
+    area = np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1)
+    size = np.bincount(patch, area, len(patch))
+    turned = against ^ (np.bincount(patch, area * against, len(patch)) > size / 2)[patch]
+    forward = edges.forward ^ np.repeat(turned, 3)
+    balance = np.bincount(edges.edge, np.where(forward, 1, -1))
+    wrong = np.flatnonzero(balance[edges.edge])
+    if len(wrong):
+        return turned, 0, int(wrong[0])
+    shell = _shells(edges, patch, forward)
+    turned, fault = _turned_shells(triangles, turned, shell)
+    return turned, len(np.unique(shell)), fault
+
+
+def _turned_shells(triangles: Floats, turned: NDArray[np.bool_], shell: Ints) -> tuple[NDArray[np.bool_], int]:
+    """Return which triangles are to be turned over when whole shells are, too, and a use of a surface that encloses nothing, or -1."""
+    order = np.argsort(shell, kind="stable")
+    _, first = np.unique(shell[order], return_index=True)
+    rows = np.split(order, first[1:])
+    wound = np.where(turned[:, None, None], triangles[:, ::-1], triangles)
+    own = wound - wound.reshape(-1, 3).mean(axis=0)
+    volume = np.add.reduceat(np.einsum("ij,ij->i", own[:, 0], np.cross(own[:, 1], own[:, 2]))[order] / 6.0, first)
+    low, high = np.minimum.reduceat(wound.min(axis=1)[order], first), np.maximum.reduceat(wound.max(axis=1)[order], first)
+    hollow = np.abs(volume) <= _NOTHING * np.max(high - low, axis=1) ** 3
+    if hollow.all():
+        return turned, int(3 * order[0])
+    turned = turned.copy()
+    for k in np.flatnonzero((volume < 0) & ~hollow).tolist():
+        outer = np.all((low <= low[k]) & (high >= high[k]), axis=1)
+        inner = np.all((low >= low[k]) & (high <= high[k]), axis=1)
+        outer[k] = inner[k] = False
+        if not any(_holds(wound[rows[n]], wound[rows[k]]) for n in np.flatnonzero(outer).tolist()):
+            turned[rows[k]] ^= True
+            for n in np.flatnonzero(inner).tolist():
+                turned[rows[n]] ^= _holds(wound[rows[k]], wound[rows[n]])
+    return turned, -1
+
+
+def _shells(edges: Edges, patch: Ints, forward: NDArray[np.bool_]) -> Ints:
+    """Return a number by triangle for what is closed: a patch, or several that only close together, at edges of four and more."""
+    face = np.arange(len(edges.edge)) // 3
+    keys, at = np.unique(np.column_stack([edges.edge, patch[face]]), axis=0, return_inverse=True)
+    loose = np.bincount(at.ravel(), np.where(forward, 1, -1), len(keys)) != 0
+    shell = np.arange(len(patch))
+    edge, number = keys[loose].T
+    while len(edge):
+        least = np.full(len(edges.count), len(patch), np.int64)
+        np.minimum.at(least, edge, shell[number])
+        better = shell.copy()
+        np.minimum.at(better, number, least[edge])
+        if np.array_equal(better, shell):
+            break
+        shell = better
+    return shell[patch]
+
+
+def _holds(outer: Floats, inner: Floats) -> bool:
+    """Return whether a closed surface holds another one that does not go through it: by a place of its largest triangle."""
+    size = np.linalg.norm(np.cross(inner[:, 1] - inner[:, 0], inner[:, 2] - inner[:, 0]), axis=1)
+    return abs(winding_number(outer, inner[int(np.argmax(size))].mean(axis=0))) > _WITHIN
+
+
+def winding_number(triangles: Floats, place: Floats) -> float:
+    """Return how often a surface goes round a place: the solid angle that its triangles are seen in, in whole turns.
+
+    1 in a solid that is wound right side out, 0 outside, -1 in one that is inside out; of a surface that is open, in between.
+
+    References:
+        Tangent of half the solid angle of a triangle by its corners' vectors (Van Oosterom and Strackee, 1983).
+    """
+    a, b, c = np.moveaxis(triangles - place, 1, 0)
+    x, y, z = (np.linalg.norm(each, axis=1) for each in (a, b, c))
+    dot = np.einsum("ij,ij->i", a, b), np.einsum("ij,ij->i", b, c), np.einsum("ij,ij->i", c, a)
+    volume = np.einsum("ij,ij->i", a, np.cross(b, c))
+    return float(np.sum(np.arctan2(volume, x * y * z + dot[0] * z + dot[1] * x + dot[2] * y))) / (2 * math.pi)
