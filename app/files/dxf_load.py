@@ -5,9 +5,11 @@ from __future__ import annotations
 import io
 import logging
 import re
+from dataclasses import dataclass, replace
 from typing import Any
 
 from app.errors import InputError
+from app.files.dxf_numbers import NO_COMMAS, Commas, with_points
 
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 _SECTION = re.compile(rb"^\s*0[ \t]*\r?[\n\r][ \t]*SECTION", re.MULTILINE)
@@ -17,21 +19,41 @@ logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it has to s
 _HEAD, _TAIL = 1 << 16, 1 << 12
 
 
-def load(data: bytes, name: str) -> tuple[Any, int]:
-    """Return an ezdxf document and how many faults in it had to be repaired.
+@dataclass(frozen=True)
+class Loaded:
+    """A document of the library, and what had to be done to read it.
+
+    Attributes:
+        repaired: how many faults in it had to be repaired.
+        commas: where decimal commas stood, if they did.
+    """
+
+    document: Any
+    repaired: int = 0
+    commas: Commas = NO_COMMAS
+
+
+def load(data: bytes, name: str) -> Loaded:
+    """Return what a file holds.
 
     Args:
         data: the whole file.
         name: for messages.
 
     Raises:
-        InputError: the data is empty, no DXF, cut short, or damaged beyond repair.
+        InputError: the data is empty, no DXF, cut short, or damaged beyond repair; or a number in it is none.
     """
     _refuse_others(data, name)
     try:
-        return _load_sound(data), 0
+        return Loaded(_load_sound(data))
     except Exception as fault:  # whatever a parser makes of a damaged file: the repairing reader gets its turn
         reason = fault
+    commas = Commas(data) if data.startswith(_BINARY) else with_points(data, name)
+    if commas.count:
+        try:
+            return Loaded(_load_sound(commas.data), 0, replace(commas, data=b""))
+        except Exception as fault:  # it has other faults too
+            data, reason = commas.data, fault
     try:
         from ezdxf import recover
 
@@ -39,7 +61,7 @@ def load(data: bytes, name: str) -> tuple[Any, int]:
     except Exception as error:  # a third-party parser on any bytes at all: its faults must not reach the user raw
         raise InputError(f"{name}: the DXF is damaged and cannot be repaired ({_short(reason)}); "
                          "save it again from the CAD program.") from error
-    return document, max(1, len(auditor.errors) + len(auditor.fixes))
+    return Loaded(document, max(1, len(auditor.errors) + len(auditor.fixes)), replace(commas, data=b""))
 
 
 def _refuse_others(data: bytes, name: str) -> None:

@@ -18,6 +18,7 @@ MOST_BYTES = 256 << 20
 _MOST_ENTITIES = 100
 _LONGEST_ENTITY = 200
 """Old drawing programs name their namespaces by entities; none is longer, and none holds another."""
+_LONGEST_COMMENTS = 4096
 _HEAD = 1 << 16
 
 
@@ -30,6 +31,7 @@ class Node:
         attributes: by name, likewise.
         line: where it begins, 1-based.
         text: its own text, kept for style sheets alone.
+        comments: those before the root, kept there alone; editors name themselves in them.
     """
 
     tag: str
@@ -37,6 +39,7 @@ class Node:
     line: int
     children: list[Node] = field(default_factory=list)
     text: str = ""
+    comments: str = ""
 
     def every(self) -> Iterator[Node]:
         """Yield this element and all that it holds, in the order of the file."""
@@ -72,9 +75,11 @@ class _Reader:
         self._parser.StartElementHandler = self._start
         self._parser.EndElementHandler = self._end
         self._parser.CharacterDataHandler = self._characters
+        self._parser.CommentHandler = self._comment
         self._parser.EntityDeclHandler = self._entity
         self._open: list[Node] = []
         self._root: Node | None = None
+        self._comments = ""
         self._count = self._entities = 0
 
     def read(self, data: bytes) -> Node:
@@ -100,6 +105,7 @@ class _Reader:
             self._open[-1].children.append(node)
         else:
             self._root = node
+            node.comments = self._comments
         self._open.append(node)
 
     def _end(self, _: str) -> None:
@@ -108,6 +114,10 @@ class _Reader:
     def _characters(self, text: str) -> None:
         if self._open[-1].tag == "style":
             self._open[-1].text += text
+
+    def _comment(self, text: str) -> None:
+        if self._root is None and len(self._comments) < _LONGEST_COMMENTS:
+            self._comments += text[:_LONGEST_COMMENTS]
 
     def _entity(self, entity: str, parameter: bool, value: str | None, *_: str | None) -> None:
         self._entities += 1
