@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import NoReturn
@@ -18,6 +19,9 @@ MOST_BYTES = 256 << 20
 _MOST_ENTITIES = 100
 _LONGEST_ENTITY = 200
 """Old drawing programs name their namespaces by entities; none is longer, and none holds another."""
+MOST_USES = 10_000
+"""So often may entities be used: two megabytes at most come from them."""
+_USE = re.compile(rb"&(?!(?:amp|lt|gt|quot|apos);)[^#;&\s<>]{1,200};")
 _LONGEST_COMMENTS = 4096
 _HEAD = 1 << 16
 
@@ -64,7 +68,18 @@ def read_xml(data: bytes, name: str) -> Node:
         raise InputError(f"{name}: the file has {len(data)} bytes, more than {MOST_BYTES}; save the drawing in parts.")
     if b"<" not in data[:_HEAD].replace(b"\0", b""):
         raise InputError(f"{name}: this is not an SVG file, no element begins in it; export the drawing as SVG.")
+    _refuse_repeated_entities(data, name)
     return _Reader(name).read(data)
+
+
+def _refuse_repeated_entities(data: bytes, name: str) -> None:
+    """Refuse a small file that unfolds to a large one: editors use the entities that they declare a few times."""
+    plain = data.replace(b"\0", b"") if b"\0" in data[:_HEAD] else data
+    if b"<!ENTITY" not in plain:
+        return
+    uses = sum(1 for _ in _USE.finditer(plain))
+    if uses > MOST_USES:
+        raise InputError(f"{name}: entities are used {uses} times, and {MOST_USES} are the most; save it again as a plain SVG.")
 
 
 class _Reader:

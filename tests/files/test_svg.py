@@ -393,7 +393,7 @@ def test_arc_flags_other_than_0_and_1_are_named_with_their_place(flags: str, kin
 
 def test_an_svg_is_moved_to_zero() -> None:
     text = f'<svg {NAMESPACES} width="50mm" height="50mm" viewBox="0 0 50 50"><rect x="3e6" y="7e6" width="4" height="2"/></svg>'
-    with pytest.raises(InputError, match="beyond 1 km; move the drawing to zero .* --to-zero"):
+    with pytest.raises(InputError, match=r"beyond 1 km; move the drawing to zero .* --to-zero"):
         read_svg(text.encode(), "x.svg")
     part = read_svg(text.encode(), "x.svg", None, (), ReadOptions(to_zero=True)).part
     assert {entity.curve.start for entity in part.entities} == {(0, 0), (4, 0), (4, 2), (0, 2)}

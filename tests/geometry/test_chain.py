@@ -81,7 +81,8 @@ def test_open_contour_names_both_loose_ends() -> None:
     assert shape(made) == [(False, 3)]
     (found,) = of_kind(made, FindingKind.OPEN_CONTOUR)
     assert found.counts and found.amount == pytest.approx(0.12)
-    assert "The contour on layer 0, 10 x 10 mm from (0.000, 0.000), is open by 0.12 mm" in found.text and "(0.000, 0.000) and (0.000, 0.120)" in found.text
+    assert "The contour on layer 0, 10 x 10 mm from (0.000, 0.000), is open by 0.12 mm" in found.text
+    assert "(0.000, 0.000) and (0.000, 0.120)" in found.text
     assert "tolerance 0.2" in found.text
     assert shape(chained([Line((0, 0), (10, 0)), Line((10, 0), (10, 10)), Line((10, 10), (0, 0.12))], 0.2)) == [(True, 3)]
 
