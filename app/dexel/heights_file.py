@@ -31,7 +31,7 @@ def _ensure_whole(name: str, data: bytes) -> None:
     Raises:
         InputError: it is so.
     """
-    what = f"{name}: this is no NPY file of heights"
+    what = f"{name}: this is no field of heights"
     stream = io.BytesIO(data)
     try:
         version = npy.read_magic(stream)

@@ -123,7 +123,8 @@ class Walker:
             sheet.without_length.append(nothing.args[0])
             return
         except NegativeRadiusError as negative:
-            sheet.negative.append(Negative(*negative.args, entity.dxf.layer))
+            at, radius = negative.args
+            sheet.negative.append(Negative(at, radius, entity.dxf.layer))
             return
         if curves is None:
             sheet.left_out[kind] += 1

@@ -64,7 +64,7 @@ def test_a_stock_with_an_absurd_header_is_refused_in_one_sentence(header: bytes)
     with pytest.raises(InputError) as caught:
         read_heights("s.npy", npy(header, np.ones(4, np.float32).tobytes()), WHERE)
     text = str(caught.value)
-    assert text.startswith("s.npy: this is no NPY file of heights") and "\n" not in text and len(text) < 300
+    assert text.startswith("s.npy: this is no field of heights") and "\n" not in text and len(text) < 300
 
 
 def test_a_sound_stock_is_read() -> None:
