@@ -210,8 +210,8 @@ def _ensure_whole(name: str, data: bytes) -> None:
         length, kind = struct.unpack(">I4s", data[at : at + 8]) if at + 8 <= len(data) else (0, b"")
         if kind == b"" or at + 12 + length > len(data):
             what = kind.decode("ascii", "replace") or "unknown"
-            raise InputError(f"{name}: the picture is damaged at byte {at}: its part {what!r} reaches beyond the end of the file; "
-                             "save it again.")
+            raise InputError(f"{name}: the picture is damaged and cannot be decoded: its part {what!r} at byte {at} reaches beyond the "
+                             "end of the file; save it again.")
         if kind == b"IEND":
             return
         at += 12 + length

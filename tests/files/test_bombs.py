@@ -36,7 +36,7 @@ WHOLE = chunk(b"IDAT", zlib.compress((b"\0" + b"\xff\x00" * 4) * 8))
     png(chunk(b"IDAT", b"abc", 0xFFFFFFF0)), png(chunk(b"zTXt", b"abc", 0xFFFFFFF0) + WHOLE),
     png(WHOLE, chunk(b"IEND", b"", 12)), png(WHOLE)[:-2]])  # fmt: skip
 def test_a_png_whose_chunk_is_longer_than_the_file_is_not_decoded(data: bytes) -> None:
-    with pytest.raises(InputError, match=r"^p\.png: the picture is damaged at byte \d+: its part '\w+' reaches beyond the end of the file"):
+    with pytest.raises(InputError, match=r"^p\.png: .* cannot be decoded: its part '\w+' at byte \d+ reaches beyond"):
         read_picture("p.png", data, PictureOptions(pitch=0.1))
 
 
