@@ -12,6 +12,7 @@ from app.atomic import write_together
 from app.cli_cut_options import Corners, cut_parser, read_arguments
 from app.cli_files import check_outputs, read_input, shown_progress
 from app.cli_output import REMARKS, finding_lines, helped, tell
+from app.cli_reading import reading
 from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.files.job_toml import read_job
@@ -104,6 +105,7 @@ def _wishes(arguments: argparse.Namespace) -> Wishes:
     return _with_stock(Wishes(
         tuple(told), job, None, against, beside, arguments.depth, arguments.stock_to_leave, tuple(arguments.layer),
         arguments.units, arguments.origin, arguments.join_tolerance, arguments.tolerance, dict(arguments.holder),
+        reading(arguments),
     ), arguments.stock)  # fmt: skip
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from app.cli_parser import OptionParser, join_tolerance, number, typed, with_equals
+from app.cli_reading import NAMES, add_reading_options
 from app.edit.errors import CommandError
 from app.edit.numbers import angle, length
 from app.errors import HitofudeError, InputError
@@ -207,6 +208,7 @@ def _part_options(group: argparse._ArgumentGroup) -> None:
                        help="of a drawing: from the top of the stock down to the floor (default: as the header of make tells)")
     group.add_argument("--stock-to-leave", metavar="MM", type=number("stock to leave", least=0.0), help="metal that stays on purpose")
     group.add_argument("--layer", metavar="NAME", action="append", default=[], help="only this layer of the drawing; may be repeated")
+    add_reading_options(group)
     group.add_argument("--units", metavar="mm|in", type=typed(read_units), help="units of a part that names none (default mm)")
     group.add_argument("--origin", metavar="WHERE", type=typed(parse_origin), help=ORIGIN_HELP)
     group.add_argument("--join-tolerance", metavar="MM", type=join_tolerance, help="join loose ends nearer than this, 0 to 10 mm")
@@ -241,8 +243,8 @@ def _ensure_part(arguments: argparse.Namespace) -> None:
     """Refuse options of a part that is not there, or that has no use for them."""
     what = {".stl": "a solid", ".toml": "surfaces"}.get(arguments.against.suffix.lower(), "") if arguments.against else ""
     solid = bool(what)
-    names = ["depth", "layer", "join_tolerance"] + ([] if solid else ["stock_to_leave", "units", "origin", "tolerance"])
-    given = next((name for name in names if getattr(arguments, name) not in (None, [])), None)
+    names = ["depth", "layer", "join_tolerance", *NAMES] + ([] if solid else ["stock_to_leave", "units", "origin", "tolerance"])
+    given = next((name for name in names if getattr(arguments, name) not in (None, [], False)), None)
     if given is not None and (solid or arguments.against is None):
         option = "--" + given.replace("_", "-")
         why = f"says nothing of {what}, {arguments.against}"

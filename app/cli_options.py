@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from app.cli_parser import MACHINE_HELP, OptionParser, join_tolerance, machine_named, number, typed, with_equals
+from app.cli_reading import add_reading_options, reading
 from app.edit.numbers import length
 from app.errors import InputError
 from app.files.job_toml import ORIGIN_HELP, parse_origin, read_out_units, read_units
@@ -96,9 +97,11 @@ def _tool_options(group: argparse._ArgumentGroup) -> None:
 
 
 def _drawing_options(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--units", metavar="mm|in", type=typed(read_units), help="units of a drawing that names none (default mm)")
+    group.add_argument("--units", metavar="mm|in", type=typed(read_units),
+                       help="units of a drawing that names none, or none that can be meant (default mm)")
     group.add_argument("--origin", metavar="WHERE", type=typed(parse_origin), help=ORIGIN_HELP)
     group.add_argument("--layer", metavar="NAME", action="append", default=[], help="machine only this layer; may be repeated")
+    add_reading_options(group)
     group.add_argument("--join-tolerance", metavar="MM", type=join_tolerance,
                        help="join loose ends nearer than this, 0 to 10 mm (default 0.01)")
 
@@ -132,5 +135,5 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         post=arguments.post, machine=arguments.machine, out_units=arguments.out_units, units=arguments.units,
         origin_xy=origin_xy, origin_z=origin_z, layers=tuple(arguments.layer),
         join_tolerance=arguments.join_tolerance, exact_path=arguments.exact_path,
-        bitmap=bitmap, machining=machining(arguments, bitmap is not None),
+        bitmap=bitmap, machining=machining(arguments, bitmap is not None), reading=reading(arguments),
     )

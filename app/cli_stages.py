@@ -17,6 +17,7 @@ from app.cli_files import check_outputs, read_input, shown_progress
 from app.cli_options import stepover
 from app.cli_output import finding_lines, helped, tell
 from app.cli_parser import OptionParser, join_tolerance, number, typed
+from app.cli_reading import add_reading_options, reading
 from app.cli_signals import undisturbed
 from app.errors import InputError
 from app.files.job_toml import read_job, read_units
@@ -93,6 +94,7 @@ def _job_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--stock-to-leave", metavar="MM", type=number("stock to leave", least=0.0), help="metal left on walls (default 0)")
     group.add_argument("--units", metavar="mm|in", type=typed(read_units), help="units of a drawing that names none (default mm)")
     group.add_argument("--layer", metavar="NAME", action="append", default=[], help="only this layer; may be repeated")
+    add_reading_options(group)
     group.add_argument("--join-tolerance", metavar="MM", type=join_tolerance, help="join loose ends nearer than this (default 0.01)")
 
 
@@ -123,7 +125,7 @@ def _make_options(arguments: argparse.Namespace) -> MakeOptions:
     options = MakeOptions(
         contour_diameter=arguments.contour_tool, pocket_diameter=arguments.pocket_tool, stepover=arguments.stepover,
         overlap=arguments.overlap, stock_to_leave=arguments.stock_to_leave, units=arguments.units, layers=tuple(arguments.layer),
-        join_tolerance=arguments.join_tolerance, bitmap=bitmap_options(arguments),
+        join_tolerance=arguments.join_tolerance, bitmap=bitmap_options(arguments), reading=reading(arguments),
     )  # fmt: skip
     if arguments.job is None:
         return options

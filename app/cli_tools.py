@@ -13,6 +13,7 @@ from app.atomic import write_together
 from app.cli_files import check_outputs, read_input, shown_progress
 from app.cli_output import finding_lines, helped, tell
 from app.cli_parser import OptionParser, join_tolerance, number, typed
+from app.cli_reading import add_reading_options, reading
 from app.cli_signals import undisturbed
 from app.files.job_toml import read_units
 from app.files.tool_files import read_tools
@@ -70,6 +71,7 @@ def _parser() -> OptionParser:
                         help="of one pass (default 2)")
     parser.add_argument("--units", metavar="mm|in", type=typed(read_units), help="units of a drawing that names none (default mm)")
     parser.add_argument("--layer", metavar="NAME", action="append", default=[], help="only this layer; may be repeated")
+    add_reading_options(parser)
     parser.add_argument("--join-tolerance", metavar="MM", type=join_tolerance, help="join loose ends nearer than this (default 0.01)")
     parser.add_argument("--report", metavar="R.json", type=Path, help="everything that was found, as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
@@ -79,7 +81,8 @@ def _parser() -> OptionParser:
 def _options(arguments: argparse.Namespace) -> AdviceOptions:
     tools = () if arguments.tools is None else read_tools(arguments.tools.name, read_input(arguments.tools))[0].tools
     plan = Plan(depth=arguments.depth, stepdown=min(arguments.stepdown, arguments.depth))
-    return AdviceOptions(tuple(tools), plan, arguments.units, tuple(arguments.layer), arguments.join_tolerance)
+    return AdviceOptions(tuple(tools), plan, arguments.units, tuple(arguments.layer), arguments.join_tolerance,
+                         reading(arguments))
 
 
 def _lines(name: str, advised: Advised) -> list[str]:

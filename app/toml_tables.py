@@ -16,6 +16,10 @@ from app.errors import HitofudeError, InputError
 Kind = TypeVar("Kind")
 Range = tuple[float, float]
 
+_LONGEST, _QUOTED = 200, 60
+"""So many letters of an error, and of a wrong value, are shown."""
+_ENDLESS = re.compile(r"(?<![\w.'\"])[-+]?[0-9][0-9_]{3999,}")
+
 EXPECTED = {str: "a text", bool: "true or false", int: "a whole number", float: "a number", tuple[str, ...]: "a list of texts",
             tuple[float, ...]: "a list of numbers", tuple[int, ...]: "a list of whole numbers"}  # fmt: skip
 
@@ -102,9 +106,51 @@ def read_tree(file: str, data: bytes) -> dict[str, Any]:
         InputError: it is none.
     """
     try:
-        return tomllib.loads(data.decode("utf-8-sig"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise InputError(f"{file}: this is no TOML file ({error}); correct it.") from error
+        return parsed(data.decode("utf-8-sig"))
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{file}: this is no TOML file ({brief(str(error))}); correct it.") from error
+
+
+def parsed(text: str) -> dict[str, Any]:
+    """Return what a TOML text holds; whole numbers are of 64 bits, as TOML promises them.
+
+    Raises:
+        ValueError: it is no TOML, or a whole number in it is larger.
+        RecursionError: it is nested too deep.
+    """
+    try:
+        tree = tomllib.loads(text)
+    except tomllib.TOMLDecodeError:
+        raise
+    except ValueError:  # so many digits that Python itself refuses to read them
+        found = _ENDLESS.search(text)
+        where = f" (at line {text.count(chr(10), 0, found.start()) + 1}, column 1)" if found else ""
+        raise ValueError(f"a whole number has thousands of digits; it has at most 64 bits{where}") from None
+    _ensure_small(tree, "")
+    return tree
+
+
+def _ensure_small(value: Any, key: str) -> None:
+    """Refuse whole numbers that no computer word holds."""
+    if isinstance(value, dict):
+        for name, item in value.items():
+            _ensure_small(item, f"{key}.{name}".lstrip("."))
+    elif isinstance(value, list):
+        for item in value:
+            _ensure_small(item, key)
+    elif isinstance(value, int) and not -(2**63) <= value < 2**63:
+        raise ValueError(f"{key} is a whole number of {value.bit_length()} bits; it has at most 64 bits")
+
+
+def brief(text: str) -> str:
+    """Return a text for a message, not longer than a line can hold."""
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}…"
+
+
+def shown(value: Any) -> str:
+    """Return a wrong value for a message, cut after 60 letters."""
+    text = repr(value)
+    return text if len(text) <= _QUOTED else f"{text[:_QUOTED]}…"
 
 
 def tables_of(kind: type[Kind], tree: dict[str, Any], source: tuple[str, bytes], ranges: Mapping[str, Range]) -> Kind:
@@ -156,7 +202,7 @@ def _value(kind: Any, value: Any, at: tuple[_Place, str], ranges: Mapping[str, R
         return kind(_in_range(value, at, ranges))
     if kind in (str, bool) and isinstance(value, kind):
         return value
-    raise place.error(key, f"is {value!r}; expected is {_expected(kind)}.")
+    raise place.error(key, f"is {shown(value)}; expected is {_expected(kind)}.")
 
 
 def _meant(union: types.UnionType, value: Any, at: tuple[_Place, str]) -> Any:
@@ -165,13 +211,13 @@ def _meant(union: types.UnionType, value: Any, at: tuple[_Place, str]) -> Any:
     if len(choices) == 1:
         return choices[0]
     if not isinstance(value, dict):
-        raise at[0].error(at[1], f"is {value!r}; expected is {_expected(union)}.")
+        raise at[0].error(at[1], f"is {shown(value)}; expected is {_expected(union)}.")
     kinds = {part.kind: part for part in choices}
     place = at[0].inside(at[1])
     if "kind" not in value:
         raise place.error("kind", f"is missing; add kind = {_either(kinds)}.")
     if not isinstance(value["kind"], str) or value["kind"] not in kinds:
-        raise place.error("kind", f"is {value['kind']!r}; expected is {_either(kinds)}.")
+        raise place.error("kind", f"is {shown(value['kind'])}; expected is {_either(kinds)}.")
     return kinds[value["kind"]]
 
 

@@ -134,7 +134,8 @@ def test_help_of_make_names_every_option() -> None:
         --speed --climb --conventional --order --post --out-units --units --origin --layer --join-tolerance --image --report --quiet
         --side --entry --ramp-angle
         --lead --lead-radius --tabs --tab-width --tab-height --dog-bones --finish-depth --finish-width --spring-passes --floor-to-leave
-        --outside-in --most-engaged --drill --peck --through --copies --keep-out --keep-out-height"""
+        --outside-in --most-engaged --drill --peck --through --copies --keep-out --keep-out-height
+        --skip-layer --skip-type --layout --to-zero --px-per-inch"""
     assert all(option in text for option in options.split())
     assert "lower-left" in text
     assert "--bitmap" in text

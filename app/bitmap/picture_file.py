@@ -191,6 +191,7 @@ def decoded(name: str, data: bytes) -> Gray:
     """
     import cv2
 
+    _ensure_whole(name, data)
     flags = cv2.IMREAD_UNCHANGED if _is_see_through(data) else cv2.IMREAD_GRAYSCALE
     with _silence():
         try:
@@ -200,6 +201,20 @@ def decoded(name: str, data: bytes) -> Gray:
     if image is None:
         raise InputError(f"{name}: the picture is damaged and cannot be decoded; save it again.")
     return _on_paper(np.asarray(image))
+
+
+def _ensure_whole(name: str, data: bytes) -> None:
+    """Refuse a PNG that is cut short, or of whose chunks one says that it is longer than the file: a decoder takes that much memory."""
+    at = 8 if data[:8] == _PNG else len(data)
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at : at + 8]) if at + 8 <= len(data) else (0, b"")
+        if kind == b"" or at + 12 + length > len(data):
+            what = kind.decode("ascii", "replace") or "unknown"
+            raise InputError(f"{name}: the picture is damaged and cannot be decoded: its part {what!r} at byte {at} reaches beyond the "
+                             "end of the file; save it again.")
+        if kind == b"IEND":
+            return
+        at += 12 + length
 
 
 def _is_see_through(data: bytes) -> bool:

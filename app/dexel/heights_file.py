@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import io
 import json
+import math
 
 import numpy as np
+from numpy.lib import format as npy
 
 from app.dexel.engines import Engine
 from app.dexel.workpiece import Grid, HeightStock, Workpiece
 from app.errors import InputError, ParameterError
+
+_QUOTED = 60
+"""So many letters of what is wrong are shown."""
 
 
 def heights_files(workpiece: Workpiece, engine: Engine = Engine.CPU) -> tuple[bytes, bytes]:
@@ -18,6 +23,28 @@ def heights_files(workpiece: Workpiece, engine: Engine = Engine.CPU) -> tuple[by
     np.save(out, workpiece.heights)
     where = {"x0": grid.x0, "y0": grid.y0, "pitch": grid.pitch, "floor": workpiece.floor, "engine": engine.value}
     return out.getvalue(), (json.dumps(where, indent=1) + "\n").encode()
+
+
+def _ensure_whole(name: str, data: bytes) -> None:
+    """Refuse a file whose header is damaged, or promises another number of heights than are there: numpy takes memory for them all.
+
+    Raises:
+        InputError: it is so.
+    """
+    what = f"{name}: this is no field of heights"
+    stream = io.BytesIO(data)
+    try:
+        version = npy.read_magic(stream)
+        shape, _, kind = (npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0)(stream)
+        promised = math.prod(shape) * kind.itemsize
+    except Exception as error:  # numpy has Python itself read the header: any fault of a tokenizer, a parser or a number may come
+        said = (str(error).splitlines() or [type(error).__name__])[0][:_QUOTED]
+        raise InputError(f"{what}, for its header is damaged ({said}); write it again with --heights.") from None
+    rest = len(data) - stream.tell()
+    if min(shape, default=1) < 0 or promised != rest:
+        size = " x ".join(str(count)[:_QUOTED] for count in shape[:4])
+        raise InputError(f"{what}, for its header promises {size} numbers of {kind.itemsize} bytes and {rest} bytes follow; "
+                         "write it again with --heights.")
 
 
 def read_heights(name: str, heights: bytes, where: bytes) -> HeightStock:
@@ -30,6 +57,7 @@ def read_heights(name: str, heights: bytes, where: bytes) -> HeightStock:
     Raises:
         InputError: one of them is not what it should be.
     """
+    _ensure_whole(name, heights)
     try:
         field = np.load(io.BytesIO(heights), allow_pickle=False)
         told = json.loads(where)

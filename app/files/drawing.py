@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import PurePath
 
 from app.errors import InputError
+from app.files.read_options import AS_DRAWN, ReadOptions
 from app.model.finding import Finding
 from app.model.part import Part, Units
 
@@ -33,7 +35,9 @@ class Drawing:
     units_named: bool = True
 
 
-def read_drawing(path_name: str, data: bytes, units: Units | None = None, layers: tuple[str, ...] = ()) -> Drawing:
+def read_drawing(
+    path_name: str, data: bytes, units: Units | None = None, layers: tuple[str, ...] = (), how: ReadOptions = AS_DRAWN,
+) -> Drawing:  # fmt: skip
     """Return the drawing in a file's bytes, by the suffix of its name.
 
     Args:
@@ -41,26 +45,68 @@ def read_drawing(path_name: str, data: bytes, units: Units | None = None, layers
         data: the whole file.
         units: of a drawing that names none.
         layers: only curves on these are kept; empty = all.
+        how: what else is said about reading it.
 
     Raises:
-        InputError: the suffix is not supported, or the file cannot be used.
+        InputError: the suffix is not supported, the file cannot be used, or something that is said has no effect on it.
     """
     name = PurePath(path_name).name
     suffix = PurePath(path_name).suffix.lower()
     if suffix not in SUFFIXES:
         raise InputError(f"{name}: drawings of type {suffix or 'without a suffix'} cannot be read; supported: {', '.join(SUFFIXES)}.")
-    if suffix == ".svg":
-        from app.files.svg import read_svg
+    how.check(name, suffix)
+    drawing = _READERS[suffix](data, name, (units, layers), how)
+    return _without_layers(drawing, how.without_layers, name)
 
-        return read_svg(data, name, units, layers)
-    if suffix == ".draw":
-        from app.files.draw import read_draw
 
-        return read_draw(data, name, units, layers)
-    if suffix in PROJECTS:
-        from app.files.project import project_drawing
+def _without_layers(drawing: Drawing, layers: tuple[str, ...], name: str) -> Drawing:
+    """Return the drawing without the curves on some layers.
 
-        return project_drawing(data, name, units, layers)
+    Raises:
+        InputError: there is no such layer, or nothing is left.
+    """
+    if not layers:
+        return drawing
+    part, gone = drawing.part, {layer.casefold() for layer in layers}
+    known = {layer.name.casefold() for layer in part.layers}
+    missing = [layer for layer in layers if layer.casefold() not in known]
+    if missing:
+        raise InputError(f"{name}: there is no layer {missing[0]} to leave out; "
+                         f"the drawing has {', '.join(layer.name for layer in part.layers)}.")
+    kept = tuple(entity for entity in part.entities if entity.layer.casefold() not in gone)
+    if not kept:
+        raise InputError(f"{name}: without layer {', '.join(layers)} nothing is left to machine; leave out less.")
+    return replace(drawing, part=replace(part, entities=kept))
+
+
+_Chosen = tuple[Units | None, tuple[str, ...]]
+"""Units of a drawing that names none, and the layers that are kept."""
+
+
+def _svg(data: bytes, name: str, chosen: _Chosen, how: ReadOptions) -> Drawing:
+    from app.files.svg import read_svg
+
+    return read_svg(data, name, *chosen, how)
+
+
+def _draw(data: bytes, name: str, chosen: _Chosen, _: ReadOptions) -> Drawing:
+    from app.files.draw import read_draw
+
+    return read_draw(data, name, *chosen)
+
+
+def _project(data: bytes, name: str, chosen: _Chosen, _: ReadOptions) -> Drawing:
+    from app.files.project import project_drawing
+
+    return project_drawing(data, name, *chosen)
+
+
+def _dxf(data: bytes, name: str, chosen: _Chosen, how: ReadOptions) -> Drawing:
     from app.files.dxf import read_dxf
 
-    return read_dxf(data, name, units, layers)
+    return read_dxf(data, name, *chosen, how)
+
+
+_READERS: dict[str, Callable[[bytes, str, _Chosen, ReadOptions], Drawing]] = {
+    ".dxf": _dxf, ".svg": _svg, ".draw": _draw, **dict.fromkeys(PROJECTS, _project),
+}  # fmt: skip

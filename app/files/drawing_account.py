@@ -3,44 +3,120 @@
 from __future__ import annotations
 
 import math
+import statistics
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
 
 from app import tolerances
+from app.edit.sample import bounds
 from app.errors import InputError
 from app.files.dxf_affine import Affine, transformed
-from app.geometry.chain_pieces import straightened, within_reach
-from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point
+from app.geometry.chain_pieces import FARTHEST, straightened, within_reach
+from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity, Part, Units
 
 MOST_CURVES = 500_000
 """A drawing that unfolds to more curves than this is refused before it fills the memory."""
 
+BEYOND = "curve beyond 1 km or without a place"
+MOVE = "move the drawing to zero in the CAD program, or say --to-zero and it is done on reading"
+_GONE = {True: "is missing from the part", False: "are missing from the part"}
+_COUNTABLE = 1e10
+"""mm; beyond, neighbouring doubles are further apart than WELD, so that no shape is left to be moved."""
 
-def entities_of(
-    curves: Iterable[tuple[Curve, str]], to_mm: Affine | None, left_out: Counter[str],
-) -> tuple[tuple[Entity, ...], list[Point | None]]:
-    """Return all curves that have a length, in mm and numbered from 1, and the places of those that have none.
+
+@dataclass(frozen=True)
+class Taken:
+    """What of some curves can be machined.
+
+    Attributes:
+        entities: those that have a length and a place, mm, numbered from 1.
+        nothing: places of curves without length, None where there is no place.
+        far: places and layers of curves that lie beyond 1 km, mm. placeless: how many have no place at all.
+        moved: how far everything was moved, mm; None = not.
+    """
+
+    entities: tuple[Entity, ...]
+    nothing: list[Point | None]
+    far: list[tuple[Point, str]]
+    placeless: int = 0
+    moved: Point | None = None
+
+    @property
+    def missing(self) -> Counter[str]:
+        """Curves that are lost, by what they are called in an account."""
+        return +Counter({BEYOND: len(self.far) + self.placeless})
+
+
+def taken(curves: Iterable[tuple[Curve, str]], to_mm: Affine | None, anchors: Callable[[str], bool] | None = None) -> Taken:
+    """Return all curves that have a length, in mm.
 
     Args:
         curves: with the names of their layers.
         to_mm: from the curves' units; None: they are in mm.
-        left_out: curves that are not within 1 km are counted here.
+        anchors: tells whether a layer counts for where the drawing lies, which is then moved to zero; None: it stays.
     """
+    placed = [(transformed(curve, to_mm) if to_mm is not None else curve, layer) for curve, layer in curves]
+    moved = None if anchors is None else _shift([curve for curve, layer in placed if curve is not None and anchors(layer)])
+    shift = None if moved is None else Affine(x0=moved[0], y0=moved[1])
+    found = Taken((), [], [], 0, moved)
     entities: list[Entity] = []
-    nothing: list[Point | None] = []
-    for curve, layer in curves:
-        drawn = transformed(curve, to_mm) if to_mm is not None else curve
-        drawn = drawn if drawn is None else straightened(drawn)
+    lost = 0
+    for curve, layer in placed:
+        drawn = None if curve is None else straightened(transformed(curve, shift) or curve if shift is not None else curve)
         if drawn is None or (within_reach(drawn) and not has_length(drawn)):
-            nothing.append(None if drawn is None else drawn.start)
-            continue
-        if not within_reach(drawn):
-            left_out["curve beyond 1 km or without a place"] += 1
-            continue
-        entities.append(Entity(len(entities) + 1, drawn, layer))
-    return tuple(entities), nothing
+            found.nothing.append(None if drawn is None else drawn.start)
+        elif within_reach(drawn):
+            entities.append(Entity(len(entities) + 1, drawn, layer))
+        elif all(map(math.isfinite, (*drawn.start, *drawn.end))):
+            found.far.append((drawn.start, layer))
+        else:
+            lost += 1
+    return replace(found, entities=tuple(entities), placeless=lost)
+
+
+def _shift(curves: list[Curve]) -> Point | None:
+    """Return how far to move curves for their lower left corner to lie in zero, mm; None where none has a place.
+
+    What lies more than 1 km from the middle one of all is a stray and counts for nothing.
+    """
+    boxes = [box for curve in curves if all(abs(v) < _COUNTABLE for v in _numbers(curve)) for box in [bounds(curve)]]
+    if not boxes:
+        return None
+    x, y = (statistics.median((box[k] + box[k + 2]) / 2 for box in boxes) for k in (0, 1))
+    near = [box for box in boxes if abs(box[0] - x) <= FARTHEST and abs(box[1] - y) <= FARTHEST]
+    return (-min(box[0] for box in near), -min(box[1] for box in near)) if near else None
+
+
+def _numbers(curve: Curve) -> Iterator[float]:
+    if isinstance(curve, Circle | Arc | Ellipse):
+        yield from curve.centre
+    if isinstance(curve, Circle):
+        yield curve.radius
+    elif isinstance(curve, Ellipse):
+        yield from curve.major
+    for point in curve.control_points if isinstance(curve, Spline) else (curve.start, curve.end):
+        yield from point
+
+
+def about_place(found: Taken) -> Iterator[Finding]:
+    """Say that the drawing was moved, and what of it is lost because it lies nowhere or too far away."""
+    if found.moved is not None:
+        x, y = found.moved
+        yield remark(f"The drawing was moved by ({x:.3f}, {y:.3f}) mm, so that its lower left corner is zero.", math.hypot(x, y))
+    if found.far:
+        (x, y), layer = found.far[0]
+        what = "1 curve lies" if len(found.far) == 1 else f"{len(found.far)} curves lie"
+        where = f"at ({x:.3f}, {y:.3f}) on layer {layer}" if len(found.far) == 1 else f"the first at ({x:.3f}, {y:.3f}) on layer {layer}"
+        todo = MOVE if found.moved is None else "delete what lies so far away, or check the units"
+        yield Finding(FindingKind.LEFT_OUT, f"{what} beyond 1 km, {where}, and {_GONE[len(found.far) == 1]}; {todo}.",
+                      amount=float(len(found.far)))
+    if found.placeless:
+        what = "1 curve has" if found.placeless == 1 else f"{found.placeless} curves have"
+        yield Finding(FindingKind.LEFT_OUT, f"{what} a coordinate that is no number and {_GONE[found.placeless == 1]}; draw it again.",
+                      amount=float(found.placeless))
 
 
 def has_length(curve: Curve) -> bool:

@@ -3,17 +3,33 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Any
 
 from app import tolerances
 from app.errors import InputError
 from app.files.drawing import Drawing
-from app.files.drawing_account import all_left_out, entities_of, listed, on_layers, other_units, remark, switched_off, without_length
+from app.files.drawing_account import (
+    MOVE,
+    Taken,
+    about_place,
+    all_left_out,
+    listed,
+    on_layers,
+    other_units,
+    remark,
+    switched_off,
+    taken,
+    without_length,
+)
 from app.files.dxf_affine import scaled
 from app.files.dxf_blocks import Sheet, Walker
+from app.files.dxf_findings import about_commas, about_hidden, about_negative
+from app.files.dxf_layouts import PAPER, layout_named, paper
 from app.files.dxf_load import load
+from app.files.read_options import AS_DRAWN, ReadOptions
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity, Layer, Part, Units
 
@@ -27,58 +43,89 @@ _NAMED_UNITS: dict[int, tuple[float, Units]] = {
 """$INSUNITS codes: size in mm, and the nearest unit to show the drawing in."""
 
 
-def read_dxf(data: bytes, name: str = "drawing.dxf", units: Units | None = None, layers: tuple[str, ...] = ()) -> Drawing:
-    """Return the curves of a DXF's model space in mm, and what was left out.
+def read_dxf(
+    data: bytes, name: str = "drawing.dxf", units: Units | None = None, layers: tuple[str, ...] = (), how: ReadOptions = AS_DRAWN,
+) -> Drawing:  # fmt: skip
+    """Return the curves of a DXF's model space, or of one layout, in mm, and what was left out.
 
-    Curves of inserted blocks are put in place. Text, dimensions, hatches, points, solids and paper space are counted,
-    not read. Units come from $INSUNITS alone ($MEASUREMENT only chooses hatch patterns); a drawing that names none is
-    in `units`, or in mm.
+    Curves of inserted blocks are put in place, but for those inserted on frozen layers, which no CAD program shows. Text,
+    dimensions, hatches, points, solids and paper space are counted, not read. Units come from $INSUNITS alone ($MEASUREMENT
+    only chooses hatch patterns); a drawing that names none is in `units`, or in mm.
 
     Args:
         data: the whole file, ASCII or binary DXF, R12 or later.
         name: for messages and titles.
-        units: of a drawing that names none; one that does keeps its own.
+        units: of a drawing that names none; one that does keeps its own, unless `how` overrules it.
         layers: names of layers (in any case) whose curves are kept; empty = all.
+        how: which layout is read, types that are left out, and whether everything is moved to zero.
 
     Raises:
-        InputError: the file is no usable DXF, has no curves, or has not one of the layers.
+        InputError: the file is no usable DXF, has no curves, or has not one of the layers or the layout.
     """
-    document, repaired = load(data, name)
-    factor, shown, named = _units(document, data, units)
-    sheet = Walker(document, name).sheet(document.modelspace())
-    left_out = sheet.left_out + _paper(document)
-    spelling, to_mm = _spelling(document), scaled(factor)
+    loaded = load(data, name)
+    document = loaded.document
+    unit = _unit(document, data, units, how.overrule)
+    sheet = Walker(document, name, layers, how.without_types).sheet(layout_named(document, how.layout, name))
+    spelling, to_mm = _spelling(document), scaled(unit.size)
     curves = ((curve, spelling.get(layer.casefold(), layer)) for curve, layer in sheet.curves)
-    entities, nothing = entities_of(curves, to_mm if factor != 1.0 else None, left_out)
-    if not entities:
-        raise InputError(f"{name}: the drawing has no lines, arcs or curves to machine{listed(left_out, '; left out: ')}.")
-    part = Part(name=PurePath(name).stem, units=shown, layers=_layers(document, entities)).with_entities(entities)
+    found = taken(curves, to_mm if unit.size != 1.0 else None, _anchors(document, layers) if how.to_zero else None)
+    others = Counter() if how.layout else paper(document)
+    if not found.entities:
+        raise InputError(f"{name}: {_nothing(sheet, found, others)}")
+    part = Part(name=PurePath(name).stem, units=unit.shown, layers=_layers(document, found.entities)).with_entities(found.entities)
     part = on_layers(part, layers, name)
-    nothing = [None if p is None else to_mm.point(p) for p in sheet.without_length] + nothing
-    findings = [*_unit_findings(units, shown, named), *_damage(repaired), *without_length(nothing), *_heights(sheet, factor),
-                *switched_off(part, layers), *all_left_out(left_out)]
-    return Drawing(part, tuple(findings), tuple(sorted(left_out.items())), named)
+    left_out = sheet.left_out + Counter({PAPER: others.total()})
+    nothing = [None if p is None else to_mm.point(p) for p in sheet.without_length] + found.nothing
+    findings = [*_unit_findings(units, unit), *about_commas(loaded.commas), *_damage(loaded.repaired), *about_place(found),
+                *about_negative(sheet, unit.size), *without_length(nothing), *_heights(sheet, unit.size), *about_hidden(sheet, unit.size),
+                *switched_off(part, layers), *all_left_out(+left_out)]  # fmt: skip
+    return Drawing(part, tuple(findings), tuple(sorted((+left_out + found.missing).items())), unit.named)
 
 
-def _units(document: Any, data: bytes, given: Units | None) -> tuple[float, Units, bool]:
-    """Return the size of the drawing's unit in mm, the unit to show, and whether the file names it.
+@dataclass(frozen=True)
+class _Unit:
+    """The drawing's unit: its size in mm, the unit to show, whether the file names it, and whether another one was said to hold."""
+
+    size: float
+    shown: Units
+    named: bool
+    overruled: Units | None = None
+
+
+def _unit(document: Any, data: bytes, given: Units | None, overrule: bool) -> _Unit:
+    """Return the drawing's unit.
 
     The library gives a file without a header one of its own, in metres; so the word must stand in the file itself.
     """
     code = document.header.get("$INSUNITS", 0) if b"$INSUNITS" in data else 0
     if code in _NAMED_UNITS:
-        return *_NAMED_UNITS[code], True
+        size, shown = _NAMED_UNITS[code]
+        if not overrule or given is None or given is shown:
+            return _Unit(size, shown, True)
+        return _Unit(given.value, given, True, shown)
     unit = given or Units.MM
-    return unit.value, unit, False
+    return _Unit(unit.value, unit, False)
 
 
-def _paper(document: Any) -> Counter[str]:
-    """Count what lies in paper space, without its viewports, which only look at the model."""
-    counts: Counter[str] = Counter()
-    for layout in document.layouts:
-        if not layout.is_modelspace:
-            counts["paper space entity"] += sum(entity.dxftype() != "VIEWPORT" for entity in layout)
-    return +counts
+def _anchors(document: Any, layers: tuple[str, ...]) -> Callable[[str], bool]:
+    """Return what tells whether a layer is machined, and so counts for where the drawing lies."""
+    wanted = {layer.casefold() for layer in layers}
+    hidden = {layer.dxf.name.casefold() for layer in document.layers if layer.is_off() or layer.is_frozen()}
+    return lambda layer: layer.casefold() in wanted if wanted else layer.casefold() not in hidden
+
+
+def _nothing(sheet: Sheet, found: Taken, others: Counter[str]) -> str:
+    """Return why a drawing has nothing to machine, and what to do."""
+    left_out = sheet.left_out + found.missing + Counter({PAPER: others.total()})
+    said = listed(+left_out, "; left out: ")
+    if found.far and found.moved is None:
+        return f"all of the drawing lies beyond 1 km, at ({found.far[0][0][0]:.3f}, {found.far[0][0][1]:.3f}) mm; {MOVE}{said}."
+    if sheet.hidden:
+        return f"the drawing has no curves that are shown. {' '.join(each.text for each in about_hidden(sheet, 1.0))}"
+    if others:
+        layout = others.most_common(1)[0][0]
+        return f"model space has no lines, arcs or curves to machine, but layout {layout} has something: say --layout \"{layout}\"{said}."
+    return f"the drawing has no lines, arcs or curves to machine{said}."
 
 
 def _spelling(document: Any) -> dict[str, str]:
@@ -104,13 +151,16 @@ def _colour(layer: Any) -> str:
     return "" if index == 7 or not 1 <= index <= 255 else "#{:02x}{:02x}{:02x}".format(*aci2rgb(index))
 
 
-def _unit_findings(given: Units | None, shown: Units, named: bool) -> Iterable[Finding]:
-    word = shown.name.lower()
-    if not named and given is None:
+def _unit_findings(given: Units | None, unit: _Unit) -> Iterable[Finding]:
+    word = unit.shown.name.lower()
+    if unit.overruled is not None:
+        text = f"The drawing names its own units, {unit.overruled.name.lower()}; it is read in {word}, as asked."
+        yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
+    elif not unit.named and given is None:
         text = f"The drawing names no units; {word} is assumed. If it is in inches, say --units in, or choose them on opening."
         yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
-    elif named:
-        yield from other_units(given, shown)
+    elif unit.named:
+        yield from other_units(given, unit.shown)
 
 
 def _damage(repaired: int) -> Iterable[Finding]:

@@ -4,18 +4,42 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import cos, isfinite, radians, sin
 from typing import Any
 
 from app.errors import HitofudeError, InputError
 from app.files.drawing_account import MOST_CURVES
 from app.files.dxf_affine import Affine, transformed
-from app.files.dxf_curves import NoLengthError, curves_of, heights_of, plane_of
+from app.files.dxf_curves import NegativeRadiusError, NoLengthError, curves_of, heights_of, plane_of
 from app.model.curves import Curve, Point
 
 DEEPEST = 64
 """Blocks nested deeper than this are refused."""
+
+
+@dataclass(frozen=True)
+class Hidden:
+    """An inserted block that no CAD program shows, since the layer that it is inserted on is frozen.
+
+    Attributes:
+        layer: that is frozen. block: its name. at: its place, drawing units, None where it has none.
+        curves: layers of the curves that are not drawn for it.
+    """
+
+    layer: str
+    block: str
+    at: Point | None
+    curves: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Negative:
+    """A circle or an arc with a radius below 0; lengths in drawing units."""
+
+    at: Point
+    radius: float
+    layer: str
 
 
 @dataclass
@@ -26,12 +50,16 @@ class Sheet:
         curves: (curve, layer) in the sheet's own coordinates, drawing units.
         left_out: entities that are no curves, by type.
         without_length: places of entities that draw nothing, None where there is no place.
+        hidden: blocks inserted on frozen layers.
+        negative: circles and arcs that nobody knows how to draw.
         heights: least and greatest Z seen, drawing units.
     """
 
     curves: list[tuple[Curve, str]] = field(default_factory=list)
     left_out: Counter[str] = field(default_factory=Counter)
     without_length: list[Point | None] = field(default_factory=list)
+    hidden: list[Hidden] = field(default_factory=list)
+    negative: list[Negative] = field(default_factory=list)
     heights: tuple[float, float] = (0.0, 0.0)
     any_height: bool = False
 
@@ -45,9 +73,18 @@ class Sheet:
 class Walker:
     """Reads spaces of one document; every block is read once."""
 
-    def __init__(self, document: Any, name: str) -> None:
-        self._document = document
+    def __init__(self, document: Any, name: str, asked: tuple[str, ...] = (), without: tuple[str, ...] = ()) -> None:
+        """Make a reader.
+
+        Args:
+            document: of the library. name: of the file, for messages.
+            asked: layers that are machined even where they are frozen.
+            without: types of entities to leave out, in any case.
+        """
         self._name = name
+        wanted = {layer.casefold() for layer in asked}
+        self._frozen = {layer.dxf.name.casefold() for layer in document.layers if layer.is_frozen()} - wanted
+        self._without = {kind.upper() for kind in without}
         self._blocks: dict[str, Sheet] = {}
         self._open: list[str] = []
 
@@ -72,6 +109,8 @@ class Walker:
     def _one(self, entity: Any, kind: str, sheet: Sheet) -> None:
         if entity.dxf.hasattr("invisible") and entity.dxf.invisible:
             sheet.left_out[f"{kind} (invisible)"] += 1
+        elif kind in self._without:
+            sheet.left_out[f"{kind} (as asked)"] += 1
         elif kind == "INSERT":
             self._insert(entity, sheet)
         else:
@@ -82,6 +121,10 @@ class Walker:
             curves = curves_of(entity)
         except NoLengthError as nothing:
             sheet.without_length.append(nothing.args[0])
+            return
+        except NegativeRadiusError as negative:
+            at, radius = negative.args
+            sheet.negative.append(Negative(at, radius, entity.dxf.layer))
             return
         if curves is None:
             sheet.left_out[kind] += 1
@@ -100,20 +143,37 @@ class Walker:
         places = max(insert.dxf.row_count, 1) * max(insert.dxf.column_count, 1)
         self._bounded(len(sheet.curves) + len(inner.curves) * places, insert)
         self._bounded(places, insert)
+        if self._is_hidden(insert):
+            layers = tuple(insert.dxf.layer if layer == "0" else layer for _, layer in inner.curves)
+            sheet.hidden.append(Hidden(insert.dxf.layer, insert.dxf.name, next(iter(_origins(insert)), None), layers * places))
+            return
         for kind, count in inner.left_out.items():
             sheet.left_out[kind] += count * places
         if inner.any_height:
             sheet.see(z + insert.dxf.insert.z for z in inner.heights)
-        if not inner.curves and not inner.without_length:
+        if not (inner.curves or inner.without_length or inner.hidden or inner.negative):
             return
         for place in _places(insert):
-            sheet.without_length += [None if p is None else place.point(p) for p in inner.without_length]
-            for curve, layer in inner.curves:
-                moved = transformed(curve, place)
-                if moved is None:
-                    sheet.without_length.append(place.point(curve.start))
-                else:
-                    sheet.curves.append((moved, insert.dxf.layer if layer == "0" else layer))
+            self._copy(inner, place, insert.dxf.layer, sheet)
+
+    def _is_hidden(self, insert: Any) -> bool:
+        """True on a frozen layer; in a block, layer 0 is that on which the block itself is inserted."""
+        layer = insert.dxf.layer.casefold()
+        return layer in self._frozen and not (self._open and layer == "0")
+
+    def _copy(self, inner: Sheet, place: Affine, outer: str, sheet: Sheet) -> None:
+        """Add what a block draws in one place, on the layer `outer` where it names none."""
+        sheet.without_length += [None if p is None else place.point(p) for p in inner.without_length]
+        sheet.hidden += [replace(each, at=each.at and place.point(each.at)) for each in inner.hidden]
+        sheet.negative += [replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
+                           for each in inner.negative]
+        for curve, layer in inner.curves:
+            moved = transformed(curve, place)
+            if moved is None:
+                sheet.without_length.append(place.point(curve.start))
+            else:
+                sheet.curves.append((moved, outer if layer == "0" else layer))
+        self._bounded(max(len(sheet.hidden), len(sheet.negative)))
 
     def _block(self, name: str, insert: Any) -> Sheet:
         key = name.casefold()
@@ -132,6 +192,10 @@ class Walker:
             where = f" at block {insert.dxf.name}" if insert is not None else ""
             raise InputError(f"{self._name}: the drawing unfolds to more than {MOST_CURVES} curves{where}; "
                              "reduce the rows and columns of its inserted blocks.")
+
+
+def _origins(insert: Any) -> list[Point]:
+    return [place.point((0.0, 0.0)) for place in _places(insert)[:1]]
 
 
 def _places(insert: Any) -> list[Affine]:

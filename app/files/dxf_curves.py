@@ -21,11 +21,16 @@ class NoLengthError(Exception):
     """An entity draws nothing: zero length or radius, or numbers that are none. The argument is its place or None."""
 
 
+class NegativeRadiusError(Exception):
+    """A circle or an arc has a radius below 0, so nobody knows what is meant. Its place and the radius are the arguments."""
+
+
 def curves_of(entity: Any) -> list[Curve] | None:
     """Return the curves of a DXF entity in drawing units, projected along Z; None for a type that is no curve.
 
     Raises:
         NoLengthError: the entity is of a known type but draws nothing.
+        NegativeRadiusError: its radius is below 0.
     """
     reader = _READERS.get(entity.dxftype())
     return None if reader is None else reader(entity)
@@ -59,16 +64,21 @@ def _line(entity: Any) -> list[Curve]:
 
 
 def _circle(entity: Any) -> list[Curve]:
-    centre, radius = entity.dxf.center, abs(entity.dxf.radius)
-    if not radius > 0:
-        raise NoLengthError(_flat(centre))
+    centre, radius = entity.dxf.center, _radius(entity)
     return _placed(entity, centre.z, [Circle(_flat(centre), radius)])
 
 
-def _arc(entity: Any) -> list[Curve]:
-    centre, radius = entity.dxf.center, abs(entity.dxf.radius)
+def _radius(entity: Any) -> float:
+    radius, centre = float(entity.dxf.radius), _flat(entity.dxf.center)
+    if radius < 0:
+        raise NegativeRadiusError(centre, radius)
     if not radius > 0:
-        raise NoLengthError(_flat(centre))
+        raise NoLengthError(centre)
+    return radius
+
+
+def _arc(entity: Any) -> list[Curve]:
+    centre, radius = entity.dxf.center, _radius(entity)
     sweep = (entity.dxf.end_angle - entity.dxf.start_angle) % 360.0
     if sweep < 1e-9 or sweep > 360.0 - 1e-9:
         return _placed(entity, centre.z, [Circle(_flat(centre), radius)])

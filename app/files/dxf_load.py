@@ -5,9 +5,13 @@ from __future__ import annotations
 import io
 import logging
 import re
+from collections import Counter
+from dataclasses import dataclass, replace
 from typing import Any
 
 from app.errors import InputError
+from app.files.dxf_numbers import NO_COMMAS, Commas, with_points
+from app.files.dxf_splines import MOST_POINTS, too_many
 
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 _SECTION = re.compile(rb"^\s*0[ \t]*\r?[\n\r][ \t]*SECTION", re.MULTILINE)
@@ -15,23 +19,49 @@ _CODEPAGE = re.compile(rb"\$DWGCODEPAGE[ \t]*\r?\n[ \t]*3[ \t]*\r?\n[ \t]*(\S+)"
 _VERSION = re.compile(rb"\$ACADVER[ \t]*\r?\n[ \t]*1[ \t]*\r?\n[ \t]*(AC\d+)")
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it has to say is in our own findings
 _HEAD, _TAIL = 1 << 16, 1 << 12
+MOST_BYTES = 200 << 20
+"""A larger file would take gigabytes before anything of it is known."""
+_SPLINE = re.compile(rb"^[ \t]*0[ \t]*\r?\nSPLINE[ \t]*\r?\n(?:[ \t]*[1-9]\d*[ \t]*\r?\n[^\n]*+\n)*+", re.MULTILINE)
+_POINT = re.compile(rb"^[ \t]*1([01])[ \t]*\r?\n[^\n]*\n[ \t]*2[01][ \t]*\r?\n", re.MULTILINE)
+_SUSPECT = 1 << 20
+"""Bytes of a spline; a shorter one has not too many points."""
 
 
-def load(data: bytes, name: str) -> tuple[Any, int]:
-    """Return an ezdxf document and how many faults in it had to be repaired.
+@dataclass(frozen=True)
+class Loaded:
+    """A document of the library, and what had to be done to read it.
+
+    Attributes:
+        repaired: how many faults in it had to be repaired.
+        commas: where decimal commas stood, if they did.
+    """
+
+    document: Any
+    repaired: int = 0
+    commas: Commas = NO_COMMAS
+
+
+def load(data: bytes, name: str) -> Loaded:
+    """Return what a file holds.
 
     Args:
         data: the whole file.
         name: for messages.
 
     Raises:
-        InputError: the data is empty, no DXF, cut short, or damaged beyond repair.
+        InputError: the data is empty, no DXF, cut short, or damaged beyond repair; or a number in it is none.
     """
     _refuse_others(data, name)
     try:
-        return _load_sound(data), 0
+        return Loaded(_load_sound(data))
     except Exception as fault:  # whatever a parser makes of a damaged file: the repairing reader gets its turn
         reason = fault
+    commas = Commas(data) if data.startswith(_BINARY) else with_points(data, name)
+    if commas.count:
+        try:
+            return Loaded(_load_sound(commas.data), 0, replace(commas, data=b""))
+        except Exception as fault:  # it has other faults too
+            data, reason = commas.data, fault
     try:
         from ezdxf import recover
 
@@ -39,12 +69,14 @@ def load(data: bytes, name: str) -> tuple[Any, int]:
     except Exception as error:  # a third-party parser on any bytes at all: its faults must not reach the user raw
         raise InputError(f"{name}: the DXF is damaged and cannot be repaired ({_short(reason)}); "
                          "save it again from the CAD program.") from error
-    return document, max(1, len(auditor.errors) + len(auditor.fixes))
+    return Loaded(document, max(1, len(auditor.errors) + len(auditor.fixes)), replace(commas, data=b""))
 
 
 def _refuse_others(data: bytes, name: str) -> None:
     if not data.strip():
         raise InputError(f"{name}: the file is empty; export the drawing again.")
+    if len(data) > MOST_BYTES:
+        raise InputError(f"{name}: the file has {len(data) >> 20} MB, more than {MOST_BYTES >> 20}; save the drawing in parts.")
     if data.startswith(_BINARY):
         return
     if re.match(rb"AC10\d\d\x00", data):
@@ -53,6 +85,23 @@ def _refuse_others(data: bytes, name: str) -> None:
         raise InputError(f"{name}: this is not a DXF file, no section begins in it; export the drawing as DXF (ASCII or binary).")
     if b"EOF" not in data[-_TAIL:]:
         raise InputError(f"{name}: the DXF is cut short, its end mark EOF is missing after {len(data)} bytes; copy or export it again.")
+    _refuse_endless_splines(data, name)
+
+
+def _refuse_endless_splines(data: bytes, name: str) -> None:
+    """Refuse a spline of more points than are read, before the library makes objects of them all."""
+    at = 0
+    while (begin := data.find(b"SPLINE", at)) >= 0:
+        at = begin + len(b"SPLINE")
+        found = _SPLINE.match(data, data.rfind(b"\n", 0, max(data.rfind(b"\n", 0, begin), 0)) + 1)
+        if found is None:
+            continue
+        at = max(at, found.end())
+        if found.end() - found.start() > _SUSPECT:
+            kinds = Counter(each[1] for each in _POINT.finditer(found[0]))
+            if kinds and max(kinds.values()) > MOST_POINTS:
+                line = data.count(b"\n", 0, found.start()) + 1
+                raise InputError(f"{name}:{line}: {too_many(max(kinds.values()))}")
 
 
 def _load_sound(data: bytes) -> Any:

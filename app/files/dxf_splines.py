@@ -6,7 +6,11 @@ import math
 from itertools import pairwise
 from typing import Any
 
+from app.errors import InputError
 from app.model.curves import Spline
+
+MOST_POINTS = 100_000
+"""Of a spline; to follow one of so many within a micrometre takes some ten seconds."""
 
 Homogeneous = tuple[float, float, float]
 
@@ -16,7 +20,13 @@ def spline_curve(entity: Any) -> Spline | None:
 
     One given by fit points alone becomes the interpolating cubic that CAD programs draw. One whose knots are not
     clamped (closed and periodic ones) gets knots inserted at both ends, which leaves its shape as it is.
+
+    Raises:
+        InputError: it has more than MOST_POINTS points.
     """
+    count = max(len(entity.control_points), len(entity.fit_points))
+    if count > MOST_POINTS:
+        raise InputError(f"On layer {entity.dxf.layer} {too_many(count)}")
     try:
         tool = entity.construction_tool()
     except (ValueError, IndexError, ZeroDivisionError, ArithmeticError):
@@ -35,6 +45,11 @@ def spline_curve(entity: Any) -> Spline | None:
         return None
     rational = any(abs(w - weights[0]) > 1e-12 * weights[0] for w in weights)
     return Spline(degree, tuple(placed), tuple(knots), tuple(w for _, _, w in control) if rational else ())
+
+
+def too_many(count: int) -> str:
+    """Return what is wrong with a spline of so many points."""
+    return f"a spline has {count} points; {MOST_POINTS} are the most, so split it or thin it out in the CAD program."
 
 
 def _sound(points: list[tuple[float, float]], knots: list[float], weights: list[float], degree: int) -> bool:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -28,6 +27,7 @@ from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
 from app.model.operation import Order
 from app.model.part import Part, Units
 from app.model.tool import Tool, ToolKind
+from app.toml_tables import brief, parsed
 
 UNITS = {"mm": Units.MM, "in": Units.INCH, "inch": Units.INCH, "cm": Units.CM, "m": Units.M, "ft": Units.FOOT, "um": Units.MICRON}
 OUT_UNITS = {"mm": Units.MM, "in": Units.INCH, "inch": Units.INCH}
@@ -112,11 +112,11 @@ def job_tree(name: str, data: bytes, sample: str) -> tuple[JobText, dict[str, An
     """
     try:
         text = data.decode("utf-8-sig")
-        tree = tomllib.loads(text)
+        tree = parsed(text)
     except UnicodeDecodeError as error:
         raise InputError(f"{name}: byte {error.start} is no UTF-8; save the file as UTF-8 text") from error
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InputError(f"{name}:{with_line(str(error), text)}; correct it as resources/samples/{sample} shows") from error
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{name}:{with_line(brief(str(error)), text)}; correct it as resources/samples/{sample} shows") from error
     return JobText(name, tuple(text.splitlines())), tree
 
 

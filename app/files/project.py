@@ -7,7 +7,6 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import PurePath
@@ -29,7 +28,7 @@ from app.files.project_curves import MOST_THINGS, curve_lines, note_lines, read_
 from app.model.curves import Point
 from app.model.notes import Note
 from app.model.part import Entity, Layer, Part, Units
-from app.toml_tables import spelled
+from app.toml_tables import brief, parsed, shown, spelled
 
 SUFFIX = ".hito"
 FORMAT, VERSION = "hitofude", 1
@@ -125,9 +124,9 @@ def _tree(name: str, data: bytes) -> tuple[str, dict[str, Any]]:
         line = data[:error.start].count(b"\n") + 1
         raise InputError(f"{name}:{line}: this is no text in UTF-8; {_REMEDY}.") from error
     try:
-        tree = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InputError(f"{name}:{with_line(str(error), text)}; the file is damaged: {_REMEDY}.") from error
+        tree = parsed(text)
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{name}:{with_line(brief(str(error)), text)}; the file is damaged: {_REMEDY}.") from error
     if tree.get("format") != FORMAT:
         raise InputError(f"{name}: this is no project of Hitofude, for it does not say format = \"{FORMAT}\"; {_REMEDY}.")
     return text, _newest(name, tree)
@@ -136,7 +135,7 @@ def _tree(name: str, data: bytes) -> tuple[str, dict[str, Any]]:
 def _newest(name: str, tree: dict[str, Any]) -> dict[str, Any]:
     version = tree.get("version")
     if type(version) is not int or version < 1:
-        raise InputError(f"{name}: version is {version!r}; it is a whole number from 1 on; {_REMEDY}.")
+        raise InputError(f"{name}: version is {shown(version)}; it is a whole number from 1 on; {_REMEDY}.")
     if version > VERSION:
         raise InputError(f"{name}: the file is of version {version}, and this Hitofude reads up to version {VERSION}; "
                          "open it with a newer one. The file stays as it is.")

@@ -3,15 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import PurePath
 
 from app.errors import InputError
 from app.files.drawing import Drawing
-from app.files.drawing_account import all_left_out, entities_of, listed, on_layers, other_units, remark, switched_off, without_length
+from app.files.drawing_account import (
+    MOVE,
+    about_place,
+    all_left_out,
+    listed,
+    on_layers,
+    other_units,
+    remark,
+    switched_off,
+    taken,
+    without_length,
+)
 from app.files.dxf_affine import Affine
-from app.files.svg_numbers import MM, PIXEL, Box, Length, UnreadableError, fitted, length, numbers, view_box
+from app.files.read_options import AS_DRAWN, ReadOptions
+from app.files.svg_generator import CSS_PER_INCH, Density, density_of
+from app.files.svg_numbers import MM, Box, Length, UnreadableError, fitted, length, numbers, view_box
 from app.files.svg_walk import Sheet, Walker
 from app.files.svg_xml import Node, read_xml
 from app.model.finding import Finding, FindingKind
@@ -39,19 +52,23 @@ class _Page:
     named: bool
 
 
-def read_svg(data: bytes, name: str = "drawing.svg", units: Units | None = None, layers: tuple[str, ...] = ()) -> Drawing:
+def read_svg(
+    data: bytes, name: str = "drawing.svg", units: Units | None = None, layers: tuple[str, ...] = (), how: ReadOptions = AS_DRAWN,
+) -> Drawing:  # fmt: skip
     """Return the curves of an SVG in mm, and what was left out.
 
     Zero is the page's lower left corner, as its width, height and viewBox give it; a page without a height has it at
     the top. Inkscape's layers become layers, hidden ones too; without them the named groups at the top. Text, pictures
     and what draws nothing are counted, not read; clips and masks are not applied. Without a width or a height in mm,
-    inches or points the file has no real size: it is in `units`, or in CSS pixels, 96 to the inch.
+    inches or points the file has no real size: it is in `units`, or in pixels, so many to the inch as `how` says, else as
+    the editor had that wrote it, else 96.
 
     Args:
         data: the whole file.
         name: for messages and titles.
         units: of a user unit, where the file has no real size.
         layers: names of layers (in any case) whose curves are kept; empty = all.
+        how: pixels to the inch, and whether everything is moved to zero.
 
     Raises:
         InputError: the file is no usable SVG, has no curves, or has not one of the layers.
@@ -59,36 +76,53 @@ def read_svg(data: bytes, name: str = "drawing.svg", units: Units | None = None,
     root = read_xml(data, name)
     if root.tag != "svg":
         raise InputError(f"{name}:{root.line}: this is not an SVG file, it begins with {root.tag[:60]}; export the drawing as SVG.")
+    if units is not None and how.pixels_per_inch is not None:
+        raise InputError(f"{name}: units and --px-per-inch say the same of a drawing in two ways; give one of them.")
+    density = density_of(root) if how.pixels_per_inch is None else Density(how.pixels_per_inch)
     try:
-        page = _page(root, units)
+        page = _page(root, units, density.pixel, how.overrule)
     except UnreadableError as error:
         raise InputError(f"{name}:{root.line}: the page's width, height or viewBox, {error.args[0][:60]!r}, cannot be read; "
                          "give it a size above 0 and save it again.") from None
     sheet = Walker(root, name).sheet(page.to, page.view)
-    entities, nothing = entities_of(sheet.curves, None, sheet.left_out)
-    if not entities:
-        raise InputError(f"{name}: the drawing has no lines, arcs or curves to machine{listed(sheet.left_out, '; left out: ')}.")
-    found = tuple(note.layer(layer) for layer, note in sheet.layers.items())
-    part = on_layers(Part(name=PurePath(name).stem, units=page.shown, layers=found or (Layer(),)).with_entities(entities), layers, name)
-    findings = [*_units(units, page), *_faults(sheet), *without_length(sheet.nothing + nothing), *_clipped(sheet),
-                *switched_off(part, layers), *all_left_out(sheet.left_out)]
-    return Drawing(part, tuple(findings), tuple(sorted(sheet.left_out.items())), page.named)
+    found = taken(sheet.curves, None, _anchors(sheet, layers) if how.to_zero else None)
+    left_out = sheet.left_out + found.missing
+    if not found.entities:
+        why = "all of the drawing lies beyond 1 km" if found.far else "the drawing has no lines, arcs or curves to machine"
+        raise InputError(f"{name}: {why}{f'; {MOVE}' * bool(found.far and not how.to_zero)}{listed(left_out, '; left out: ')}.")
+    shown = tuple(note.layer(layer) for layer, note in sheet.layers.items())
+    part = Part(name=PurePath(name).stem, units=page.shown, layers=shown or (Layer(),)).with_entities(found.entities)
+    part = on_layers(part, layers, name)
+    findings = [*_units(units, page, density, how), *about_place(found), *_faults(sheet), *without_length(sheet.nothing + found.nothing),
+                *_clipped(sheet), *switched_off(part, layers), *all_left_out(sheet.left_out)]  # fmt: skip
+    return Drawing(part, tuple(findings), tuple(sorted(left_out.items())), page.named)
 
 
-def _page(root: Node, units: Units | None) -> _Page:
+def _anchors(sheet: Sheet, layers: tuple[str, ...]) -> Callable[[str], bool]:
+    """Return what tells whether a layer is machined, and so counts for where the drawing lies."""
+    wanted = {layer.casefold() for layer in layers}
+    hidden = {layer for layer, note in sheet.layers.items() if not note.visible}
+    return lambda layer: layer.casefold() in wanted if wanted else layer not in hidden
+
+
+def _page(root: Node, units: Units | None, pixel: float, overrule: bool = False) -> _Page:
     """Return the page.
+
+    Args:
+        units: of a user unit where the file has no real size, or, overruling it, even where it has one.
+        pixel: its size, mm.
 
     Raises:
         UnreadableError: a length or the viewBox cannot be read.
     """
     width, height = (_given(root, key) for key in ("width", "height"))
     box = view_box(root.attributes["viewBox"]) if "viewBox" in root.attributes else None
-    physical = next((given for given in (width, height) if given is not None and given.is_physical), None)
+    physical = next((given for given in (width, height) if given is not None and given.is_physical and not overrule), None)
     shown = _SHOWN.get(physical.unit, Units.MM) if physical is not None else units or Units.MM
     if physical is None and units is not None:
         unit, width, height = units.value, None if box else width, None if box else height
     else:
-        unit = PIXEL
+        unit = pixel
     wide, high = _mm(width, unit), _mm(height, unit)
     if box is None:
         to, view = Affine(unit, 0.0, 0.0, unit), ((wide or 0.0) / unit, (high or 0.0) / unit)
@@ -130,18 +164,25 @@ def _zero(root: Node) -> tuple[float, float] | None:
     return given[0], given[1]
 
 
-def _units(given: Units | None, page: _Page) -> Iterator[Finding]:
+def _units(given: Units | None, page: _Page, density: Density, how: ReadOptions) -> Iterator[Finding]:
     if page.named:
         yield from other_units(given, page.shown)
-    elif given is None:
-        text = "The drawing has no real size; 96 units to the inch are assumed. If a unit is 1 mm or 1 inch, choose --units, or on opening."
+        if how.pixels_per_inch is not None:
+            yield remark("The drawing tells its real size; --px-per-inch counts only for what of it is in pixels of the page.")
+    elif given is None and how.pixels_per_inch is None:
+        who = f"It was written by {density.editor}, so " if density.editor else ""
+        other = f", and --px-per-inch {CSS_PER_INCH:g} if it was saved by another editor since" if density.editor else ""
+        text = (f"The drawing has no real size; {who}{density.per_inch:g} units to the inch are assumed. If a unit is 1 mm or 1 inch, "
+                f"choose --units, or on opening{other}.")
         yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
 
 
 def _faults(sheet: Sheet) -> Iterator[Finding]:
     if sheet.faults:
         what = "1 shape has" if len(sheet.faults) == 1 else f"{len(sheet.faults)} shapes have"
-        text = f"{what} data that cannot be read to the end, the first in line {sheet.faults[0]}; what stands before is drawn. Check it."
+        first = next((fault for fault in sheet.faults if fault.what), sheet.faults[0])
+        why = f" ({first.what})" if first.what else ""
+        text = f"{what} data that cannot be read to the end, the first in line {first.line}{why}; what stands before is drawn. Check it."
         yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(sheet.faults)))
 
 

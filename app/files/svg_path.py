@@ -28,12 +28,14 @@ class Path:
     Attributes:
         runs: one list of curves for each run of the pen, each beginning where the one before ends; may be empty.
         fault: where the data cannot be read on, as a place in it; None where there is no fault.
+        why: what stands there, where that is known.
         start: where the pen was first put down, if it was.
     """
 
     runs: list[list[Curve]] = field(default_factory=list)
     fault: int | None = None
     start: Point | None = None
+    why: str = ""
 
 
 def read_path(text: str, most: int) -> Path:
@@ -53,6 +55,7 @@ def read_path(text: str, most: int) -> Path:
         known = command and (found or command not in "zZ") and (pen.path.start is not None or command in "Mm")
         if values is None or not known:
             pen.path.fault = at
+            pen.path.why = _wrong_flag(text, at) if known and command in "aA" else ""
             break
         pen.do(command, values)
         command = {"M": "L", "m": "l"}.get(command, command)
@@ -73,6 +76,17 @@ def _values(text: str, at: int, count: int) -> tuple[list[float] | None, int]:
         values.append(float(found[1]))
         at = found.end()
     return values, at
+
+
+def _wrong_flag(text: str, at: int) -> str:
+    """Return which of an arc's two flags is neither 0 nor 1, with its place; "" where something else is wrong."""
+    for kind in ("", "", "", "large-arc", "sweep"):
+        found = (_FLAG if kind else _NUMBER).match(text, at)
+        if found is None:
+            other = _NUMBER.match(text, at) if kind else None
+            return f"the {kind} flag {other[1][:60]} at character {other.start(1) + 1} of its data is neither 0 nor 1" if other else ""
+        at = found.end()
+    return ""
 
 
 class _Pen:

@@ -13,6 +13,7 @@ from app import tolerances
 from app.errors import InputError
 from app.files.drawing_account import MOST_CURVES
 from app.files.dxf_affine import IDENTITY, Affine, transformed
+from app.files.svg_generator import INKSCAPE, SODIPODI
 from app.files.svg_joined import joined
 from app.files.svg_numbers import Box, UnreadableError, fitted, transform, view_box
 from app.files.svg_path import Path
@@ -22,8 +23,6 @@ from app.files.svg_xml import DEEPEST, Node
 from app.model.curves import Circle, Curve, Ellipse, Line, Point
 from app.model.part import Layer
 
-INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
-SODIPODI = "http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd"
 _LINK = "http://www.w3.org/1999/xlink href"
 _NOT_CURVES = ("text", "image", "foreignObject", "flowRoot", "video", "audio", "iframe", "canvas")
 BLACK = "#000000"
@@ -47,6 +46,14 @@ class LayerNote:
         return Layer(name, "" if found == BLACK else found, self.visible, self.locked)
 
 
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """Where a shape's data cannot be read on: its line in the file, and what stands there if that is known."""
+
+    line: int
+    what: str = ""
+
+
 @dataclass
 class Sheet:
     """What an SVG draws.
@@ -55,7 +62,7 @@ class Sheet:
         curves: (curve, layer), mm, y upwards.
         left_out: elements that are no curves or draw none, by type.
         nothing: places of shapes without length.
-        faults: lines of shapes whose data cannot be read to the end.
+        faults: shapes whose data cannot be read to the end.
         clipped: shapes that are read whole although the drawing hides a part of them.
         layers: by name, in order.
     """
@@ -63,7 +70,7 @@ class Sheet:
     curves: list[tuple[Curve, str]] = field(default_factory=list)
     left_out: Counter[str] = field(default_factory=Counter)
     nothing: list[Point | None] = field(default_factory=list)
-    faults: list[int] = field(default_factory=list)
+    faults: list[Fault] = field(default_factory=list)
     clipped: int = 0
     layers: dict[str, LayerNote] = field(default_factory=dict)
 
@@ -239,7 +246,7 @@ class Walker:
             sheet.left_out[f"{node.tag} (damaged)"] += 1
             return
         if drawn is not None and drawn.fault is not None:
-            sheet.faults.append(node.line)
+            sheet.faults.append(Fault(node.line, drawn.why))
         if not curves:
             return
         layer = state.layer or "0"

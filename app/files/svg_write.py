@@ -10,8 +10,9 @@ from xml.sax.saxutils import escape, quoteattr
 from app import tolerances
 from app.files.drawing_written import Conversions, Written, box_round
 from app.files.svg import HITOFUDE
+from app.files.svg_generator import INKSCAPE, SODIPODI
 from app.files.svg_joined import joined
-from app.files.svg_walk import BLACK, INKSCAPE, SODIPODI
+from app.files.svg_walk import BLACK
 from app.files.svg_xml import SVG
 from app.fit.bezier import pieces_of
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline

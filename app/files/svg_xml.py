@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import NoReturn
@@ -18,6 +19,10 @@ MOST_BYTES = 256 << 20
 _MOST_ENTITIES = 100
 _LONGEST_ENTITY = 200
 """Old drawing programs name their namespaces by entities; none is longer, and none holds another."""
+MOST_USES = 10_000
+"""So often may entities be used: two megabytes at most come from them."""
+_USE = re.compile(rb"&(?!(?:amp|lt|gt|quot|apos);)[^#;&\s<>]{1,200};")
+_LONGEST_COMMENTS = 4096
 _HEAD = 1 << 16
 
 
@@ -30,6 +35,7 @@ class Node:
         attributes: by name, likewise.
         line: where it begins, 1-based.
         text: its own text, kept for style sheets alone.
+        comments: those before the root, kept there alone; editors name themselves in them.
     """
 
     tag: str
@@ -37,6 +43,7 @@ class Node:
     line: int
     children: list[Node] = field(default_factory=list)
     text: str = ""
+    comments: str = ""
 
     def every(self) -> Iterator[Node]:
         """Yield this element and all that it holds, in the order of the file."""
@@ -61,7 +68,18 @@ def read_xml(data: bytes, name: str) -> Node:
         raise InputError(f"{name}: the file has {len(data)} bytes, more than {MOST_BYTES}; save the drawing in parts.")
     if b"<" not in data[:_HEAD].replace(b"\0", b""):
         raise InputError(f"{name}: this is not an SVG file, no element begins in it; export the drawing as SVG.")
+    _refuse_repeated_entities(data, name)
     return _Reader(name).read(data)
+
+
+def _refuse_repeated_entities(data: bytes, name: str) -> None:
+    """Refuse a small file that unfolds to a large one: editors use the entities that they declare a few times."""
+    plain = data.replace(b"\0", b"") if b"\0" in data[:_HEAD] else data
+    if b"<!ENTITY" not in plain:
+        return
+    uses = sum(1 for _ in _USE.finditer(plain))
+    if uses > MOST_USES:
+        raise InputError(f"{name}: entities are used {uses} times, and {MOST_USES} are the most; save it again as a plain SVG.")
 
 
 class _Reader:
@@ -72,9 +90,11 @@ class _Reader:
         self._parser.StartElementHandler = self._start
         self._parser.EndElementHandler = self._end
         self._parser.CharacterDataHandler = self._characters
+        self._parser.CommentHandler = self._comment
         self._parser.EntityDeclHandler = self._entity
         self._open: list[Node] = []
         self._root: Node | None = None
+        self._comments = ""
         self._count = self._entities = 0
 
     def read(self, data: bytes) -> Node:
@@ -100,6 +120,7 @@ class _Reader:
             self._open[-1].children.append(node)
         else:
             self._root = node
+            node.comments = self._comments
         self._open.append(node)
 
     def _end(self, _: str) -> None:
@@ -108,6 +129,10 @@ class _Reader:
     def _characters(self, text: str) -> None:
         if self._open[-1].tag == "style":
             self._open[-1].text += text
+
+    def _comment(self, text: str) -> None:
+        if self._root is None and len(self._comments) < _LONGEST_COMMENTS:
+            self._comments += text[:_LONGEST_COMMENTS]
 
     def _entity(self, entity: str, parameter: bool, value: str | None, *_: str | None) -> None:
         self._entities += 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,10 +36,16 @@ class Pieces:
         """Degree p."""
         return int(self.control.shape[1]) - 1
 
-    @property
+    @cached_property
     def polygon(self) -> Floats:
         """Control points (n, p + 1, 2), mm."""
-        return self.control[..., :2] / self.control[..., 2:]
+        points: Floats = self.control[..., :2] / self.control[..., 2:]
+        return points
+
+    @cached_property
+    def _still(self) -> float:
+        """A chord no longer than this, mm, has no direction."""
+        return max(1e-9 * float(np.ptp(self.polygon)), 1e-12)
 
     def at(self, u: Floats) -> tuple[Floats, Floats]:
         """Return points (m, 2), mm, and vectors along the tangent (m, 2) of any length, for parameters (m,)."""
@@ -64,7 +70,7 @@ class Pieces:
             near, _ = self.at(np.array([u + (1e-5 if forward else -1e-5)]))
             chords = np.vstack([along, (near - point) * (1.0 if forward else -1.0)])
         lengths = np.hypot(chords[:, 0], chords[:, 1])
-        enough = np.flatnonzero(lengths > max(1e-9 * float(np.ptp(self.polygon)), 1e-12))
+        enough = np.flatnonzero(lengths > self._still)
         if len(enough) == 0:
             return 0.0, 0.0
         first = chords[enough[0]] / lengths[enough[0]]
@@ -72,12 +78,18 @@ class Pieces:
 
     def corners(self) -> list[float]:
         """Return 0, the parameters of corners, and n."""
-        found = [0.0]
-        for k in range(1, len(self)):
-            (ax, ay), (bx, by) = self.direction(k, False), self.direction(k, True)
-            if abs(math.atan2(ax * by - ay * bx, ax * bx + ay * by)) > _CORNER:
-                found.append(float(k))
-        return [*found, float(len(self))]
+        ends, starts = self._directions(self.polygon[:-1, ::-1]), -self._directions(self.polygon[1:])
+        turns = np.arctan2(ends[:, 0] * starts[:, 1] - ends[:, 1] * starts[:, 0], (ends * starts).sum(axis=1))
+        return [0.0, *(np.flatnonzero(np.abs(turns) > _CORNER) + 1.0).tolist(), float(len(self))]
+
+    def _directions(self, polygons: Floats) -> Floats:
+        """Return (n, 2) unit vectors towards the first of polygons (n, k, 2) from what follows it; (0, 0) where nothing does."""
+        chords = polygons[:, :1] - polygons[:, 1:]
+        lengths = np.hypot(chords[..., 0], chords[..., 1])
+        rows, first = np.arange(len(chords)), np.argmax(lengths > self._still, axis=1)
+        length = lengths[rows, first]
+        there = (length > self._still)[:, None]
+        return np.where(there, chords[rows, first] / np.where(there, length[:, None], 1.0), 0.0)
 
     def cut(self, first: Floats, last: Floats) -> Pieces:
         """Return the stretches from `first` (m,) to `last` (m,), each within one piece."""

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 from app import tolerances
 from app.geometry.chain_crossings import crossings
-from app.geometry.chain_findings import Shared, branch_findings, gap_findings, open_findings, overlap_findings, repeat_findings
+from app.geometry.chain_findings import Shared, branch_findings, gap_findings, overlap_findings, repeat_findings
 from app.geometry.chain_join import Nodes, brought_together, nodes_of
+from app.geometry.chain_open import open_findings
 from app.geometry.chain_overlap import Overlap, covered, repeated, shared_stretches, twin_contours
 from app.geometry.chain_pieces import Piece, pieces_from
 from app.geometry.chain_trace import Step, paths
@@ -56,7 +57,7 @@ def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -
     contours, doubles = _once([_contour(pieces, steps, closed) for steps, closed in found], join_tolerance)
     odd = [place for place, ends in branches if ends % 2]
     findings += [*overlap_findings(overlaps, contours, join_tolerance), *repeat_findings(doubles), *gap_findings(gaps),
-                 *branch_findings(branches), *open_findings(contours), *crossings(contours, odd)]
+                 *branch_findings(branches), *open_findings(contours, join_tolerance), *crossings(contours, odd)]
     return Chaining(tuple(contours), tuple(findings))
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app import tolerances
-from app.geometry.chain_findings import LIMIT, at, limited
+from app.geometry.chain_findings import LIMIT, at, limited, named
 from app.geometry.chain_overlap import near_pairs
 from app.geometry.primitives import CX, TURN, X1, R, Rows, curve_rows, distances
 from app.model.curves import Point
@@ -70,7 +70,8 @@ def crossings(contours: Sequence[Contour], branches: Sequence[Point] = ()) -> li
 def _sentence(contours: Sequence[Contour], pair: tuple[int, int], places: list[Point], crossing: bool) -> Finding:
     a, b = pair
     verb = "cross" if crossing else "touch"
-    who = f"Contour {a + 1} {verb}es itself" if a == b else f"Contours {a + 1} and {b + 1} {verb}"
+    one, other = named(contours[a]), named(contours[b])
+    who = f"{one} {verb}es itself" if a == b else f"{one} and {other[0].lower()}{other[1:]} {verb}"
     where = ", ".join(at(place) for place in places[:_NAMED])
     more = f" and {len(places) - _NAMED} more places" if len(places) > _NAMED else ""
     advice = " Trim or move one of them." if crossing else ""

@@ -6,11 +6,15 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from app import tolerances
 from app.geometry.chain_overlap import Overlap
 from app.geometry.chain_pieces import Piece, length_of
+from app.geometry.primitives import boxes, curve_rows
 from app.model.curves import Circle, Line, Point, Primitive
 from app.model.finding import Finding, FindingKind
+from app.model.job import LARGEST_JOIN
 from app.model.part import Contour
 
 LIMIT = 20
@@ -22,6 +26,27 @@ def at(point: Point) -> str:
     return f"({point[0]:.3f}, {point[1]:.3f})".replace("-0.000", "0.000")
 
 
+def size_of(contour: Contour) -> str:
+    """Return how wide and high a contour is, as text, mm."""
+    (x0, y0), (x1, y1) = _corners(contour)
+    return f"{_tidy(x1 - x0)} x {_tidy(y1 - y0)} mm"
+
+
+def named(contour: Contour) -> str:
+    """Return what a contour is called: by its layer, its size and its lower left corner, for these are what a CAD program shows."""
+    return f"The contour on layer {contour.layer}, {size_of(contour)} from {at(_corners(contour)[0])},"
+
+
+def _corners(contour: Contour) -> tuple[Point, Point]:
+    around = boxes(np.array([row for primitive in contour.primitives for row in curve_rows(primitive)]))
+    (x0, y0), (x1, y1) = around[:, :2].min(axis=0).tolist(), around[:, 2:].max(axis=0).tolist()
+    return (x0, y0), (x1, y1)
+
+
+def _tidy(length: float) -> str:
+    return f"{length:.3f}".rstrip("0").rstrip(".")
+
+
 def limited(findings: Sequence[Finding], what: str) -> list[Finding]:
     """Return the first findings of a kind and one more that counts the rest."""
     rest = findings[LIMIT:]
@@ -30,6 +55,10 @@ def limited(findings: Sequence[Finding], what: str) -> list[Finding]:
     ids = tuple(dict.fromkeys(k for finding in rest for k in finding.entity_ids))
     more = Finding(rest[0].kind, f"{len(rest)} more {what}.", rest[0].x, rest[0].y, any(f.counts for f in rest), ids, float(len(rest)))
     return [*findings[:LIMIT], more]
+
+
+def _lower(name: str) -> str:
+    return name[0].lower() + name[1:].rstrip(",")
 
 
 def _noun(primitive: Primitive) -> str:
@@ -68,11 +97,13 @@ def overlap_findings(shared: Iterable[Shared], contours: Sequence[Contour], join
         elif one is None or other is None:
             continue
         elif one != other and contours[one].closed and contours[other].closed:
-            what = f"; contours {one + 1} and {other + 1} share this stretch."
+            what = f"; {_lower(named(contours[one]))} and {_lower(named(contours[other]))} share this stretch."
         elif overlap.length <= join_tolerance + tolerances.WELD:
             what = "; their ends were joined."
         else:
-            what = f"; trim one, or join with a tolerance of {rounded_up(overlap.length)} mm if that is small enough for the part."
+            wanted = rounded_up(overlap.length)
+            joined = f", or join with a tolerance of {wanted} mm if that is small enough for the part"
+            what = f"; trim one{joined * (float(wanted) <= LARGEST_JOIN)}."
             counts = True
         text = f"{_names(a, b)} overlap by {overlap.length:.3f} mm from {at(overlap.start)} to {at(overlap.end)}{what}"
         found.append(Finding(FindingKind.OVERLAP, text, *middle, counts, (a.entity, b.entity), overlap.length))
@@ -107,22 +138,6 @@ def branch_findings(branches: Sequence[tuple[Point, int]]) -> list[Finding]:
             text = f"{ends} ends meet at {at(place)}; one of them belongs to no outline: delete or complete it."
             found.append(Finding(FindingKind.SELF_INTERSECTION, text, *place, True, (), float(ends)))
     return limited(found, "points where one end too many meets others")
-
-
-def open_findings(contours: Sequence[Contour]) -> list[Finding]:
-    """Return a finding for each open contour: how wide, where both loose ends are, what to do."""
-    found = []
-    for number, contour in enumerate(contours, 1):
-        if contour.closed:
-            continue
-        start, end = contour.primitives[0].start, contour.primitives[-1].end
-        gap = math.dist(start, end)
-        length = sum(length_of(p) for p in contour.primitives)
-        advice = (f"Join with tolerance {rounded_up(gap)} or edit the ends." if gap < 0.1 * length
-                  else "Complete it, or move it to a layer that is not machined.")
-        text = f"Contour {number} is open by {gap:.3g} mm: its loose ends are at {at(start)} and {at(end)}. {advice}"
-        found.append(Finding(FindingKind.OPEN_CONTOUR, text, *start, True, contour.entity_ids, gap))
-    return limited(found, "open contours")
 
 
 def rounded_up(gap: float) -> str:

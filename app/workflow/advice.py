@@ -7,6 +7,7 @@ from typing import Any
 
 from app.errors import GeometryError
 from app.files.drawing import read_drawing
+from app.files.read_options import AS_DRAWN, ReadOptions
 from app.model.finding import Finding
 from app.model.job import Job
 from app.model.part import Units
@@ -29,6 +30,7 @@ class AdviceOptions:
         plan: depth and passes, for the estimates of time.
         units: of a drawing that names none. layers: to machine; empty = all visible ones.
         join_tolerance: mm; None = the default job's.
+        reading: what else is said about reading the drawing.
     """
 
     tools: tuple[Tool, ...] = ()
@@ -36,6 +38,7 @@ class AdviceOptions:
     units: Units | None = None
     layers: tuple[str, ...] = ()
     join_tolerance: float | None = None
+    reading: ReadOptions = AS_DRAWN
 
 
 @dataclass(frozen=True)
@@ -66,7 +69,7 @@ def advice_for(name: str, data: bytes, options: AdviceOptions, progress: Progres
         Cancelled: the job was asked to stop.
     """
     progress.step(0.0, f"Reading {name}")
-    drawing = read_drawing(name, data, options.units, options.layers)
+    drawing = read_drawing(name, data, options.units, options.layers, options.reading)
     job = Job(drawing.part, layer_names=options.layers)
     if options.join_tolerance is not None:
         job = Job(drawing.part, layer_names=options.layers, join_tolerance=options.join_tolerance)

@@ -13,8 +13,9 @@ from app.bitmap.faces import inner_faces, shows
 from app.bitmap.frame import Frame
 from app.bitmap.picture import Picture, PictureOptions, Shows, read_picture
 from app.bitmap.walls import Mask, free_contours
-from app.errors import GeometryError, ParameterError
+from app.errors import GeometryError, InputError, ParameterError
 from app.files.drawing import read_drawing
+from app.files.read_options import AS_DRAWN
 from app.geometry.region import nest
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
@@ -61,9 +62,12 @@ def bitmap_job(name: str, data: bytes, options: MakeOptions) -> BitmapJob:
     """
     bitmap = options.bitmap or BitmapOptions()
     if is_picture(name):
+        if options.reading != AS_DRAWN:
+            raise InputError(f"{name}: a picture has no layers, types, layouts or units to choose; take --skip-layer, --skip-type, "
+                             "--layout, --to-zero and --px-per-inch away.")
         return picture_job(read_picture(name, data, bitmap.picture), options, bitmap.picture, PurePath(name).stem)
     options = with_own_job(name, data, options)
-    drawing = read_drawing(name, data, options.units, layers_of_drawing(options))
+    drawing = read_drawing(name, data, options.units, layers_of_drawing(options), options.reading)
     job = job_with_options(drawing.part, options)
     return drawn_job(job, bitmap.size, drawing.findings)
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.errors import GeometryError
-from app.files.drawing import Drawing, read_drawing
+from app.files.drawing import Drawing
 from app.model.finding import Finding, FindingKind, worst_first
 from app.model.job import Job
 from app.model.machine import Machine
@@ -33,6 +33,7 @@ from app.workflow.cut_job import cut_job, news
 from app.workflow.machining import check_order
 from app.workflow.options import MakeOptions, job_with_options, layers_of_drawing
 from app.workflow.own_job import with_own_job
+from app.workflow.plausible import read_plausible
 from app.workflow.report import Measured, Report, make_report, rings_in_words
 from app.workflow.verdict import Gouge, RapidInMaterial, clamps_met, deepest_of, gouge_depths, rapids_in_material
 from app.workflow.written import write_and_check
@@ -104,6 +105,20 @@ def job_from_drawing(drawing: Drawing, options: MakeOptions) -> Job:
     return job
 
 
+def read_for(name: str, data: bytes, options: MakeOptions) -> Drawing:
+    """Return the drawing that a job machines.
+
+    Raises:
+        HitofudeError: it or an option cannot be used, or its size cannot be meant with the job's tools.
+    """
+    def diameters(drawing: Drawing) -> list[float]:
+        job = job_with_options(drawing.part, options)
+        used = {operation.cut.tool for operation in job.operations if operation.cut.enabled}
+        return [tool.diameter for tool in job.tools if tool.number in used]
+
+    return read_plausible(name, data, (options.units, layers_of_drawing(options)), options.reading, diameters)
+
+
 def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_PROGRESS) -> Made:
     """Return NC program and report for the bytes of a drawing.
 
@@ -119,7 +134,7 @@ def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_P
     options = with_own_job(name, data, options)
     if options.bitmap is not None or is_picture(name):
         return _make_on_bitmap(name, data, options, progress)
-    drawing = read_drawing(name, data, options.units, layers_of_drawing(options))
+    drawing = read_for(name, data, options)
     job = job_from_drawing(drawing, options)
     made = export(job, progress.part(0.1, 1.0), drawing.findings, options.machine)
     if not len(made.program.moves):

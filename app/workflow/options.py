@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from app.errors import ParameterError
+from app.files.read_options import AS_DRAWN, ReadOptions
 from app.model.job import Job, OriginXY, OriginZ, Stock
 from app.model.machine import Machine
 from app.model.operation import (
@@ -68,6 +69,7 @@ class MakeOptions:
         units: of a drawing that names none. layers: to machine; empty = all visible ones.
         bitmap: compute on pixels, and how they are made; None = exactly, but for pictures.
         machining: sides, entries, leads, tabs, drills, copies, clamps.
+        reading: what else is said about reading the drawing.
     """
 
     job: Job | None = None
@@ -95,6 +97,7 @@ class MakeOptions:
     machine: Machine | None = None
     bitmap: BitmapOptions | None = None
     machining: Machining = field(default_factory=Machining)
+    reading: ReadOptions = AS_DRAWN
 
 
 def job_with_options(part: Part, options: MakeOptions) -> Job:

@@ -11,8 +11,8 @@ import numpy as np
 from app.dexel.solid import SolidStock, read_solid
 from app.dexel.workpiece import BoxStock, Stock
 from app.errors import HitofudeError, InputError
-from app.files.drawing import read_drawing
 from app.files.job_toml import JobFile
+from app.files.read_options import AS_DRAWN, ReadOptions
 from app.model.entry import LONGEST_LEAD, Lead
 from app.model.finding import Finding, FindingKind
 from app.model.job import Copies, Job, OriginXY, OriginZ
@@ -31,6 +31,7 @@ from app.workflow.cut import CutSetup
 from app.workflow.examine import Examined
 from app.workflow.layers import layers_to_read, with_layers_spelled
 from app.workflow.parts import TOLERANCE, FlatPart, Part, SolidPart
+from app.workflow.plausible import read_plausible
 from app.workflow.setup_stock import KnownStock, told_stock
 from app.workflow.setup_tools import Held, KnownTool, ToolsTold, other_tools, with_holders, with_tools
 
@@ -52,6 +53,7 @@ class Wishes:
         join_tolerance: mm.
         held: how tools are held, by T number; the others as told.
         tolerance: metal within this of the part is neither gouged nor left, mm; None = as the path was proven, else TOLERANCE.
+        reading: what else is said about reading the drawing.
     """
 
     tools: tuple[ToolsTold, ...] = ()
@@ -67,6 +69,7 @@ class Wishes:
     join_tolerance: float | None = None
     tolerance: float | None = None
     held: Mapping[int, Held] = field(default_factory=dict)
+    reading: ReadOptions = AS_DRAWN
 
 
 @dataclass(frozen=True, eq=False)
@@ -237,7 +240,8 @@ def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
     header, (name, data) = _header(programs), wishes.against
     units = wishes.units or (wishes.job.units if wishes.job else None) or header.drawing_units
     asked = _job(DrawnPart(), programs, tools, wishes)
-    drawing = read_drawing(name, data, units, layers_to_read(asked))
+    diameters = [each.tool.diameter for each in tools.values()]
+    drawing = read_plausible(name, data, (units, layers_to_read(asked)), wishes.reading, lambda _: diameters)
     job = with_layers_spelled(replace(asked, part=drawing.part))
     parts = drawn(job)
     made, lines = machined(parts), followed_lines(job, parts)

@@ -171,7 +171,7 @@ from app.files.dxf_load import load
 told, together = [], threading.Barrier(4)
 def read():
     together.wait()
-    told.append(load(data, "fig2.dxf")[1])
+    told.append(load(data, "fig2.dxf").repaired)
 def engine():
     together.wait()
     import_module("ezdxf")

@@ -6,6 +6,7 @@ import pytest
 
 from app.errors import InputError
 from app.files.drawing import Drawing, read_drawing
+from app.files.read_options import ReadOptions
 from app.files.svg import read_svg
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from app.model.finding import FindingKind
@@ -351,3 +352,48 @@ def test_a_file_in_utf_16_is_read() -> None:
 
 def test_a_file_without_namespaces_is_read() -> None:
     assert len(read_svg(b'<svg width="1mm" height="1mm"><circle r="1"/></svg>').part.entities) == 1
+
+
+@pytest.mark.parametrize(("before", "root", "per_inch", "who"), [
+    ("", 'inkscape:version="0.48.4 r9939"', 90, "Inkscape 0.48"),
+    ("", 'inkscape:version="0.91 r13725"', 90, "Inkscape 0.91"),
+    ("", 'sodipodi:version="0.32"', 90, "Sodipodi"),
+    ("<!-- Generator: Adobe Illustrator 24.0.1, SVG Export Plug-In . SVG Version: 6.00 Build 0)  -->", "", 72, "Adobe Illustrator"),
+    ("", 'inkscape:version="0.92.3 (2405546, 2018-03-11)"', 96, ""),
+    ("", 'inkscape:version="1.0.2" sodipodi:version="0.32"', 96, ""),
+    ("<!-- Adobe is a name -->", "", 96, ""),
+])  # fmt: skip
+def test_a_file_without_units_is_as_the_editor_had_it_that_wrote_it(before: str, root: str, per_inch: float, who: str) -> None:
+    text = f'{before}<svg {NAMESPACES} {root} width="360" height="360"><line x2="360"/></svg>'
+    drawing = read_svg(text.encode(), "x.svg")
+    assert drawing.part.entities[0].curve.end[0] == pytest.approx(360 * 25.4 / per_inch)
+    (found,) = drawing.findings
+    assert f"{per_inch} units to the inch" in found.text and not found.counts
+    assert (f"written by {who}, so" in found.text and "--px-per-inch 96" in found.text) if who else "written by" not in found.text
+    asked = read_svg(text.encode(), "x.svg", None, (), ReadOptions(pixels_per_inch=100.0))
+    assert asked.part.entities[0].curve.end[0] == pytest.approx(91.44) and not asked.findings
+
+
+def test_pixels_to_the_inch_change_nothing_of_a_real_size_and_exclude_units() -> None:
+    text = f'<svg {NAMESPACES} width="50mm" height="50mm" viewBox="0 0 100 100"><line x2="100"/></svg>'.encode()
+    drawing = read_svg(text, "x.svg", None, (), ReadOptions(pixels_per_inch=72.0))
+    assert drawing.part.entities[0].curve.end[0] == pytest.approx(50) and "tells its real size" in drawing.findings[0].text
+    with pytest.raises(InputError, match="in two ways"):
+        read_svg(text, "x.svg", Units.MM, (), ReadOptions(pixels_per_inch=72.0))
+
+
+@pytest.mark.parametrize(("flags", "kind", "flag", "place"), [("2 1", "large-arc", "2", 13), ("0 -1", "sweep", "-1", 15),
+                                                              ("0 1.5", "", "", 0)])  # fmt: skip
+def test_arc_flags_other_than_0_and_1_are_named_with_their_place(flags: str, kind: str, flag: str, place: int) -> None:
+    text = f'<svg {NAMESPACES} width="50mm" height="50mm">\n<path d="M0,0 A5 5 0 {flags} 9 9"/><circle r="3"/></svg>'
+    (found,) = [each for each in read_svg(text.encode(), "x.svg").findings if "read to the end" in each.text]
+    assert found.counts and "line 2" in found.text
+    assert f"the {kind} flag {flag} at character {place} of its data is neither 0 nor 1" in found.text if kind else "flag" not in found.text
+
+
+def test_an_svg_is_moved_to_zero() -> None:
+    text = f'<svg {NAMESPACES} width="50mm" height="50mm" viewBox="0 0 50 50"><rect x="3e6" y="7e6" width="4" height="2"/></svg>'
+    with pytest.raises(InputError, match=r"beyond 1 km; move the drawing to zero .* --to-zero"):
+        read_svg(text.encode(), "x.svg")
+    part = read_svg(text.encode(), "x.svg", None, (), ReadOptions(to_zero=True)).part
+    assert {entity.curve.start for entity in part.entities} == {(0, 0), (4, 0), (4, 2), (0, 2)}

@@ -81,7 +81,8 @@ def test_open_contour_names_both_loose_ends() -> None:
     assert shape(made) == [(False, 3)]
     (found,) = of_kind(made, FindingKind.OPEN_CONTOUR)
     assert found.counts and found.amount == pytest.approx(0.12)
-    assert "Contour 1 is open by 0.12 mm" in found.text and "(0.000, 0.000) and (0.000, 0.120)" in found.text
+    assert "The contour on layer 0, 10 x 10 mm from (0.000, 0.000), is open by 0.12 mm" in found.text
+    assert "(0.000, 0.000) and (0.000, 0.120)" in found.text
     assert "tolerance 0.2" in found.text
     assert shape(chained([Line((0, 0), (10, 0)), Line((10, 0), (10, 10)), Line((10, 10), (0, 0.12))], 0.2)) == [(True, 3)]
 
@@ -303,9 +304,43 @@ def test_curves_without_length_are_named() -> None:
 
 
 def test_many_faults_are_counted_not_listed() -> None:
-    made = chained([Line((0, 3.0 * k), (10, 3.0 * k)) for k in range(300)])
+    made = chained([Arc((5.0 * k, 0), (5.0 * k, 0.1), (5.0 * k - 2, 0.05), False) for k in range(300)])
     found = of_kind(made, FindingKind.OPEN_CONTOUR)
     assert len(found) == 21 and "280 more" in found[-1].text and found[-1].counts
+
+
+def test_lines_that_bound_nothing_are_one_line_a_layer_with_the_way_out() -> None:
+    centre = [Entity(k, Line((0, 3.0 * k), (10 + k, 3.0 * k)), "Centre lines") for k in range(1, 29)]
+    (found,) = chain([*centre, Entity(99, Circle((0, 0), 1), "0")]).findings
+    assert found.text == ("Layer Centre lines has 28 lines that bound nothing, the longest 38 x 0 mm at (0.000, 84.000). "
+                          'Complete them, or leave the layer out: --skip-layer "Centre lines".')
+    assert found.counts and len(found.entity_ids) == 28
+    (among,) = chain([*centre, Entity(99, Circle((0, 0), 1), "Centre lines")]).findings
+    assert "draw them on a layer of their own, which --skip-layer leaves out" in among.text
+
+
+def test_the_nearest_other_end_is_what_an_advice_is_about() -> None:
+    """Two halves of an outline: one gap is closed, the ends at the other are 0.0113 mm apart; each half is open by 40 mm as a whole."""
+    half = [Line((0, 0), (40, 0)), Line((40, 0), (40, 30))]
+    other = [Line((40, 30.0113), (0, 30)), Line((0, 30), (0, 0.0)), Line((60, 60), (130, 60))]
+    found = of_kind(chained([*half, *other]), FindingKind.OPEN_CONTOUR)
+    assert len(found) == 2 and found[0].amount == pytest.approx(0.0113)
+    assert "Join with tolerance 0.02" in found[0].text and "(40.000, 30.011)" in found[0].text
+    assert "Complete it" in found[1].text and "olerance" not in found[1].text
+    assert [c.closed for c in chained([*half, *other], 0.02).contours] == [True, False]
+
+
+@pytest.mark.parametrize(("gap", "advised"), [(0.12, "0.2"), (4.0, "5"), (9.9, "10"), (10.5, ""), (60.0, "")])
+def test_no_tolerance_is_advised_that_is_not_allowed(gap: float, advised: str) -> None:
+    made = chained([Line((0, 0), (1000, 0)), Line((1000, 0), (1000, 1000)), Line((1000, 1000), (0, gap))])
+    (found,) = of_kind(made, FindingKind.OPEN_CONTOUR)
+    assert f"Join with tolerance {advised} or" in found.text if advised else "olerance" not in found.text
+
+
+def test_ends_of_different_curves_are_named_with_their_distance() -> None:
+    made = chained([Line((0, 0), (40, 0)), Line((40.5, 0), (80, 30)), Line((200, 0), (200, 50))])
+    found = of_kind(made, FindingKind.OPEN_CONTOUR)
+    assert "its loose end at (40.000, 0.000) is 0.5 mm from that of another at (40.500, 0.000). Join with tolerance 0.5" in found[0].text
 
 
 def test_flat_arc_with_a_far_centre_closes_its_outline() -> None:

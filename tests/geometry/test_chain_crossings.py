@@ -54,7 +54,9 @@ def test_joints_that_are_smooth_but_for_rounding(lift: float) -> None:
 def test_lines_cross() -> None:
     found = only([SQUARE, polygon([(5, 5), (15, 5), (15, 15), (5, 15)])])
     assert found.counts and found.amount == 2
-    assert "Contours 1 and 2 cross at" in found.text and "(10.000, 5.000)" in found.text and "(5.000, 10.000)" in found.text
+    assert "The contour on layer 0, 10 x 10 mm from (0.000, 0.000), and the contour" in found.text
+    assert "and the contour on layer 0, 10 x 10 mm from (5.000, 5.000), cross at" in found.text
+    assert "(10.000, 5.000)" in found.text and "(5.000, 10.000)" in found.text
 
 
 def test_figure_eight_crosses_itself() -> None:

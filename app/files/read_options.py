@@ -1,0 +1,54 @@
+"""What a user may say about how a drawing is to be read, beside its units and layers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from app.errors import InputError, ParameterError
+
+LEAST_PER_INCH, MOST_PER_INCH = 1.0, 1e5
+
+
+@dataclass(frozen=True, slots=True)
+class ReadOptions:
+    """How a drawing is to be read; the default leaves everything as the file has it.
+
+    Attributes:
+        overrule: units that are given hold although the drawing names others.
+        layout: DXF: name of the layout in paper space to read instead of model space; "" = model space.
+        to_zero: DXF and SVG: move the drawing so that the lower left corner of what is machined is zero.
+        pixels_per_inch: SVG: user units to the inch where the file has no real size, 1 to 100,000; None = as its generator has it.
+        without_layers: names of layers (in any case) whose curves are left out.
+        without_types: DXF: types of entities (in any case), such as TEXT or HATCH, that are left out.
+    """
+
+    overrule: bool = False
+    layout: str = ""
+    to_zero: bool = False
+    pixels_per_inch: float | None = None
+    without_layers: tuple[str, ...] = ()
+    without_types: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        given = self.pixels_per_inch
+        if given is not None and not (math.isfinite(given) and LEAST_PER_INCH <= given <= MOST_PER_INCH):
+            raise ParameterError(f"--px-per-inch is {given:g}; use {LEAST_PER_INCH:g} to {MOST_PER_INCH:g}.")
+
+    def check(self, name: str, suffix: str) -> None:
+        """Refuse what says nothing of a kind of file.
+
+        Args:
+            name: of the file, for messages. suffix: in lower case, with its dot.
+
+        Raises:
+            InputError: an option has no effect on such a file.
+        """
+        given = {"--layout": (self.layout, ".dxf"), "--skip-type": (self.without_types, ".dxf"),
+                 "--to-zero": (self.to_zero, ".dxf .svg"), "--px-per-inch": (self.pixels_per_inch, ".svg")}  # fmt: skip
+        for option, (value, kinds) in given.items():
+            if value and suffix not in kinds.split():
+                raise InputError(f"{option} is for {' and '.join(kinds.split())} drawings and says nothing of {name}; take it away.")
+
+
+AS_DRAWN = ReadOptions()
