@@ -94,8 +94,8 @@ def _place(facets: Facets, stock: StockBox, tools: Sequence[Tool]) -> Iterator[F
     sides = (("-X", 0, stock.x0 - low[0]), ("+X", 0, high[0] - stock.x1), ("-Y", 1, stock.y0 - low[1]), ("+Y", 1, high[1] - stock.y1))
     for side, axis, far in sides:
         if far > max(radius, OUTSIDE * size[axis]):
-            text = (f"The surfaces reach {far:.3f} mm beyond the stock towards {side}, of {size[axis]:.3f} mm; move them into it, or correct "
-                    "the stock's box.")
+            text = (f"The surfaces reach {far:.3f} mm beyond the stock towards {side}, of {size[axis]:.3f} mm; move them into it, or "
+                    "correct the stock's box.")
             yield Finding(FindingKind.BEYOND_STOCK, text, amount=float(far))
 
 
