@@ -27,9 +27,8 @@ COLUMNS = 12
 BEGINS, CORNER, BOUNDARY = 1.0, 2.0, 3.0
 """NEW of a point where a run begins, of a jump's corner, of a boundary point; 0 of others."""
 DS, TOLERANCE, ALLOWED, LEAST, GRID, SLACK, FINE = range(7)
-_STACK = 256
+_STACK, _ROOTS = 256, 80
 _TIE, _MET, _EQUAL, _FINEST = 1e-9, 1e-7, 1e-11, 1e-10
-_ROOTS = 80
 _SAG, _RISE, _MORE, _SHORTER = 0.85, 0.9, 1.5, 0.7
 """Chords are made so long that they are off by about so much of what is allowed, and tolerated; times the last one's length at most,
 or, if a line's last chord (4 LEAST or more) was too long, times it: so that the next one does not end there again, for ever."""
@@ -108,7 +107,8 @@ def _spare(tree, shape, rules, left, right):  # type: ignore[no-untyped-def]
 
 @kernel(f"void({_R}, {_R})", counts=False)
 def _copy(row, target):  # type: ignore[no-untyped-def]
-    target[:COLUMNS] = row[:COLUMNS]
+    for c in range(COLUMNS):
+        target[c] = row[c]
 
 
 @kernel(f"int64({TREE}, {_R}, int64)", counts=False)

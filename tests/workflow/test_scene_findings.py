@@ -169,7 +169,7 @@ def test_a_way_that_ends_where_the_path_is_as_steep_as_upright_ends() -> None:
     """A link from the foot of a dome to where the ball touches its equator: the last chord was made again and again."""
     from app.surface.path import Follower, FollowOptions
     from tests.surface.scenes import ball, facets_of
-    
+
     follower = Follower(facets_of(ball(0, 0, 0, 12)), Tool(1, 6.0, ToolKind.BALL), FollowOptions(0.0, 0.01, 1e-4))
     assert math.hypot(8.9998, 12.0) == pytest.approx(12 + 3, abs=2e-4)
     way = follower.between((-6.8512, -13.0), (-8.9998, -12.0))
