@@ -27,11 +27,11 @@ COLUMNS = 12
 BEGINS, CORNER, BOUNDARY = 1.0, 2.0, 3.0
 """NEW of a point where a run begins, of a jump's corner, of a boundary point; 0 of others."""
 DS, TOLERANCE, ALLOWED, LEAST, GRID, SLACK, FINE = range(7)
-_STACK = 256
+_STACK, _ROOTS = 256, 80
 _TIE, _MET, _EQUAL, _FINEST = 1e-9, 1e-7, 1e-11, 1e-10
-_ROOTS = 80
-_SAG, _RISE, _MORE = 0.85, 0.9, 1.5
-"""Chords are made so long that they are off by about so much of what is allowed, and tolerated; times the last one's length at most."""
+_SAG, _RISE, _MORE, _SHORTER = 0.85, 0.9, 1.5, 0.7
+"""Chords are made so long that they are off by about so much of what is allowed, and tolerated; times the last one's length at most,
+or, if a line's last chord (4 LEAST or more) was too long, times it: so that the next one does not end there again, for ever."""
 _SLOW, _FEW = 16, 4
 """Most chords that are made with care before the quick way is tried again; it begins with a group of _FEW."""
 _CLOSE = 0.02
@@ -320,7 +320,7 @@ def _quickly(tree, shape, line, rules, ds, out, count, row, desk):  # type: igno
         goes = goes and left[S] < last and _onward(tree, shape, line, rules, left, s, row)
         times = _spare(tree, shape, rules, left, row) if goes else 0.0
         if times > 0.0:
-            ds = min((s - left[S]) * min(0.97 * times, _MORE), rules[DS])
+            ds = min((s - left[S]) * min(0.97 * times, _SHORTER if s == last and times < 1.0 else _MORE), rules[DS])
             if times >= 1.0:
                 _copy(row, out[count])
                 count += 1

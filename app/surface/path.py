@@ -32,7 +32,7 @@ _FINE = 1e-7
 _ROOM = 4096
 _CHORDS = 2_000
 _NEAR = 1e-9
-_SHORT = 1e-3
+_SHORT = 0.05
 """mm; shorter stretches beside the surfaces are none."""
 
 
@@ -89,9 +89,13 @@ class Follower:
         return self._rows(np.array([*planes.place(plane, 0.0), *planes.along, *part]))
 
     def between(self, start: tuple[float, float], end: tuple[float, float]) -> Floats | None:
-        """Return points (n, 3) of the way straight from one place to another, as low as the surfaces let the tip; None: it has a gap."""
+        """Return points (n, 3) of the way straight from one place to another, as low as the surfaces let the tip; None: it has a gap,
+        or cannot be proven."""
         far = math.dist(start, end)
-        rows = self._rows(np.array([*start, (end[0] - start[0]) / far, (end[1] - start[1]) / far, 0.0, far]))
+        try:
+            rows = self._rows(np.array([*start, (end[0] - start[0]) / far, (end[1] - start[1]) / far, 0.0, far]))
+        except GeometryError:
+            return None
         k = self._kernels
         whole = len(rows) > 1 and rows[0, k.S] == 0.0 and rows[-1, k.S] == far and not (rows[1:, k.NEW] == k.BEGINS).any()
         return rows[:, k.X : k.Z + 1] if whole else None
