@@ -61,8 +61,8 @@ def test_comments_behind_a_semicolon_and_at_the_very_beginning_count():
 def test_two_hundred_thousand_lines_take_no_time():
     lines = b"".join(b"(Contour T1: depth %d mm)\n" % k if k % 50 == 0 else b"G1 X%d.5 F100\n" % k for k in range(200_000))
     program = read_program(lines)
-    begun = time.perf_counter()
+    begun = time.process_time()  # of this process alone, whatever else the machine does
     found = contour_motions(lines, program)
-    assert time.perf_counter() - begun < 0.5
+    assert time.process_time() - begun < 0.5
     assert found.all()
     assert len(found) == 196_000
