@@ -18,7 +18,7 @@ LEAF = 4
 
 
 @kernel("float64(float64, float64, float64, float64, float64, float64, float64, float64, float64)", counts=False)
-def _from_edge(px, py, pz, ax, ay, az, ux, uy, uz):  # type: ignore[no-untyped-def]
+def _from_edge(px, py, pz, ax, ay, az, ux, uy, uz):
     """Return the square of the distance of p from the segment that begins at a and goes along u."""
     x, y, z = px - ax, py - ay, pz - az
     square = ux * ux + uy * uy + uz * uz
@@ -28,7 +28,7 @@ def _from_edge(px, py, pz, ax, ay, az, ux, uy, uz):  # type: ignore[no-untyped-d
 
 
 @kernel(f"float64({_R}, float64, float64, float64)", counts=False)
-def _from_triangle(t, x, y, z):  # type: ignore[no-untyped-def]
+def _from_triangle(t, x, y, z):
     """Return the square of the distance of a place from a triangle (9,): from its face if it is over that, else from an edge."""
     ux, uy, uz, vx, vy, vz = t[3] - t[0], t[4] - t[1], t[5] - t[2], t[6] - t[0], t[7] - t[1], t[8] - t[2]
     nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
@@ -47,7 +47,7 @@ def _from_triangle(t, x, y, z):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"float64({_MANY}, int64, float64, float64, float64)", counts=False)
-def _from_box(boxes, k, x, y, z):  # type: ignore[no-untyped-def]
+def _from_box(boxes, k, x, y, z):
     dx = max(boxes[k, 0] - x, 0.0, x - boxes[k, 3])
     dy = max(boxes[k, 1] - y, 0.0, y - boxes[k, 4])
     dz = max(boxes[k, 2] - z, 0.0, z - boxes[k, 5])
@@ -55,7 +55,7 @@ def _from_box(boxes, k, x, y, z):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"Tuple((float64, int64))({_MANY}, {_MANY}, float64, float64, float64, int64, int64[::1])", counts=False)
-def _nearest(boxes, triangles, x, y, z, guess, stack):  # type: ignore[no-untyped-def]
+def _nearest(boxes, triangles, x, y, z, guess, stack):
     """Return the square of the distance of a place from the nearest triangle, and which one that is.
 
     Args:
@@ -85,7 +85,7 @@ def _nearest(boxes, triangles, x, y, z, guess, stack):  # type: ignore[no-untype
 
 
 @kernel(f"void({_MANY}, {_MANY}, {_MANY}, {_R})")
-def distances(boxes, triangles, places, out):  # type: ignore[no-untyped-def]
+def distances(boxes, triangles, places, out):
     """Write how far each of some places (m, 3) is from the nearest triangle, mm."""
     guess, stack = 0, np.empty(_STACK, np.int64)
     for k in range(len(places)):
@@ -94,7 +94,7 @@ def distances(boxes, triangles, places, out):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void({_MANY}, {_MANY}, {_MANY}, {_R}, float64, {_R})")
-def deepest(boxes, triangles, segments, known, fine, out):  # type: ignore[no-untyped-def]
+def deepest(boxes, triangles, segments, known, fine, out):
     """Write how far the farthest place of each upright segment is from the nearest triangle, mm.
 
     Between two places the distance is at most half the sum of theirs and of the way between them, and at most the larger distance of
