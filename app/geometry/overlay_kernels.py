@@ -32,7 +32,8 @@ def near_points(rows, order, nodes, points, reach):
                     continue
                 if count == len(found):
                     more = np.empty((2 * count, 2), np.int64)
-                    more[:count] = found
+                    for j in range(count):  # not slice by slice: see `enlarged`
+                        more[j, 0], more[j, 1] = found[j, 0], found[j, 1]
                     found = more
                 found[count, 0], found[count, 1] = order[place], p
                 count += 1

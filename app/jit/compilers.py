@@ -171,8 +171,9 @@ class Compilers:
             if not self._processes and not self._ended:
                 self._kept.sweep()
             self._changed.notify_all()
-        with suppress(OSError):
-            process.stdin.close()  # type: ignore[union-attr]
+        if process.stdin is not None:
+            with suppress(OSError):
+                process.stdin.close()
         process.wait()
 
     def _take(self) -> Kernel | None:

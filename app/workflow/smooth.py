@@ -36,7 +36,7 @@ from app.nc.rewrite import Rewritten, rewrite
 from app.nc.stretches import Found, Stretch, find_stretches
 from app.progress import NO_PROGRESS, Progress
 from app.workflow.smooth_report import certificate
-from app.workflow.smooth_source import Came, came
+from app.workflow.smooth_source import SourceProgram, read_source
 
 TOLERANCES = (1e-4, 10.0)
 """mm; what a tolerance may be."""
@@ -174,7 +174,7 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
         InputError: the program cannot be read to its end, or has nothing that can be smoothed.
         Cancelled: the job was asked to stop.
     """
-    ready = came(name, data, (options.dialect, options.post), progress.part(0.0, 0.15))
+    ready = read_source(name, data, options.dialect, options.post, progress.part(0.0, 0.15))
     found = find_stretches(ready.program, Text(ready.data), progress.part(0.15, 0.2))
     work = _Work(options, ready, found)
     blocks, kept = work.written(progress.part(0.2, 0.7))
@@ -197,7 +197,7 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
     return replace(done, data=rewrite(ready.data, found.stretches, blocks, _comments(done, ready)).data)
 
 
-def _comments(done: Smoothed, ready: Came) -> list[str]:
+def _comments(done: Smoothed, ready: SourceProgram) -> list[str]:
     """Return the certificate as comment lines."""
     head = Blocks(ready.post, ready.program.states[0].units)
     for line in certificate(done):
@@ -230,7 +230,7 @@ class _Judged:
 class _Work:
     """A program's stretches, on their way."""
 
-    def __init__(self, options: SmoothOptions, came: Came, found: Found) -> None:
+    def __init__(self, options: SmoothOptions, came: SourceProgram, found: Found) -> None:
         self._options, self._came, self._found = options, came, found
         self._post, self._program = came.post, came.program
         own = [came.points(stretch) for stretch in found.stretches]

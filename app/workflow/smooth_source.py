@@ -28,7 +28,7 @@ _POSTS = {Dialect.LINUXCNC: "linuxcnc", Dialect.FANUC: "fanuc", Dialect.HAAS: "h
 
 
 @dataclass(frozen=True, eq=False)
-class Came:
+class SourceProgram:
     """A program in the words that it is to be written in, before it is smoothed.
 
     Attributes:
@@ -61,23 +61,26 @@ class Came:
         return int(self.source.motions.line[rows[0]]), int(self.source.motions.line[rows[-1]])
 
 
-def came(name: str, data: bytes, asked: tuple[Dialect | None, Post | None], progress: Progress = NO_PROGRESS) -> Came:
+def read_source(
+    name: str, data: bytes, dialect: Dialect | None, target: Post | None, progress: Progress = NO_PROGRESS,
+) -> SourceProgram:  # fmt: skip
     """Return a program in the words that it is to be written in.
 
     Args:
         name: of the file, for messages. data: its bytes.
-        asked: of which control it is, None = as it looks; in whose words it is written, None = that control's.
+        dialect: of which control it is; None = as it looks.
+        target: in whose words it is to be written; None = that control's.
 
     Raises:
         InputError: it cannot be read to its end, or holds what the other control cannot be told.
     """
-    dialect = asked[0] or guess_dialect(data)
-    post = asked[1] or load_post(_POSTS.get(dialect, "linuxcnc"))
+    dialect = dialect or guess_dialect(data)
+    post = target or load_post(_POSTS.get(dialect, "linuxcnc"))
     read = ReadOptions(dialect, limits=PATIENT)
     source = read_program(data, read, progress.part(0.0, 0.3))
     if source.error is not None:
         raise InputError(f"{source.error.told(name)} Mend it there; check tells more.")
     if post.dialect is dialect:
-        return Came(dialect, source, post, data, source, 0.0, np.arange(len(source.motions)))
+        return SourceProgram(dialect, source, post, data, source, 0.0, np.arange(len(source.motions)))
     made = translated(name, data, read, post, progress.part(0.3, 1.0))
-    return Came(dialect, source, post, made.data, made.program, made.off, made.rows)
+    return SourceProgram(dialect, source, post, made.data, made.program, made.off, made.rows)

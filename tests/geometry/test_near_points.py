@@ -60,9 +60,9 @@ def test_nearest(points, shift: float) -> None:
 @given(given_pairs=pairs)
 def test_groups_are_numbered_by_their_first(given_pairs) -> None:
     count, joined = given_pairs
-    ask = lambda: groups(count, np.array(joined, np.int64).reshape(-1, 2))  # noqa: E731 (asked twice)
+    together = np.array(joined, np.int64).reshape(-1, 2)
     with pytest.MonkeyPatch.context() as monkeypatch:
-        few, many = both(monkeypatch, ask)
+        few, many = both(monkeypatch, lambda: groups(count, together))
     assert few.tolist() == many.tolist()
     assert all(few[a] == few[b] for a, b in joined)
     assert list(dict.fromkeys(few.tolist())) == list(range(few.max() + 1))
