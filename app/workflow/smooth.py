@@ -230,10 +230,10 @@ class _Judged:
 class _Work:
     """A program's stretches, on their way."""
 
-    def __init__(self, options: SmoothOptions, came: SourceProgram, found: Found) -> None:
-        self._options, self._came, self._found = options, came, found
-        self._post, self._program = came.post, came.program
-        own = [came.points(stretch) for stretch in found.stretches]
+    def __init__(self, options: SmoothOptions, source: SourceProgram, found: Found) -> None:
+        self._options, self._source, self._found = options, source, found
+        self._post, self._program = source.post, source.program
+        own = [source.points(stretch) for stretch in found.stretches]
         self._astray = [k for k, points in enumerate(own) if points is None]
         self._points = [without_repeats(stretch.points if points is None else points)
                         for stretch, points in zip(found.stretches, own, strict=True)]  # fmt: skip
@@ -274,7 +274,7 @@ class _Work:
             slack += spent
             if not self._tube.radius > slack:
                 raise InputError(
-                    f"Points of lines {' to '.join(map(str, self._came.lines(stretch)))} are up to {spent:.4g} mm off the path by the "
+                    f"Points of lines {' to '.join(map(str, self._source.lines(stretch)))} are up to {spent:.4g} mm off the path by the "
                     f"effective ones, which leaves nothing of the tolerance; use a smaller epsilon, or more than {slack:.4g} mm."
                 )
         tube = self._tube.narrower(slack)
@@ -361,7 +361,7 @@ class _Work:
         count = stretch.stop - stretch.first
         at = corners(points, self._options.corner, _REACH * self._tube.widest) if len(points) > 2 else np.array([0])
         before = of_points(points, points[at])
-        lines = self._came.lines(stretch)
+        lines = self._source.lines(stretch)
         if judged is None:
             return Piece(stretch, points, (count, count), None, None, kept, before, before, at, classes, lines)
         after = of_curve(judged.curve, points[at])
