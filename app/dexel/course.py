@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from app.errors import ParameterError
 from app.model.motion import Motions
+from app.tolerances import LEVEL
 
 Ints = NDArray[np.int32]
 
@@ -20,6 +21,29 @@ class Rapids(Enum):
     IGNORED = "ignored"
     ASKED = "asked"
     CUT = "cut"
+
+
+@dataclass(frozen=True, slots=True)
+class TrimOptions:
+    """What to note beside the heights.
+
+    Attributes:
+        rapids: ASKED: they cut nothing, and metal that they meet is told.
+        touch: a rapid that goes no deeper into metal than this is told as none, mm; also how much slimmer than its cutter it is taken.
+        stop: motions from this row on are not done; None = all are.
+        trace: note the motion that cut each cell last, and each motion's volume and engaged cells. Every motion is then evaluated
+            in all cells that the one before it in its chain has not swept as deep, which takes three times as long.
+    """
+
+    rapids: Rapids = Rapids.ASKED
+    touch: float = LEVEL
+    trace: bool = False
+    stop: int | None = None
+
+    @property
+    def heights_alone(self) -> bool:
+        """Whether nothing but the heights at the end is asked of motions, so that one which another outdoes may be left out."""
+        return not self.trace and self.stop is None
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from app.dexel.course import Course, Ints, Rapids
+from app.dexel.course import Course, Ints, Rapids, TrimOptions
 from app.dexel.cutter import Cutter
 from app.dexel.sweeps import Field, Limits, Mask, Sweeps
 from app.dexel.workpiece import Workpiece, ensure_memory
@@ -107,7 +107,7 @@ class History:
         self.motions = sum(len(course.motions) for course in courses)
         self.base = Field(workpiece.heights.copy(), np.full(workpiece.heights.shape, -1, np.int32))
         self._batches: list[_Batch] = []
-        sweeps = [Sweeps(workpiece.grid, course, cutters, (Rapids.ASKED, LEVEL), True) for course in courses]
+        sweeps = [Sweeps(workpiece.grid, course, cutters, TrimOptions(trace=True)) for course in courses]
         ends = _block_ends(np.concatenate([_costs(each) for each in sweeps]), options.blocks)
         self._kept = _Copies(workpiece.heights.shape, len(ends), options.budget)
         self._cut_once(sweeps, ends, progress)
@@ -135,7 +135,7 @@ class History:
             field: as the motions before have left it; overwritten.
             course: that way, all of it cutting. motion: whose it is, counted through all courses.
         """
-        sweeps = Sweeps(self._workpiece.grid, course, self._cutters, (Rapids.IGNORED, LEVEL), True)
+        sweeps = Sweeps(self._workpiece.grid, course, self._cutters, TrimOptions(Rapids.IGNORED, trace=True))
         own = Field(field.heights, np.full_like(field.owner, -1))
         part = sweeps.part(0, len(course.motions))
         top = float(self._workpiece.heights.max())

@@ -4,7 +4,7 @@ Level arcs of the XY plane stay arcs. Helices and arcs of the other planes becom
 near as the caller wants), point by point: between its ends a curve leaves its chord, run at even parameter, by at most
 max |second derivative| / 8, which for an arc of radius A, turn w and change of radius g in n chords is (A w² + 2 g w) / (8 n²).
 Splines become chords within `CHORD` of the hulls of their Bézier pieces (`app.fit.nurbs`). A cut height is then off by at most
-CHORD (1 + slope of the surface).
+CHORD (1 + slope of the surface). Helices may be given chords that are farther off, where a grid is no finer (`helix_chord`).
 """
 
 from __future__ import annotations
@@ -21,6 +21,9 @@ from app.model.motion_path import ArcPaths, along_xyz, arc_paths
 
 CHORD = 1e-6
 """mm."""
+
+HELIX_CHORD = 1e-4
+"""mm, of chords of helices where cells are asked alone, and never more than a thousandth of a cell: ten times fewer chords."""
 
 QUARTER = math.pi / 2
 
@@ -71,7 +74,8 @@ class Window:
 class Splitter:
     """The pieces of motions, any part of them at a time."""
 
-    def __init__(self, motions: Motions, arcs_stay: bool = True, window: Window | None = None, chord: float = CHORD) -> None:
+    def __init__(self, motions: Motions, arcs_stay: bool = True, window: Window | None = None, chord: float = CHORD,
+                 helix_chord: float = 0.0) -> None:  # fmt: skip
         """Prepare to split.
 
         Args:
@@ -79,6 +83,8 @@ class Splitter:
             arcs_stay: False: level arcs become chords too.
             window: of curves off it that fall into chords only the first and the last chord are made: neighbours need no more.
             chord: how far at most chords are from their curves, mm, > 0.
+            helix_chord: the same of helices of the XY plane, where it is more: at even parameter their height is linear along curve and
+                chord, so that they are off in X and Y alone.
         """
         self._motions = motions
         self._arcs = arc_paths(motions)
@@ -87,14 +93,15 @@ class Splitter:
         self._arc[self._arcs.rows] = np.arange(len(self._arcs))
         self._splines = dict(zip(motions.splines, flattened_all(list(motions.splines.values()), chord), strict=True))
         self._whole = np.ones(len(motions), np.int64)
-        self._whole[self._arcs.rows] = _arc_counts(self._arcs, self._level, chord)
+        self._whole[self._arcs.rows] = _arc_counts(self._arcs, self._level, _chords(self._arcs, chord, helix_chord))
         for row, points in self._splines.items():
             self._whole[row] = len(points) - 1
         self.counts = self._whole.copy()
         """How many pieces each motion has."""
         if window is not None:
+            slack = max(chord, helix_chord) - CHORD
             for rows, low, high in (self._reach_of_chords(), self._reach_of_splines()):
-                off = rows[window.misses(rows, low - (chord - CHORD), high + (chord - CHORD))]
+                off = rows[window.misses(rows, low - slack, high + slack)]
                 self.counts[off] = np.minimum(self._whole[off], 2)
 
     def _reach_of_chords(self) -> tuple[NDArray[np.intp], Floats, Floats]:
@@ -135,6 +142,15 @@ class Splitter:
         return Pieces(start, end, rows, arc, table)
 
 
+def helix_chord(pitch: float) -> float:
+    """Return how far the chords of helices may be from these on a grid, in X and Y alone, mm: what certificates make up for.
+
+    Args:
+        pitch: side of a cell, mm.
+    """
+    return max(CHORD, min(HELIX_CHORD, pitch / 1000))
+
+
 def _counted(sizes: NDArray[np.int64]) -> NDArray[np.int64]:
     """Return 0 … size - 1 for each size, one after the other."""
     return np.arange(sizes.sum()) - np.repeat(np.cumsum(sizes) - sizes, sizes)
@@ -153,14 +169,19 @@ def _level_counts(arcs: ArcPaths) -> NDArray[np.int64]:
     ).clip(1), dtype=np.int64)  # fmt: skip
 
 
-def _chord_counts(arcs: ArcPaths, chord: float) -> NDArray[np.int64]:
+def _chords(arcs: ArcPaths, chord: float, helix_chord: float) -> Floats:
+    """Return (m,) how far the chords of each arc may be from it, mm."""
+    return np.where(arcs.axes[:, 2] == 2, max(chord, helix_chord), chord)
+
+
+def _chord_counts(arcs: ArcPaths, chord: float | Floats) -> NDArray[np.int64]:
     """Return in how many chords each falls that are nowhere farther from it than `chord`, mm."""
     turn, grow = np.abs(arcs.sweep), np.abs(arcs.end_radius - arcs.start_radius)
     bend = np.maximum(arcs.start_radius, arcs.end_radius) * turn**2 + 2 * grow * turn
     return np.asarray(np.ceil(np.sqrt(bend / (8 * chord))).clip(1), dtype=np.int64)
 
 
-def _arc_counts(arcs: ArcPaths, level: NDArray[np.bool_], chord: float) -> NDArray[np.int64]:
+def _arc_counts(arcs: ArcPaths, level: NDArray[np.bool_], chord: Floats) -> NDArray[np.int64]:
     return np.where(level, _level_counts(arcs), _chord_counts(arcs, chord))
 
 

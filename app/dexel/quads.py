@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from app.dexel.course import Course, Rapids
+from app.dexel.course import Course, Rapids, TrimOptions
 from app.dexel.cutter import Cutter
 from app.dexel.pieces import QUARTER, Pieces
 from app.dexel.sweeps import Sweeps
@@ -86,7 +86,7 @@ class _Way:
     """A course made ready: what each motion does, and with which cutter; its pieces."""
 
     def __init__(self, workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter]) -> None:
-        self._sweeps = Sweeps(workpiece.grid, course, cutters, (Rapids.IGNORED, 0.0), trace=False)
+        self._sweeps = Sweeps(workpiece.grid, course, cutters, TrimOptions(Rapids.IGNORED, touch=0.0))
 
     def portions(self) -> Iterator[tuple[Pieces, float]]:
         """Yield the pieces of motions that follow one another, and which part of all pieces is done with them."""

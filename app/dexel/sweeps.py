@@ -14,9 +14,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from app.dexel.course import Course, Ints, Rapids
+from app.dexel.course import Course, Ints, Rapids, TrimOptions
 from app.dexel.cutter import Cutter
-from app.dexel.pieces import Splitter, Window
+from app.dexel.outdone import outdone
+from app.dexel.pieces import Splitter, Window, helix_chord
 from app.dexel.workpiece import Grid, Heights
 from app.errors import Cancelled
 from app.model.motion import Floats, MotionKind
@@ -84,29 +85,31 @@ class Sweeps:
     Attributes:
         grid: the cells. course: what is cut along; `motions` are its, anchored.
         does: (n,) what each motion does: nothing, it cuts, it is asked. shapes, cutter: rows of the cutters, and each motion's.
-        trace: each motion is evaluated wherever the one before it in its chain has not swept as deep.
+        trace: each motion is evaluated wherever the one before it in its chain has not swept as deep; else those that another one
+            outdoes do nothing.
         batches: first motions and ends of the parts that are cut at a time.
     """
 
-    def __init__(self, grid: Grid, course: Course, cutters: Mapping[int, Cutter], rapids: tuple[Rapids, float], trace: bool) -> None:
+    def __init__(self, grid: Grid, course: Course, cutters: Mapping[int, Cutter], options: TrimOptions) -> None:
         """Make a course ready.
 
         Args:
             grid: the cells.
             course: motions and their tools.
             cutters: by T number.
-            rapids: what they do, and how much slimmer than its cutter one that is asked is taken, mm.
-            trace: see above.
+            options: what rapids do, and what is to be noted.
 
         Raises:
             ParameterError: a tool that cuts is not among the cutters.
         """
-        self.grid, self.course, self.trace = grid, course, trace
+        self.grid, self.course, self.trace = grid, course, options.trace
         self.motions = anchored(course.motions) if any(course.motions.known_from) else course.motions
-        self.does = _deeds(course, rapids[0])
-        self.shapes, self.cutter = _shape_rows(course, cutters, self.does, rapids[1])
+        self.does = _deeds(course, options.rapids)
+        self.shapes, self.cutter = _shape_rows(course, cutters, self.does, options.touch)
+        if options.heights_alone:
+            self.does[outdone(self.motions, self.cutter, self.does)] = 0
         radius = np.where(self.does > 0, self.shapes[self.cutter, 0], -math.inf)
-        self.splitter = Splitter(self.motions, window=Window(grid.box, radius))
+        self.splitter = Splitter(self.motions, window=Window(grid.box, radius), helix_chord=helix_chord(grid.pitch))
         self.batches = tuple(_batches(self.splitter.counts))
 
     def part(self, first: int, last: int, behind: int = 0) -> Part:

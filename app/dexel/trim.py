@@ -8,31 +8,14 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from app.dexel.course import Course, Ints, Rapids
+from app.dexel.course import Course, Ints, TrimOptions
 from app.dexel.cutter import Cutter
 from app.dexel.sweeps import Field, Limits, Part, Sweeps
 from app.dexel.workpiece import Heights, Workpiece, ensure_memory
 from app.model.motion import Floats
 from app.progress import NO_PROGRESS, Progress
-from app.tolerances import LEVEL
 
-
-@dataclass(frozen=True, slots=True)
-class TrimOptions:
-    """What to note beside the heights.
-
-    Attributes:
-        rapids: ASKED: they cut nothing, and metal that they meet is told.
-        touch: a rapid that goes no deeper into metal than this is told as none, mm; also how much slimmer than its cutter it is taken.
-        stop: motions from this row on are not done; None = all are.
-        trace: note the motion that cut each cell last, and each motion's volume and engaged cells. Every motion is then evaluated
-            in all cells that the one before it in its chain has not swept as deep, which takes three times as long.
-    """
-
-    rapids: Rapids = Rapids.ASKED
-    touch: float = LEVEL
-    trace: bool = False
-    stop: int | None = None
+AS_IT_IS = TrimOptions()
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,12 +67,12 @@ class Cut:
         return Workpiece(self.before.grid, self.heights, self.before.floor, self.before.hidden)
 
 
-def trim(workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter], options: TrimOptions = TrimOptions(),
+def trim(workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter], options: TrimOptions = AS_IT_IS,
          progress: Progress = NO_PROGRESS) -> Cut:  # fmt: skip
     """Cut a work piece.
 
-    Heights are within 5e-6 mm (1 + slope of the surface) of exact for heights up to 32 mm; beside a vertical wall a cell whose centre
-    is on the wall may fall to either side. They do not depend on the order of chains of motions, bit for bit, as long as there are
+    Heights are within 5e-6 mm (1 + slope of the surface) of exact for heights up to 32 mm, where a helix went within
+    `pieces.helix_chord`; beside a vertical wall a cell whose centre is on the wall may fall to either side. They do not depend on the order of chains of motions, bit for bit, as long as there are
     no more than `sweeps.BATCH` pieces (breaking up a chain changes which cells are evaluated, and so the rounding).
 
     Args:
@@ -115,7 +98,7 @@ class _Job:
     def __init__(self, workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter], options: TrimOptions) -> None:
         self.workpiece, self.options = workpiece, options
         ensure_memory(workpiece.grid, 8 if options.trace else 4)
-        self.sweeps = Sweeps(workpiece.grid, course, cutters, (options.rapids, options.touch), options.trace)
+        self.sweeps = Sweeps(workpiece.grid, course, cutters, options)
         owner = np.full(workpiece.heights.shape if options.trace else (0, 0), -1, np.int32)
         self.field = Field(np.empty_like(workpiece.heights), owner)
         noted = len(course.motions) if options.trace else 0

@@ -22,11 +22,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from app.dexel.course import Course, Rapids
+from app.dexel.course import Course, Rapids, TrimOptions
 from app.dexel.cutter import Cutter
 from app.dexel.holder import Body
 from app.dexel.pieces import Splitter
-from app.dexel.trim import RapidHit, TrimOptions, trim
+from app.dexel.trim import RapidHit, trim
 from app.dexel.workpiece import Workpiece
 from app.model.motion import Floats, MotionKind
 from app.progress import NO_PROGRESS, Progress

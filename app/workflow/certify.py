@@ -13,10 +13,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.dexel.course import Rapids
+from app.dexel.course import Rapids, TrimOptions
 from app.dexel.cutter import Cutter
+from app.dexel.pieces import helix_chord
 from app.dexel.target import by_strips, frozen
-from app.dexel.trim import TrimOptions
 from app.dexel.workpiece import Heights, Workpiece
 from app.progress import NO_PROGRESS, Progress
 from app.workflow.judge import Wanted
@@ -50,9 +50,9 @@ def certify(before: Workpiece, part: Wanted, cutters: Mapping[int, Cutter], trim
     from app.dexel.judge_kernels import farthest
 
     pitch = before.grid.pitch
-    half = pitch / math.sqrt(2.0)
-    wide = {number: cutter.grown(half) for number, cutter in cutters.items()}
-    slim = {number: cutter.shrunk(half) or replace(cutter, lift=NOWHERE) for number, cutter in cutters.items()}
+    half, chord = pitch / math.sqrt(2.0), helix_chord(pitch)
+    wide = {number: cutter.grown(half + chord) for number, cutter in cutters.items()}
+    slim = {number: cutter.shrunk(half + chord) or replace(cutter, lift=NOWHERE) for number, cutter in cutters.items()}
     progress.step(0.0, "Looking between the cells")
     low = trimming(wide, TrimOptions(Rapids.CUT), progress.part(0.0, 0.4))
     high = trimming(slim, TrimOptions(Rapids.IGNORED), progress.part(0.4, 0.8))

@@ -11,9 +11,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from app.dexel.course import Course, Rapids
+from app.dexel.course import Course, Rapids, TrimOptions
 from app.dexel.cutter import Cutter
-from app.dexel.trim import RapidHit, TrimOptions, trim
+from app.dexel.trim import RapidHit, trim
 from app.dexel.workpiece import Grid, Stock, Workpiece
 from app.model.motion import Floats, MotionKind
 from app.model.motion_path import reach

@@ -9,10 +9,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from app.dexel.course import TrimOptions
 from app.dexel.cutter import Cutter, cutter_of
 from app.dexel.engines import Engine, Graphics, HeightEngine, Job, Told, hardware
 from app.dexel.probe import lowest
-from app.dexel.trim import Cut, TrimOptions, trim
+from app.dexel.trim import Cut, trim
 from app.dexel.workpiece import Grid, Heights, Stock, Workpiece, ensure_memory
 from app.model.finding import Finding, FindingKind, worst_first
 from app.model.motion import Floats

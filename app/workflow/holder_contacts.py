@@ -15,11 +15,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from app.dexel.course import Course, Rapids
+from app.dexel.course import Course, Rapids, TrimOptions
 from app.dexel.cutter import Cutter
 from app.dexel.holder import Body, Part, bodies_of
 from app.dexel.pyramid import Led, Pyramid, shape_rows
-from app.dexel.trim import TrimOptions, trim
+from app.dexel.trim import trim
 from app.dexel.workpiece import Workpiece
 from app.model.motion import Floats
 from app.model.motion_path import reach

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.dexel.trim import TrimOptions, trim
+from app.dexel.course import TrimOptions
+from app.dexel.trim import trim
 from app.dexel.workpiece import Grid, Heights
 from app.files.holders import outline_of
 from app.model.tool import Tool, ToolKind

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
+from app.dexel.course import TrimOptions
 from app.dexel.history import History, Playhead, changed_box
 from app.dexel.sweeps import Field
-from app.dexel.trim import TrimOptions, trim
+from app.dexel.trim import trim
 from app.workflow.die_programs import PROGRAMS, block
 from tests.benchmarks.conftest import OURS, record
 

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from app.dexel.course import Course
+from app.dexel.course import Course, TrimOptions
 from app.dexel.cutter import Cutter, cutter_of
-from app.dexel.trim import Cut, TrimOptions, trim
+from app.dexel.trim import Cut, trim
 from app.dexel.workpiece import BoxStock, Grid, Workpiece
 from app.model.motion import Floats, MotionKind, Motions, Plane
 from app.model.stock_box import StockBox

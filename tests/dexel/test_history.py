@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.dexel import sweeps
-from app.dexel.course import Course
+from app.dexel.course import Course, TrimOptions
 from app.dexel.history import History, HistoryOptions, Playhead, changed_box
 from app.dexel.sweeps import Field
-from app.dexel.trim import TrimOptions, trim
+from app.dexel.trim import trim
 from app.dexel.workpiece import Workpiece
 from app.errors import Cancelled
 from app.model.motion import MotionKind, Motions

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.dexel.course import TrimOptions
 from app.dexel.pieces import CHORD, Pieces, Splitter, Window
-from app.dexel.trim import TrimOptions
 from app.dexel.workpiece import BoxStock, Grid
 from app.fit.nurbs import nurbs_points
 from app.model.motion import Floats, MotionKind, Motions, Nurbs, Plane

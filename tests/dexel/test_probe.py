@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from app.dexel.course import Course
+from app.dexel.course import Course, TrimOptions
 from app.dexel.probe import lowest, over_straight
-from app.dexel.trim import TrimOptions, trim
+from app.dexel.trim import trim
 from app.dexel.workpiece import BoxStock, Grid
 from app.model.stock_box import StockBox
 from tests.dexel.courses import CUTTERS, arc, joined, polyline

@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.ndimage import maximum_filter, minimum_filter
 
+from app.dexel.course import TrimOptions
 from app.dexel.cutter import Cutter
-from app.dexel.trim import TrimOptions
 from app.dexel.workpiece import Heights, Workpiece
 from app.model.motion import Floats, Motions, Plane
 from app.model.motion_path import arc_paths

@@ -5,9 +5,9 @@ import threading
 import numpy as np
 import pytest
 
-from app.dexel.course import Course, Rapids
+from app.dexel.course import Course, Rapids, TrimOptions
 from app.dexel.cutter import Cutter
-from app.dexel.trim import TrimOptions, trim
+from app.dexel.trim import trim
 from app.dexel.workpiece import BoxStock, Grid, HeightStock
 from app.errors import Cancelled, ParameterError
 from app.model.motion import MotionKind, Plane

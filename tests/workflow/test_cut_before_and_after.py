@@ -20,9 +20,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.dexel.course import Course, Rapids
+from app.dexel.course import Course, Rapids, TrimOptions
 from app.dexel.cutter import Cutter
-from app.dexel.trim import TrimOptions, trim
+from app.dexel.trim import trim
 from app.dexel.workpiece import BoxStock, Grid
 from app.model.stock_box import StockBox
 from app.nc.linuxcnc_biarcs import driven

@@ -9,9 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.dexel.course import TrimOptions
 from app.dexel.cutter import cutter_of
 from app.dexel.sweeps import Field
-from app.dexel.trim import TrimOptions, trim
+from app.dexel.trim import trim
 from app.dexel.workpiece import BoxStock
 from app.model.motion import MotionKind
 from app.model.motion_path import anchored
