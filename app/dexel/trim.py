@@ -72,8 +72,9 @@ def trim(workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter], op
     """Cut a work piece.
 
     Heights are within 5e-6 mm (1 + slope of the surface) of exact for heights up to 32 mm, where a helix went within
-    `pieces.helix_chord`; beside a vertical wall a cell whose centre is on the wall may fall to either side. They do not depend on the order of chains of motions, bit for bit, as long as there are
-    no more than `sweeps.BATCH` pieces (breaking up a chain changes which cells are evaluated, and so the rounding).
+    `pieces.helix_chord`; beside a vertical wall a cell whose centre is on the wall may fall to either side. They do not depend on the
+    order of chains of motions, bit for bit, as long as there are no more than `sweeps.BATCH` pieces (breaking up a chain changes which
+    cells are evaluated, and so the rounding).
 
     Args:
         workpiece: it is left as it is.

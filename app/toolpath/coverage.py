@@ -26,6 +26,7 @@ from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program
 from app.model.tool import ToolKind
 from app.progress import NO_PROGRESS, Progress
+from app.toolpath.areas import common, united, without
 from app.toolpath.flat import flattened, grown, lines, move_rows
 from app.toolpath.proven import uncertain
 from app.toolpath.reachable import Fields, reached
@@ -92,6 +93,7 @@ class Coverage:
         places: every piece, the largest disc first.
         area_mm2: all floors.
         floor_mm: depth of the deepest floor, mm.
+        wanted: what was to be cleared, floor by floor.
         given_up: the skin that paths made from pixels left along the walls on purpose, the largest disc first; not among the places.
         given_up_mm: how thick it may be, mm; 0 for exact paths.
     """
@@ -104,6 +106,7 @@ class Coverage:
     floor_mm: float = 0.0
     given_up: tuple[Place, ...] = ()
     given_up_mm: float = 0.0
+    wanted: tuple[Wanted, ...] = field(default=(), repr=False)
 
     @property
     def given_up_mm2(self) -> float:
@@ -111,7 +114,8 @@ class Coverage:
         return sum(place.area_mm2 for place in self.given_up)
 
 
-def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: float = _DEPTH) -> Coverage:
+def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: float = _DEPTH,
+            found: tuple[Wanted, ...] | None = None) -> Coverage:  # fmt: skip
     """Measure what the moves of a program leave on the floor.
 
     Args:
@@ -119,12 +123,13 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: 
         job: tools and operations that the moves belong to.
         progress: looked at before every few boxes and every piece.
         miss: by which a move may miss the floor and still counts as on it, mm; more than nothing for moves that were read back.
+        found: what is to be cleared, where the caller knows it.
 
     Raises:
         Cancelled: the job was asked to stop.
     """
     progress.step(0.0, _TEXT)
-    found = wanted_of(program, job)
+    found = wanted_of(program, job) if found is None else found
     inner = wanted_of(program, job, program.allowance_mm) if program.allowance_mm else found
     fields = Fields()
     left: list[Place] = []
@@ -135,13 +140,13 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: 
         metal = _left(each.wanted, program.moves, (job, each.depth - miss), share.part(0.0, 0.6))
         if program.allowance_mm:
             skin = _skin(metal, each, deeper.reach, program.allowance_mm)
-            metal = _solid(shapely.difference(metal, skin))
+            metal = _solid(without(metal, skin))
             skins += _places(skin, True, share.part(0.6, 0.75))
         for place in _places(metal, True, share.part(0.75, 0.9)):
             share.step(0.9, _TEXT)
             within = reached(_inner(place), each.cutters, fields, place.disc_mm) or not each.cutters
             (left if within else corners).append(place if within else replace(place, reachable=False))
-        corners += _places(_solid(shapely.difference(each.floor, each.reach)), False, share.part(0.9, 1.0))
+        corners += _places(_solid(without(each.floor, each.reach)), False, share.part(0.9, 1.0))
     for places in (left, corners, skins):
         places.sort(key=lambda place: -place.disc_mm)
     return Coverage(
@@ -151,7 +156,7 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: 
         places=(*left, *corners),
         area_mm2=sum(float(each.floor.area) for each in found),
         floor_mm=max((each.depth for each in found), default=0.0),
-        given_up=tuple(skins), given_up_mm=program.allowance_mm,
+        given_up=tuple(skins), given_up_mm=program.allowance_mm, wanted=found,
     )  # fmt: skip
 
 
@@ -161,11 +166,10 @@ def _skin(left: Shape, areas: Wanted, inner: Shape, off: float) -> Shape:
     Args:
         inner: what some tool reaches that keeps `off` mm farther from the walls than asked.
     """
-    beyond = _solid(shapely.difference(left, inner))
-    thick = shapely.buffer(shapely.buffer(left, -_THICK * off), (_THICK + 1) * off)
-    pieces = shapely.get_parts(shapely.difference(areas.reach, left))
-    cleared = shapely.union_all(shapely.buffer(pieces, _TIP * off))  # one by one: the library takes the square of the time for all at once
-    return _solid(shapely.intersection(shapely.difference(beyond, thick), cleared))
+    beyond = _solid(without(left, inner))
+    thick = united(shapely.buffer(shapely.buffer(shapely.get_parts(left), -_THICK * off), (_THICK + 1) * off))
+    cleared = united(shapely.buffer(shapely.get_parts(without(areas.reach, left)), _TIP * off))
+    return _solid(common(without(beyond, thick), cleared))
 
 
 def _left(wanted: Shape, moves: Moves, where: tuple[Job, float], progress: Progress) -> Shape:
@@ -182,7 +186,7 @@ def _left(wanted: Shape, moves: Moves, where: tuple[Job, float], progress: Progr
         progress.step(0.5 + done / max(len(tiles), 1) / 2, _TEXT)  # no box is in doubt where no move cuts
         left.append(part.left())
         done += len(part.tiles)
-    return _solid(shapely.union_all(left))
+    return _solid(united(left))
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,7 +225,7 @@ class _Path:
         moves = np.unique(near(tree, lines(self.rows, rough), self.radius + rough + STRIP)[0])
         runs = _runs(self.rows[moves], self.chosen[moves])
         parts = [part for points in runs for part in _between_reversals(points)]
-        return shapely.union_all([shape for points in parts for shape in _widened(points, self.radius)])
+        return united([shape for points in parts for shape in _widened(points, self.radius)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -251,15 +255,15 @@ class _Doubt:
         order = np.argsort(self.boxes[:, axis] + self.boxes[:, axis + 2], kind="stable")
         for half in (order[:len(order) // 2], order[len(order) // 2:]):
             box = np.concatenate([self.boxes[half, :2].min(axis=0), self.boxes[half, 2:].max(axis=0)])
-            wanted = shapely.intersection(self.wanted, shapely.box(*box))
+            wanted = common(self.wanted, shapely.box(*box))
             yield from _Doubt(wanted, self.tiles[half], self.boxes[half], [path.near(box) for path in self.paths]).parts()
 
     def left(self) -> Shape:
         """Return what of the wanted area no move has cut in the boxes."""
-        left = shapely.intersection(self.wanted, shapely.union_all(self.tiles))
+        left = common(self.wanted, shapely.union_all(self.tiles))
         tree = shapely.STRtree(self.tiles)
         for path in self.paths:
-            left = shapely.difference(left, path.swept_near(tree))
+            left = without(left, path.swept_near(tree))
         return left
 
 
@@ -306,7 +310,7 @@ def _solid(shape: Shape) -> Shape:
     parts = shapely.get_parts(shape)
     kept = shapely.buffer(parts, -thin, join_style="mitre")
     there = ~shapely.is_empty(kept)  # to intersect nothing with lines and areas at once makes GEOS give up
-    return shapely.union_all(shapely.intersection(shapely.buffer(kept[there], thin, join_style="mitre"), parts[there]))
+    return united(shapely.intersection(shapely.buffer(kept[there], thin, join_style="mitre"), parts[there]))
 
 
 def _places(shape: Shape, reachable: bool, progress: Progress) -> tuple[Place, ...]:

@@ -21,6 +21,7 @@ from app.model.moves import Area, DogBone, Program, Tab
 from app.model.operation import ContourOperation, DrillOperation, Operation, PocketOperation, RestOperation, Side
 from app.model.part import Contour
 from app.model.tool import ToolKind
+from app.toolpath.areas import common, united, without
 from app.toolpath.flat import grown, region_shapes
 from app.toolpath.reachable import Cutter
 
@@ -127,7 +128,7 @@ class _Shapes:
 
     def reach(self, work: _Work) -> Shape:
         """Return what the operation's tool can cut without touching a wall: the opening by its disc."""
-        return shapely.union_all(self._once(work.area, self.wall(work) - FITS, self.job.tool(work.operation.cut.tool).radius - FITS))
+        return united(self._once(work.area, self.wall(work) - FITS, self.job.tool(work.operation.cut.tool).radius - FITS))
 
     def wall(self, work: _Work) -> float:
         """Return how far the centre of the operation's tool stays from walls, mm."""
@@ -151,7 +152,7 @@ def _wanted(group: Sequence[_Work], cutting: Sequence[_Work], made: _Shapes) -> 
     depth = max(each.depth for each in group)
     farthest = _farthest([each for each in cutting if each.depth > depth - _SAME and each.covers], made.job)
     cutters = tuple(Cutter(each.area.regions, made.wall(each), made.job.tool(each.operation.cut.tool).radius) for each in farthest)
-    reach = shapely.union_all([made.reach(each) for each in farthest])
+    reach = united([made.reach(each) for each in farthest])
     floors, wanted = [], []
     for work in group:
         if work.area.lines:
@@ -160,12 +161,12 @@ def _wanted(group: Sequence[_Work], cutting: Sequence[_Work], made: _Shapes) -> 
         shapes, leave = made.plain(work.area), work.operation.cut.stock_to_leave
         outside = isinstance(work.operation, ContourOperation) and work.operation.side is Side.OUTSIDE
         swath = _along_walls(work, made) if isinstance(work.operation, ContourOperation) else None
-        floor = shapely.union_all(grown(shapes, -leave, CHORD) if leave else shapes)
-        floors.append(shapely.intersection(floor, _band(work, made)) if outside else floor)
-        wanted.append(swath if swath is not None else shapely.intersection(reach, floor))
+        floor = united(grown(shapes, -leave, CHORD) if leave else shapes)
+        floors.append(common(floor, _band(work, made)) if outside else floor)
+        wanted.append(swath if swath is not None else common(reach, floor))
     lines = [each for work, each in zip(group, wanted, strict=True) if work.area.lines]
-    floor, asked = shapely.union_all([*floors, *lines]), shapely.union_all(wanted)
-    return Wanted(depth, floor, shapely.union_all([shapely.intersection(reach, floor), *lines]), asked,
+    floor, asked = united([*floors, *lines]), united(wanted)
+    return Wanted(depth, floor, united([common(reach, floor), *lines]), asked,
                   any(isinstance(each.operation, (PocketOperation, RestOperation)) for each in group), cutters)
 
 
@@ -186,22 +187,22 @@ def _farthest(works: Sequence[_Work], job: Job) -> list[_Work]:
 def _along_walls(work: _Work, made: _Shapes) -> Shape:
     """Return what the tool covers when its centre follows the walls, but not clamps."""
     radius, wall = made.job.tool(work.operation.cut.tool).radius, made.wall(work)
-    return shapely.buffer(_beside_bare(made.inner(work), work, wall), radius - FITS, quad_segs=64)
+    return united(shapely.buffer(_beside_bare(made.inner(work), work, wall), radius - FITS, quad_segs=64))
 
 
 def _band(work: _Work, made: _Shapes) -> Shape:
     """Return what the tool would cover if it could follow all walls: what lies as near to one as it is wide."""
     wide = work.operation.cut.stock_to_leave + made.job.tool(work.operation.cut.tool).diameter
-    return shapely.buffer(_beside_bare(made.plain(work.area), work, 0.0), wide, quad_segs=64)
+    return united(shapely.buffer(_beside_bare(made.plain(work.area), work, 0.0), wide, quad_segs=64))
 
 
-def _beside_bare(shapes: NDArray[np.object_], work: _Work, distance: float) -> Shape:
-    """Return the outlines of shapes, but for what runs along clamps or the frame, a distance from them, mm."""
-    outlines = shapely.union_all(shapely.boundary(shapes))
+def _beside_bare(shapes: NDArray[np.object_], work: _Work, distance: float) -> NDArray[np.object_]:
+    """Return the outlines of shapes (n,), but for what runs along clamps or the frame, a distance from them, mm."""
+    outlines = np.asarray(shapely.boundary(shapes), dtype=object)
     if not work.area.bare:
         return outlines
     bare = shapely.union_all([_line(contour) for contour in work.area.bare])
-    return shapely.difference(outlines, shapely.buffer(bare, distance + _BARE, quad_segs=64))
+    return np.asarray(shapely.difference(outlines, shapely.buffer(bare, distance + _BARE, quad_segs=64)), dtype=object)
 
 
 def _on_lines(work: _Work, made: _Shapes) -> Shape:
@@ -223,10 +224,10 @@ def _without_tabs(found: Wanted, tabs: Sequence[Tab], dog_bones: Sequence[DogBon
     """Return what is wanted without the metal that stands in tabs, and with what dog-bones cut into walls."""
     deep = [tab for tab in tabs if tab.top > -found.depth + _SAME]
     reach = [tab.width / 2 + tab.diameter for tab in deep]  # half the way over it, and the cutter's radius: also where the path is bent
-    held = shapely.union_all([shapely.Point(tab.x, tab.y).buffer(radius) for tab, radius in zip(deep, reach, strict=True)])
-    bones = shapely.union_all([bone_shape(bone) for bone in dog_bones])
-    floor = shapely.difference(found.floor, shapely.difference(bones, found.reach)) if dog_bones else found.floor
-    return replace(found, floor=floor, wanted=shapely.difference(found.wanted, held))
+    held = united([shapely.Point(tab.x, tab.y).buffer(radius) for tab, radius in zip(deep, reach, strict=True)])
+    bones = united([bone_shape(bone) for bone in dog_bones])
+    floor = without(found.floor, without(bones, found.reach)) if dog_bones else found.floor
+    return replace(found, floor=floor, wanted=without(found.wanted, held))
 
 
 def bone_shape(bone: DogBone) -> Shape:

@@ -43,7 +43,7 @@ def cut_job(program: Program, job: Job, written: Written, measured: tuple[Depths
     deviation = max((contour.deviation for contour in outlines), default=0.0)
     part = FlatPart(job, program.regions, origin, FlatPart.wall_tolerance + written.largest_distance_mm + deviation,
                     allowance=program.allowance_mm, areas=program.areas, lines=program.lines, clamps=program.clamps,
-                    tabs=program.tabs, dog_bones=program.dog_bones)
+                    tabs=program.tabs, dog_bones=program.dog_bones, floors=measured[1].wanted)
     programs = tuple(
         replace(read, states=tuple(replace(state, tool=state.tool or int(program.moves.tool[file.first])) for state in read.states))
         for file, read in zip(written.files, written.programs, strict=True)

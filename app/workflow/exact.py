@@ -53,7 +53,7 @@ def exact_of(part: FlatPart, courses: Sequence[Course], stock: StockBox,
     box = StockBox(stock.x0 + x, stock.y0 + y, stock.z0 + z, stock.x1 + x, stock.y1 + y, stock.z1 + z)
     depths = gouge_depths(program, part.job, box, by_tool=True, progress=progress.part(0.0, 0.2))
     flat = _flat(moves, part.job)
-    coverage = measure(program, part.job, progress.part(0.2, 1.0), part.tolerance) if flat else None
+    coverage = measure(program, part.job, progress.part(0.2, 1.0), part.tolerance, part.wanted) if flat else None
     return Exact(replace(depths, move=motion[depths.move]), coverage)
 
 

@@ -12,9 +12,10 @@ from shapely import Geometry as Shape
 from app.dexel.outline import inside
 from app.dexel.target import MARGIN, Target
 from app.dexel.workpiece import Grid
+from app.toolpath.areas import united, without
 from app.toolpath.build import MovesBuilder
 from app.toolpath.flat import grown, region_shapes
-from app.toolpath.wanted import CHORD, bone_shape, wanted_of
+from app.toolpath.wanted import CHORD, bone_shape
 from app.workflow.bounds import bounds_of
 from app.workflow.parts import FlatPart
 
@@ -37,7 +38,7 @@ def flat_target(part: FlatPart, grid: Grid) -> FlatTarget:
     Within the walls and their stock to leave metal is wanted down to the floor; it is gouged below the deepest operation that may
     be there. Elsewhere the part's top is wanted, and what stands on it is not spoken of.
     """
-    found = wanted_of(part.program(NO_MOVES), part.job)
+    found = part.wanted
     top, shape = np.float32(-part.origin[2]), (grid.rows, grid.cols)
     wanted, low = np.full(shape, top, np.float32), np.full(shape, top, np.float32)
     high, reach = np.full(shape, np.inf, np.float32), np.zeros(shape, bool)
@@ -46,17 +47,22 @@ def flat_target(part: FlatPart, grid: Grid) -> FlatTarget:
         floor = top - np.float32(each.depth)
         mine = _cells(each.floor, part, grid)
         wanted[mine if each.whole or not pockets else _cells(each.wanted, part, grid)] = floor
-        left = shapely.union(grown(each.wanted, -slack, CHORD), grown(shapely.difference(each.floor, each.reach), -slack, CHORD))
-        high[_cells(left, part, grid)] = floor
+        for left in (each.wanted, without(each.floor, each.reach)):
+            high[_cells(_shrunk(left, slack), part, grid)] = floor
         reach[mine] = False  # what a tool reaches that does not go as deep is no reach here
-        reach |= _cells(grown(each.reach, -slack, CHORD), part, grid)
+        reach |= _cells(_shrunk(each.reach, slack), part, grid)
     for bound in bounds_of(part.program(NO_MOVES), part.job):
-        mine = _cells(shapely.union_all(grown(region_shapes(bound.area.regions, CHORD), slack - bound.leave, CHORD)), part, grid)
+        mine = _cells(united(grown(region_shapes(bound.area.regions, CHORD), slack - bound.leave, CHORD)), part, grid)
         low[mine] = np.minimum(low[mine], top - np.float32(bound.floor))
         for bone in part.dog_bones:
             cells = _cells(grown(bone_shape(bone), slack, CHORD), part, grid)
             low[cells] = np.minimum(low[cells], top - np.float32(bound.floor))
     return FlatTarget(Target(grid, np.pad(wanted, MARGIN, mode="edge"), low, high), reach)
+
+
+def _shrunk(shape: Shape, by: float) -> Shape:
+    """Return what of each part of a shape is deeper inside than so many mm."""
+    return shapely.multipolygons(shapely.get_parts(grown(shapely.get_parts(shape), -by, CHORD)))
 
 
 def _cells(shape: Shape, part: FlatPart, grid: Grid) -> Mask:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 from app.dexel.solid import SolidStock
 from app.model.finding import Finding, FindingKind
@@ -11,6 +13,9 @@ from app.model.job import Job
 from app.model.moves import Area, DogBone, Moves, Program, Tab
 from app.model.part import Contour, Region
 from app.model.stock_box import StockBox, extent
+
+if TYPE_CHECKING:
+    from app.toolpath.wanted import Wanted
 
 TOLERANCE = 0.01
 """mm; metal within this of the part is neither gouged nor left."""
@@ -28,6 +33,7 @@ class FlatPart:
         tolerance: of heights, mm.
         allowance: so thick a skin may paths made from pixels leave along the walls, mm.
         areas, lines, clamps, tabs, dog_bones: as of a `Program`.
+        floors: what is to be cleared, where it is known already.
     """
 
     job: Job
@@ -41,6 +47,15 @@ class FlatPart:
     clamps: tuple[Region, ...] = ()
     tabs: tuple[Tab, ...] = ()
     dog_bones: tuple[DogBone, ...] = ()
+    floors: tuple[Wanted, ...] | None = None
+
+    @cached_property
+    def wanted(self) -> tuple[Wanted, ...]:
+        """What is to be cleared, the shallowest floor first."""
+        from app.toolpath.build import MovesBuilder  # a solid needs none of it
+        from app.toolpath.wanted import wanted_of
+
+        return wanted_of(self.program(MovesBuilder().moves()), self.job) if self.floors is None else self.floors
 
     def program(self, moves: Moves) -> Program:
         """Return moves as a program that makes this part."""

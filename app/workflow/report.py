@@ -235,12 +235,15 @@ def _tolerance(measured: Measured) -> Json:
 
 
 def _regions(program: Program) -> list[Json]:
+    moves = program.moves
+    cuts = moves.kind != MoveKind.RAPID
+    most = max((region.number for region in program.regions), default=0)
+    cut = np.bincount(np.clip(moves.region[cuts], 0, most + 1), moves.lengths()[cuts], most + 2)
     found = []
     for region in program.regions:
         x0, y0, x1, y1 = extent(region.contours) or (0.0, 0.0, 0.0, 0.0)
-        cut = (program.moves.region == region.number) & (program.moves.kind != MoveKind.RAPID)
         found.append({"number": region.number, "islands": len(region.islands), "layer": region.boundary.layer,
-                      "x0": x0, "y0": y0, "x1": x1, "y1": y1, "cut_mm": float(np.sum(program.moves.lengths()[cut]))})
+                      "x0": x0, "y0": y0, "x1": x1, "y1": y1, "cut_mm": float(cut[region.number])})
     return found
 
 

@@ -1,0 +1,68 @@
+"""Areas of many parts put together, cut and taken from one another: only parts whose boxes meet are brought to the library.
+
+An overlay takes what n log n takes for all edges of both its operands, though most parts of a drawing have nothing to do with most others.
+Parts of one area have no inside in common; they may touch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from shapely import Geometry as Shape
+
+Shapes = NDArray[np.object_]
+
+
+def united(shapes: Iterable[Shape] | Shapes | Shape) -> Shape:
+    """Return what any of some areas covers."""
+    parts = _parts(shapes)
+    if len(parts) < 2:
+        return _together(parts)
+    first, second = shapely.STRtree(parts).query(parts)
+    if np.all(first == second):
+        return _together(parts)
+    return shapely.disjoint_subset_union_all(parts)
+
+
+def common(one: Shape, other: Shape) -> Shape:
+    """Return what two areas have in common; lines and points along which they only touch are none of it."""
+    a, b = _parts(one), _parts(other)
+    if not len(a) or not len(b):
+        return shapely.Polygon()
+    second, first = shapely.STRtree(a).query(b)[[0, 1]]
+    return _together(_polygons(shapely.intersection(a[first], b[second])))
+
+
+def without(one: Shape, other: Shape) -> Shape:
+    """Return what of an area another one does not cover."""
+    a, b = _parts(one), _parts(other)
+    if not len(a) or not len(b):
+        return _together(a)
+    second, first = shapely.STRtree(a).query(b)
+    order = np.argsort(first, kind="stable")
+    met, at = np.unique(first[order], return_index=True)
+    left = a.copy()
+    left[met] = shapely.difference(a[met], [_together(b[rows]) for rows in np.split(second[order], at[1:])])
+    return _together(_polygons(left))
+
+
+def _parts(shapes: Iterable[Shape] | Shapes | Shape) -> Shapes:
+    """Return the polygons of which areas consist."""
+    several = shapes if isinstance(shapes, (Shape, np.ndarray)) else list(shapes)
+    return _polygons(shapely.get_parts(several))
+
+
+def _polygons(shapes: Shapes) -> Shapes:
+    """Return the polygons among shapes and their parts."""
+    parts = shapely.get_parts(shapely.get_parts(shapes))
+    return np.asarray(parts[(shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)], dtype=object)
+
+
+def _together(parts: Shapes) -> Shape:
+    """Return polygons that have no inside in common as one area."""
+    if not len(parts):
+        return shapely.Polygon()
+    return parts[0] if len(parts) == 1 else shapely.multipolygons(parts)
