@@ -52,7 +52,7 @@ class Moves:
         purpose: (n,) uint8 Purpose.
         operation: (n,) int16 index into the job's operations.
         tool: (n,) int16 T number.
-        region: (n,) int16 region number, 0 = none (between regions).
+        region: (n,) int32 region number, 0 = none (between regions).
         feed: (n,) feed rate, mm/min; 0 for rapids.
         line: (n,) int32 line of the NC text that holds the move, 1-based; 0 = not written yet.
     """
@@ -63,7 +63,7 @@ class Moves:
     purpose: NDArray[np.uint8]
     operation: NDArray[np.int16]
     tool: NDArray[np.int16]
-    region: NDArray[np.int16]
+    region: NDArray[np.int32]
     feed: Floats
     line: NDArray[np.int32]
 

@@ -173,7 +173,7 @@ class MovesBuilder:
             purpose=np.concatenate([np.zeros(0, np.uint8), *purposes]),
             operation=np.repeat(np.array([c[4].operation for c in self._columns], np.int16), counts),
             tool=np.repeat(np.array([c[4].tool for c in self._columns], np.int16), counts),
-            region=np.repeat(np.array([c[5] for c in self._columns], np.int16), counts),
+            region=np.repeat(np.array([c[5] for c in self._columns], np.int32), counts),
             feed=np.concatenate([np.zeros(0), *(np.broadcast_to(c[6], n) for c, n in zip(self._columns, counts, strict=True))]),
             line=np.zeros(sum(counts), np.int32),
         )

@@ -146,7 +146,7 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: 
             share.step(0.9, _TEXT)
             within = reached(_inner(place), each.cutters, fields, place.disc_mm) or not each.cutters
             (left if within else corners).append(place if within else replace(place, reachable=False))
-        corners += _places(_solid(without(each.floor, each.reach)), False, share.part(0.9, 1.0))
+        corners += _places(_solid(each.beyond), False, share.part(0.9, 1.0))
     for places in (left, corners, skins):
         places.sort(key=lambda place: -place.disc_mm)
     return Coverage(

@@ -68,7 +68,7 @@ def surface_moves(families: Sequence[Milling], clearance: float, approach: float
     moves = Moves(
         np.array([row.end for row in rows]).reshape(-1, 3), np.full((count, 2), np.nan), kind,
         np.array([row.purpose for row in rows], np.uint8), np.array([row.operation for row in rows], np.int16),
-        np.array([row.tool for row in rows], np.int16), np.zeros(count, np.int16), np.array([row.feed for row in rows]),
+        np.array([row.tool for row in rows], np.int16), np.zeros(count, np.int32), np.array([row.feed for row in rows]),
         np.zeros(count, np.int32))  # fmt: skip
     return SurfaceMoves(moves, np.array([row.surface for row in rows], np.int64))
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -57,6 +58,11 @@ class Wanted:
     wanted: Shape
     whole: bool
     cutters: tuple[Cutter, ...] = ()
+
+    @cached_property
+    def beyond(self) -> Shape:
+        """What of the floor no tool reaches."""
+        return without(self.floor, self.reach)
 
 
 def wanted_of(program: Program, job: Job, off: float = 0.0) -> tuple[Wanted, ...]:
@@ -116,6 +122,7 @@ class _Shapes:
     job: Job
     off: float
     _made: dict[tuple[int, float, float], NDArray[np.object_]] = field(default_factory=dict)
+    _floors: dict[tuple[int, float], Shape] = field(default_factory=dict)
     _kept: list[Area] = field(default_factory=list)
 
     def plain(self, area: Area) -> NDArray[np.object_]:
@@ -125,6 +132,14 @@ class _Shapes:
     def inner(self, work: _Work) -> NDArray[np.object_]:
         """Return where the centre of the operation's tool may be."""
         return self._once(work.area, self.wall(work) - FITS, 0.0)
+
+    def floor(self, work: _Work) -> Shape:
+        """Return what of the operation's area is within the stock to leave on its walls."""
+        shapes, leave = self.plain(work.area), work.operation.cut.stock_to_leave
+        key = id(work.area.regions), leave
+        if key not in self._floors:
+            self._floors[key] = united(grown(shapes, -leave, CHORD) if leave else shapes)
+        return self._floors[key]
 
     def reach(self, work: _Work) -> Shape:
         """Return what the operation's tool can cut without touching a wall: the opening by its disc."""
@@ -153,21 +168,22 @@ def _wanted(group: Sequence[_Work], cutting: Sequence[_Work], made: _Shapes) -> 
     farthest = _farthest([each for each in cutting if each.depth > depth - _SAME and each.covers], made.job)
     cutters = tuple(Cutter(each.area.regions, made.wall(each), made.job.tool(each.operation.cut.tool).radius) for each in farthest)
     reach = united([made.reach(each) for each in farthest])
-    floors, wanted = [], []
+    within: dict[int, tuple[Shape, Shape]] = {}  # floors by their identity, and what of each is reached: operations often share one
+    wanted, lines = [], []
     for work in group:
         if work.area.lines:
-            wanted.append(_on_lines(work, made))
+            lines.append(_on_lines(work, made))
             continue
-        shapes, leave = made.plain(work.area), work.operation.cut.stock_to_leave
-        outside = isinstance(work.operation, ContourOperation) and work.operation.side is Side.OUTSIDE
-        swath = _along_walls(work, made) if isinstance(work.operation, ContourOperation) else None
-        floor = united(grown(shapes, -leave, CHORD) if leave else shapes)
-        floors.append(common(floor, _band(work, made)) if outside else floor)
-        wanted.append(swath if swath is not None else common(reach, floor))
-    lines = [each for work, each in zip(group, wanted, strict=True) if work.area.lines]
-    floor, asked = united([*floors, *lines]), united(wanted)
-    return Wanted(depth, floor, united([common(reach, floor), *lines]), asked,
-                  any(isinstance(each.operation, (PocketOperation, RestOperation)) for each in group), cutters)
+        floor = made.floor(work)
+        if isinstance(work.operation, ContourOperation) and work.operation.side is Side.OUTSIDE:
+            floor = common(floor, _band(work, made))
+        if id(floor) not in within:
+            within[id(floor)] = floor, common(reach, floor)
+        wanted.append(_along_walls(work, made) if isinstance(work.operation, ContourOperation) else within[id(floor)][1])
+    asked = united([*{id(each): each for each in wanted}.values(), *lines])
+    floor, reached = (united([*(pair[k] for pair in within.values()), *lines]) for k in (0, 1))
+    whole = any(isinstance(each.operation, (PocketOperation, RestOperation)) for each in group)
+    return Wanted(depth, floor, reached, asked, whole, cutters)
 
 
 def _farthest(works: Sequence[_Work], job: Job) -> list[_Work]:

@@ -12,7 +12,7 @@ from shapely import Geometry as Shape
 from app.dexel.outline import inside
 from app.dexel.target import MARGIN, Target
 from app.dexel.workpiece import Grid
-from app.toolpath.areas import united, without
+from app.toolpath.areas import united
 from app.toolpath.build import MovesBuilder
 from app.toolpath.flat import grown, region_shapes
 from app.toolpath.wanted import CHORD, bone_shape
@@ -47,7 +47,7 @@ def flat_target(part: FlatPart, grid: Grid) -> FlatTarget:
         floor = top - np.float32(each.depth)
         mine = _cells(each.floor, part, grid)
         wanted[mine if each.whole or not pockets else _cells(each.wanted, part, grid)] = floor
-        for left in (each.wanted, without(each.floor, each.reach)):
+        for left in (each.wanted, each.beyond):
             high[_cells(_shrunk(left, slack), part, grid)] = floor
         reach[mine] = False  # what a tool reaches that does not go as deep is no reach here
         reach |= _cells(_shrunk(each.reach, slack), part, grid)

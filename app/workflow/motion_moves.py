@@ -56,7 +56,7 @@ def moves_of(course: Course, job: Job, origin: tuple[float, float, float]) -> Mo
     for number in np.unique(tool).tolist():
         operation[tool == number] = _operation(job, number)
     purpose, feed = np.where(rapid, Purpose.RAPID, Purpose.POCKET).astype(np.uint8), course.motions.feed[rows[order]]
-    moves = Moves(end, centre, kind, purpose, operation, tool, np.zeros(len(order), np.int16), np.where(rapid, 0.0, feed),
+    moves = Moves(end, centre, kind, purpose, operation, tool, np.zeros(len(order), np.int32), np.where(rapid, 0.0, feed),
                   course.motions.line[rows[order]])
     return MotionMoves(moves, rows[order])
 

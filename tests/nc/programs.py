@@ -56,7 +56,7 @@ class Path:
         end, centre, kind, purpose, operation, tool, region, feed = (list(column) for column in zip(*self.rows, strict=True))
         return Moves(
             np.array(end, float), np.array(centre, float), np.array(kind, np.uint8), np.array(purpose, np.uint8),
-            np.array(operation, np.int16), np.array(tool, np.int16), np.array(region, np.int16), np.array(feed, float),
+            np.array(operation, np.int16), np.array(tool, np.int16), np.array(region, np.int32), np.array(feed, float),
             np.zeros(len(kind), np.int32),
         )  # fmt: skip
 

@@ -38,7 +38,7 @@ def moves_of(rows: list[Row]) -> Moves:
     cut = [0.0 if k is MoveKind.RAPID else 600.0 for k in kind]
     operation = [1 if p is Purpose.CONTOUR else 0 for p in purpose]
     return Moves(np.array(end, float), np.array(centre, float), np.array(kind, np.uint8), np.array(purpose, np.uint8),
-                 np.array(operation, np.int16), np.array(operation, np.int16) + np.int16(1), np.array(region, np.int16),
+                 np.array(operation, np.int16), np.array(operation, np.int16) + np.int16(1), np.array(region, np.int32),
                  np.array(cut), np.zeros(len(rows), np.int32))
 
 
