@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import io
 import pickle
 import sys
 import threading
@@ -123,6 +124,30 @@ class _MachineCode:
         return int(self.codegen._engine.get_function_address(name))
 
 
+class _Unpickler(pickle.Unpickler):
+    """Makes the environments of compiled functions without importing what these were written in: 0.15 s for one sorted array."""
+
+    def find_class(self, module: str, name: str) -> Any:
+        """Return what a name of a module stands for."""
+        if (module, name) == ("numba.core.environment", "_rebuild_env"):
+            return _environment
+        return super().find_class(module, name)
+
+
+def _environment(module: str, constants: list[Any], name: str) -> Any:
+    """Return the environment of a function, whose globals are for code that goes back to Python; kernels never do."""
+    from numba.core.environment import Environment, lookup_environment
+
+    known = lookup_environment(name)
+    if known is not None:
+        return known
+    made = Environment({"__name__": module})
+    made.consts[:] = constants
+    made.env_name = name
+    Environment._memo[name] = made
+    return made
+
+
 def load(made: Any, code: bytes) -> None:
     """Give a dispatcher what `compile_to` once gave, so that Python can call it.
 
@@ -132,7 +157,7 @@ def load(made: Any, code: bytes) -> None:
     from numba.core.compiler import CompileResult
 
     with _without_scipy():  # which what is unpickled may import too
-        library, function, environment, signature, *_, reloaded, environments = pickle.loads(code)
+        library, function, environment, signature, *_, reloaded, environments = _Unpickler(io.BytesIO(code)).load()
     for each in reloaded:
         each()
     context = made.targetctx
