@@ -8,10 +8,10 @@ import pytest
 
 from app.errors import InputError
 from app.files.drawing import Drawing, read_drawing
-from app.files.read_options import ReadOptions
 from app.model.curves import Circle, Line
 from app.model.finding import Finding, FindingKind
 from app.model.part import Units
+from app.model.read_options import Reading, ReadOptions
 from app.workflow.plausible import read_plausible
 
 
@@ -203,7 +203,7 @@ def test_paper_space_is_offered_and_read() -> None:
 def sized(units: int, given: Units | None, diameter: float = 6.0) -> Drawing:
     document = new(units)
     plate(document.modelspace())
-    return read_plausible("x.dxf", bytes_of(document), (given, ()), ReadOptions(), lambda _: [diameter])
+    return read_plausible("x.dxf", bytes_of(document), Reading(given), lambda _: [diameter])
 
 
 def width(drawing: Drawing) -> float:
