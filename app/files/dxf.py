@@ -81,13 +81,14 @@ def read_dxf(
     if not found.entities:
         raise UndecidedError(f"{name}: {_nothing(sheet, found, others)}", _asked(sheet, found, others, (reading, unit)))
     part = Part(name=PurePath(name).stem, units=unit.shown, layers=_layers(document, found.entities)).with_entities(found.entities)
+    names = tuple(layer.name for layer in part.layers)
     part = on_layers(part, layers, name)
     left_out = sheet.left_out + Counter({PAPER: others.total()})
     nothing = [None if p is None else to_mm.point(p) for p in sheet.without_length] + found.nothing
     findings = [*_unit_findings(units, unit), *about_commas(loaded.commas), *_damage(loaded.repaired), *about_place(found),
                 *about_negative(sheet, unit.size), *without_length(nothing), *_heights(sheet, unit.size), *about_hidden(sheet, unit.size),
                 *switched_off(part, layers), *all_left_out(+left_out)]  # fmt: skip
-    contents = Contents(tuple(papers.items()), tuple(sorted(walker.types)))
+    contents = Contents(names, tuple(papers.items()), tuple(sorted(walker.types)), unit.own)
     question = strays_or_none(found, reading, placed) or (None if unit.named or units else about_units(unit.shown, size_of(part), reading))
     return Drawing(part, tuple(findings), tuple(sorted((+left_out + found.missing).items())), unit.named, contents, question)
 
@@ -112,6 +113,11 @@ class _Unit:
     shown: Units
     named: bool
     overruled: Units | None = None
+
+    @property
+    def own(self) -> Units | None:
+        """What the file names, nearest to it; None = nothing."""
+        return self.overruled or (self.shown if self.named else None)
 
 
 def _unit(document: Any, data: bytes, given: Units | None, overrule: bool) -> _Unit:

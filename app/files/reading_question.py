@@ -65,12 +65,16 @@ class Contents:
     """What a file holds that can be chosen from.
 
     Attributes:
-        layouts: of paper space, with how many entities are in each. types: of the entities that were met, in order.
+        layers: names of all layers. layouts: of paper space, with how many entities are in each.
+        types: of the entities that were met, in order.
+        units: that it names; None = none.
         per_inch: user units to the inch that its generator has; None where there is no need for it. editor: that generator, or "".
     """
 
+    layers: tuple[str, ...] = ()
     layouts: tuple[tuple[str, int], ...] = ()
     types: tuple[str, ...] = ()
+    units: Units | None = None
     per_inch: float | None = None
     editor: str = ""
 

@@ -105,7 +105,9 @@ def read_svg(
     part = on_layers(part, layers, name)
     findings = [*_units(units, page, density, how), *about_place(found), *_faults(sheet), *without_length(sheet.nothing + found.nothing),
                 *_clipped(sheet), *switched_off(part, layers), *all_left_out(sheet.left_out)]  # fmt: skip
-    contents = Contents(per_inch=None if page.named else density_of(root).per_inch, editor=density_of(root).editor)
+    own = density_of(root)
+    contents = Contents(tuple(layer.name for layer in shown), units=page.shown if page.named else None,
+                        per_inch=None if page.named else own.per_inch, editor=own.editor)  # fmt: skip
     question = strays_or_none(found, reading, placed)
     if question is None and not (page.named or units or how.pixels_per_inch):
         question = _about_pixels(root, density, (size_of(part), page.to), reading)

@@ -80,6 +80,9 @@ class Reading:
         return replace(self, units=None, how=replace(self.how, overrule=False, pixels_per_inch=per_inch))
 
 
+AS_THE_FILE_SAYS = Reading()
+
+
 @dataclass(frozen=True, slots=True)
 class Source:
     """The file that a part was read from, and how, so that it can be read again in another way.
@@ -89,7 +92,7 @@ class Source:
     """
 
     path: str
-    reading: Reading = Reading()
+    reading: Reading = AS_THE_FILE_SAYS
 
     def from_folder(self, folder: Path) -> Source:
         """Return it with the path as it is seen from elsewhere, where it is told from this folder."""
