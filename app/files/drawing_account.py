@@ -23,7 +23,7 @@ MOST_CURVES = 500_000
 """A drawing that unfolds to more curves than this is refused before it fills the memory."""
 
 BEYOND = "curve beyond 1 km or without a place"
-MOVE = "move the drawing to zero in the CAD program, or say --to-zero and it is done on reading"
+MOVE = "move the drawing to zero in the CAD program, or say --to-zero (in the window: File, Reading options) and it is done on reading"
 _GONE = {True: "is missing from the part", False: "are missing from the part"}
 _COUNTABLE = 1e10
 """mm; beyond, neighbouring doubles are further apart than WELD, so that no shape is left to be moved."""
