@@ -149,11 +149,11 @@ def about_size(size: Size, whence: str, keep: Choice, others: Iterable[tuple[Uni
     Args:
         size: as it was read, mm. whence: why in these units.
         keep: the answer that this is right, after which it is read all the same.
-        others: units that may be meant, with the size in them, mm.
+        others: units that may be meant, with the size in them, mm; none where no size would be better.
         tools: diameters, mm.
     """
     offered = list(others)
-    likely = min(offered, key=lambda each: _oddness(each[1], tools))[0]
+    likely = min(offered, key=lambda each: _oddness(each[1], tools), default=(None,))[0]
     choices = [Choice(f"Take it as {UNIT_WORDS[each]}", keep.reading.in_units(each), size_words(found), likely=each is likely)
                for each, found in offered]
     choices.sort(key=lambda choice: not choice.likely)

@@ -74,7 +74,7 @@ QPushButton[role="primary"]:focus { border-color: $ink; }
 QPushButton[role="primary"]:disabled { background: $hover; color: $muted; border-color: $hairline; }
 QPushButton[role="link"] { border: 0; background: transparent; color: $accent_text; padding: 2px 4px; text-align: left; }
 QPushButton[role="link"]:hover { text-decoration: underline; }
-QPushButton[role="drop"] { border: 0; border-bottom: 1px solid $edge; border-radius: 0; padding: 2px 6px; text-align: left; }
+QPushButton[role="drop"] { border: 0; border-bottom: 1px solid $edge; border-radius: 0; padding: 2px 6px; }
 QPushButton[role="drop"]:focus { border-bottom: 1px solid $accent_text; }
 QPushButton[role="drop"]::menu-indicator { image: url($arrow); width: 12px; height: 12px; right: 4px;
   subcontrol-origin: padding; subcontrol-position: center right; }

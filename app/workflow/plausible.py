@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import PurePath
 
+from app.errors import InputError
 from app.files.drawing import Drawing, read_drawing
 from app.files.drawing_account import size_of
 from app.files.reading_question import UNIT_WORDS, Choice, Question, Size, UndecidedError, about_size, size_words
@@ -63,9 +64,12 @@ def _read(name: str, data: bytes, reading: Reading) -> Drawing:
 
 
 def _size_in(units: Units, drawing: Drawing, reading: Reading, file: tuple[str, bytes]) -> Size:
-    """Return the size of a drawing in other units, mm: of an SVG, whose page may be scaled, by reading it so."""
+    """Return the size of a drawing in other units, mm: of an SVG, whose page may be scaled, by reading it so; (0, 0) where it cannot be."""
     if PurePath(file[0]).suffix.lower() == ".svg":
-        return size_of(_read(*file, reading.in_units(units)).part, reading.layers)
+        try:
+            return size_of(_read(*file, reading.in_units(units)).part, reading.layers)
+        except InputError:
+            return (0.0, 0.0)
     wide, high = size_of(drawing.part, reading.layers)
     factor = units.value / drawing.part.units.value
     return wide * factor, high * factor
@@ -80,7 +84,8 @@ def _question(drawing: Drawing, reading: Reading, tools: tuple[float, ...], size
         whence = f"The file names {UNIT_WORDS[units]}" if drawing.units_named else f"It names no units and was read in {UNIT_WORDS[units]}"
         keep = Choice(f"Keep {UNIT_WORDS[units]}", replace(reading, units=units), size_words(size))
     others = [(each, sized(each)) for each in _LIKELY if each is not units or per_inch is not None]
-    return about_size(size, whence, keep, others, tools)
+    fitting = [(each, found) for each, found in others if max(found) and not _doubt(found, tools)]
+    return about_size(size, whence, keep, fitting, tools)
 
 
 def read_for(name: str, data: bytes, options: MakeOptions) -> Drawing:
@@ -107,7 +112,11 @@ def doubt_of(part: Part, layers: tuple[str, ...], diameters: tuple[float, ...]) 
     Args:
         layers: that are machined; empty = all visible ones. diameters: of the tools, mm.
     """
-    wide, high = size_of(part, layers)
+    return _doubt(size_of(part, layers), diameters)
+
+
+def _doubt(found: Size, diameters: tuple[float, ...]) -> str:
+    wide, high = found
     if not (wide or high) or not diameters:
         return ""
     longest, size = max(wide, high), f"the drawing is {wide:.6g} x {high:.6g} mm"

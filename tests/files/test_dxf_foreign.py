@@ -8,6 +8,8 @@ import pytest
 
 from app.errors import InputError
 from app.files.drawing import Drawing, read_drawing
+from app.files.drawing_account import size_of
+from app.files.reading_question import UndecidedError, size_words
 from app.model.curves import Circle, Line
 from app.model.finding import Finding, FindingKind
 from app.model.part import Units
@@ -247,3 +249,25 @@ def test_layers_and_types_are_left_out_as_asked() -> None:
 def test_options_that_say_nothing_of_a_kind_of_file_are_refused(name: str, how: dict[str, Any], option: str) -> None:
     with pytest.raises(InputError, match=f"^{option} is for .* and says nothing of {name}"):
         read_drawing(name, b"", None, (), ReadOptions(**how))
+
+
+def test_units_that_would_be_no_better_are_not_offered() -> None:
+    """3e5 pixels are 79 m: no unit that is offered makes them less, and in metres they lie beyond 1 km."""
+    text = b'<svg xmlns="http://www.w3.org/2000/svg"><rect width="3e5" height="1e5" stroke="red" fill="none"/></svg>'
+    with pytest.raises(UndecidedError, match="79375 x 26458") as caught:
+        read_plausible("a.svg", text, Reading(), lambda _: [6.0])
+    question = caught.value.question
+    assert question is not None and [choice.words for choice in question.choices] == ["Keep 96 to the inch"]
+    assert read_plausible("a.svg", text, question.choices[0].reading, lambda _: [6.0]).part.entities
+
+
+def test_every_answer_is_read_as_it_says() -> None:
+    document = new(6)
+    plate(document.modelspace())
+    with pytest.raises(UndecidedError) as caught:
+        read_plausible("a.dxf", bytes_of(document), Reading(), lambda _: [6.0])
+    question = caught.value.question
+    assert question is not None and [choice.likely for choice in question.choices] == [True, False, False]
+    for choice in question.choices:
+        part = read_plausible("a.dxf", bytes_of(document), choice.reading, lambda _: [6.0]).part
+        assert choice.outcome == size_words(size_of(part))

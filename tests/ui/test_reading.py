@@ -230,7 +230,7 @@ def test_the_page_shows_how_it_was_read_and_reads_it_again(qtbot, wiring, tmp_pa
     reread(qtbot, wiring, lambda: section.to_zero.switch.click())
     assert wiring.window_.canvas.picture.lookup.box == pytest.approx((0.0, 0.0, 40.0, 20.0))
     reread(qtbot, wiring, lambda: section.layers.menu.actions()[[a.text() for a in section.layers.menu.actions()].index("Holes")].trigger())
-    assert len(wiring.document.part.entities) == 4 and section.layers.button.text() == "Holes"
+    assert len(wiring.document.part.entities) == 4 and section.layers.text.text() == "Holes"
     reread(qtbot, wiring, lambda: section.layout_.chosen.emit("A3"))
     assert source(wiring).reading.how == ReadOptions(layout="A3", to_zero=True, without_layers=("Holes",))
     assert wiring.document.undo_name == "Read both.dxf"
@@ -260,7 +260,7 @@ def test_a_way_in_which_it_cannot_be_read_is_refused_and_shown_no_longer(qtbot, 
     with qtbot.waitSignal(wiring.files.rereading.failed, timeout=WAIT_MS) as caught:
         section.layers.chosen.emit(("0",))
     assert "without layer 0 nothing is left" in caught.args[0]
-    assert section.layers.button.text() == "none" and source(wiring).reading == Reading()
+    assert section.layers.text.text() == "none" and source(wiring).reading == Reading()
 
 
 def test_a_project_keeps_how_its_drawing_was_read_and_opens_without_a_question(qtbot, wiring, tmp_path) -> None:

@@ -18,7 +18,7 @@ from app.ui.panels.fields import LABEL_WIDTH, ROW_HEIGHT, ListField, NumberField
 from app.ui.panels.form import SwitchField
 from app.ui.panels.section import Section
 
-MODEL_SPACE, NOTHING = "Model space", "none"
+MODEL_SPACE, NOTHING, ALL_SHOWN = "Model space", "none", "all that are shown"
 PER_INCH = Spec("Per inch", "", LEAST_PER_INCH, MOST_PER_INCH, 3, False,
                 "Units of the page to the inch: 96 by CSS, 90 of Inkscape before 0.92, 72 of Illustrator.", "auto")
 
@@ -32,19 +32,26 @@ class ChecksField(QWidget):
 
     chosen = Signal(object)
 
-    def __init__(self, name: str, tip: str) -> None:
+    def __init__(self, name: str, tip: str, empty: str = NOTHING) -> None:
+        """Make a field; `empty` is shown while none is checked."""
         super().__init__()
+        self._empty = empty
         self._names: tuple[str, ...] = ()
         self._on: tuple[str, ...] = ()
-        self.button, self.menu = QPushButton(), QMenu(self)
+        self.button, self.menu, self.text = QPushButton(), QMenu(self), Elided()
         self.button.setProperty("role", "drop")
         self.button.setFixedHeight(ROW_HEIGHT)
         self.button.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.button.setMenu(self.menu)
         self.button.setAccessibleName(name)
         self.setToolTip(tip)
+        inside = QHBoxLayout(self.button)
+        inside.setContentsMargins(6, 0, 20, 0)
+        inside.addWidget(self.text)
+        self.text.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         label = muted(name)
         label.setFixedWidth(LABEL_WIDTH)
+        label.setBuddy(self.button)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 1, 0, 1)
         row.setSpacing(8)
@@ -61,7 +68,8 @@ class ChecksField(QWidget):
             action.setCheckable(True)
             action.setChecked(name.casefold() in known)
             action.triggered.connect(lambda checked, each=name: self._choose(each, checked))
-        self.button.setText(", ".join(on) or NOTHING)
+        self.text.setText(", ".join(on) or self._empty)
+        self.button.setAccessibleDescription(self.text.text())
         self.button.setEnabled(bool(self._names))
 
     def _choose(self, name: str, checked: bool) -> None:
@@ -93,7 +101,7 @@ class ReadingSection(Section):
         self.layout_ = ListField("Layout", [("", MODEL_SPACE)])
         self.per_inch = NumberField(PER_INCH)
         self.to_zero = SwitchField("To zero", "The drawing is moved so that its lower left corner is zero.")
-        self.only = ChecksField("Only layers", "Curves on these layers alone are read, frozen ones too; none = all that are shown.")
+        self.only = ChecksField("Only layers", "Curves on these layers alone are read, frozen ones too.", ALL_SHOWN)
         self.layers = ChecksField("Skip layers", "Curves on these layers are left out, such as centre lines.")
         self.types = ChecksField("Skip types", "Entities of these types are left out, such as TEXT or HATCH.")
         self.read_again = QPushButton("Read again")
