@@ -10,6 +10,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
+from app.edit.document import Change
 from app.files.drawing import SUFFIXES
 from app.files.project import Look, Project
 from app.model.part import Part
@@ -65,6 +66,7 @@ class Files(QObject):
         self.opening.opened.connect(self._on_opened)
         self.opening.asked.connect(self._ask_how)
         self.exporting.written.connect(self._on_written)
+        self._unsubscribe = window.document.subscribe(lambda change: window.card.hide() if change & Change.LOADED else None)
 
     @property
     def _would_lose(self) -> bool:
@@ -176,7 +178,6 @@ class Files(QObject):
         self._computation.forget(opened.drawing.findings)
         self._log.note(f"open {opened.path.name}", self._opened_sentence(opened))
         window.notice.hide()
-        window.card.hide()
         self.rereading.know(opened)
         if opened.project is not None:
             self.saving.beside.mark_saved(opened.project.beside)

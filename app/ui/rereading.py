@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -121,6 +121,8 @@ class Rereading(QObject):
 
     def _take(self, opened: Opened) -> None:
         assert opened.source is not None
+        part = replace(opened.job.part, name=self._document.part.name)  # a project names its part
+        opened = replace(opened, job=replace(opened.job, part=part))
         self._remember(opened.source, opened)
         self._document.read_again(f"Read {opened.path.name}", opened.job, opened.source)
         size = opened.size or (0.0, 0.0)

@@ -167,6 +167,12 @@ def test_what_was_drawn_meanwhile_is_not_lost_to_the_answer(qtbot, wiring, tmp_p
     assert len(wiring.document.part.entities) == 1
 
 
+def test_a_question_goes_with_the_drawing_that_it_is_about(qtbot, wiring, tmp_path) -> None:
+    ask(qtbot, wiring, written(tmp_path / "none.dxf", in_metres, 0))
+    wiring.files.new()
+    assert not wiring.window_.card.isVisible()
+
+
 def test_a_dropped_file_and_a_recent_one_are_asked_about_alike(qtbot, wiring, tmp_path) -> None:
     path, window = written(tmp_path / "far.dxf", far), wiring.window_
     data = QMimeData()
@@ -264,12 +270,12 @@ def test_a_way_in_which_it_cannot_be_read_is_refused_and_shown_no_longer(qtbot, 
 
 
 def test_a_project_keeps_how_its_drawing_was_read_and_opens_without_a_question(qtbot, wiring, tmp_path) -> None:
-    path = written(tmp_path / "yard.dxf", in_metres, 6)
+    path = written(tmp_path / "drawn.dxf", in_metres, 6)
     ask(qtbot, wiring, path)
     answer(qtbot, wiring, "Take it as mm")
     save_to(qtbot, wiring, tmp_path / "yard.hito")
     assert load_project(tmp_path / "yard.hito")[0].state.source == source(wiring)
-    assert 'path = "yard.dxf"' in (tmp_path / "yard.hito").read_text("utf-8")
+    assert 'path = "drawn.dxf"' in (tmp_path / "yard.hito").read_text("utf-8")
     wiring.files.new()
     with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
         wiring.files.open_file(tmp_path / "yard.hito")
@@ -279,7 +285,7 @@ def test_a_project_keeps_how_its_drawing_was_read_and_opens_without_a_question(q
     assert section.units.value is Units.MM and section.units.box.itemText(0) == "m, as in the file"
     section.units.chosen.emit(Units.INCH)
     reread(qtbot, wiring, lambda: wiring.window_.notice.buttons[0].click())
-    assert size(wiring) == pytest.approx((1016.0, 508.0))
+    assert size(wiring) == pytest.approx((1016.0, 508.0)) and wiring.document.part.name == "yard"
 
 
 def test_a_project_whose_drawing_is_gone_says_so(qtbot, wiring, tmp_path) -> None:
