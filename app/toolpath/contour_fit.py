@@ -125,13 +125,12 @@ def about_narrow(places: Sequence[Narrow], tool: Tool, distance: float, counts: 
         distance: of the cutter's centre from the walls, mm.
         counts: True when nothing else tells of the metal that is left.
     """
-    room = Need(tool, 2 * distance)
-    need = room.text
+    need = Need(tool, 2 * distance).text
     own = [place for place in places if not place.clamped]
     findings = []
     for place in own[:_TELL]:
         text = (f"Region {place.gap.region} has a {'neck' if place.gap.corner is None else 'slot'} at ({place.x:.3f}, {place.y:.3f}), "
-                f"about {room.told(place.width):.3f} mm wide; {need}. {place.gap.length:.2f} mm of wall are not reached.")
+                f"about {place.width:.3f} mm wide; {need}. {place.gap.length:.2f} mm of wall are not reached.")
         findings.append(Finding(FindingKind.NECK_TOO_NARROW, text, place.x, place.y, counts, amount=place.width))
     if len(own) > _TELL:
         more = "1 more place along the walls is" if len(own) == _TELL + 1 else f"{len(own) - _TELL} more places along the walls are"

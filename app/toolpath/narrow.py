@@ -23,7 +23,7 @@ from app.toolpath.link_tree import Tree
 _CHORD = 1e-3
 
 _NARROWER = 1e-3
-"""mm; what a tool does not fit into is told as at least so much narrower than the tool needs."""
+"""mm; a neck that a tool does not pass is told as at least so much narrower than the tool needs."""
 
 _TELL = 20
 """Necks told one by one."""
@@ -50,10 +50,6 @@ class Need:
 
     tool: Tool
     width: float
-
-    def told(self, width: float) -> float:
-        """Return the width of a place that is too narrow as it is told, mm: less than what is needed, however it was measured."""
-        return min(width, self.width - _NARROWER)
 
     @property
     def text(self) -> str:
@@ -87,7 +83,7 @@ def too_small(regions: Sequence[Region], level: Level, tool: Tool, least: float)
         if region.number in reached:
             continue
         x, y, diameter = largest_disc(region)
-        text = (f"Region {region.number} at ({x:.3f}, {y:.3f}) is too small: its largest disc is about {need.told(diameter):.3f} mm, "
+        text = (f"Region {region.number} at ({x:.3f}, {y:.3f}) is too small: its largest disc is about {diameter:.3f} mm, "
                 f"and {need.text}. Use a smaller tool for it.")
         counts = diameter < least or 0 < need.width <= least + 1e-9
         findings.append(Finding(FindingKind.REGION_TOO_SMALL, text, x, y, counts, amount=diameter,
@@ -124,7 +120,7 @@ def necks(level: Level, primitives: Primitives, field: DistanceField, tool: Tool
     outlines = [np.array([_outline(ring) for ring in each.rings if ring.area > 0], dtype=object) for each in lower]
     for a, b, region in pairs[:_TELL]:
         (x, y), room = _narrowest(*_at_the_neck(a, b, outlines), field)
-        width = need.told(2 * room)
+        width = min(2 * room, need.width - _NARROWER)
         text = f"Region {region} has a neck at ({x:.3f}, {y:.3f}), about {width:.3f} mm wide; {need.text}."
         findings.append(Finding(FindingKind.NECK_TOO_NARROW, text, float(x), float(y), counts=False, amount=width))
     if len(pairs) > _TELL:

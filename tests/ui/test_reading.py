@@ -193,6 +193,17 @@ def test_curves_beyond_1_km_are_asked_about_after_opening(qtbot, wiring, tmp_pat
     assert len(wiring.document.part.entities) == 4 and size(wiring) == pytest.approx((40.0, 20.0))
 
 
+def test_a_stray_that_is_missing_wherever_the_drawing_stands_is_told_and_not_asked_about(qtbot, wiring, tmp_path) -> None:
+    def stray(document) -> None:
+        plate(document.modelspace())
+        document.modelspace().add_circle((2e6, 0), 5)
+
+    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+        wiring.files.open_file(written(tmp_path / "stray.dxf", stray))
+    assert not wiring.window_.card.isVisible()
+    assert [finding.text for finding in wiring.showing.findings if "beyond 1 km" in finding.text]
+
+
 def test_an_svg_of_an_older_editor_tells_what_it_was_read_with(qtbot, wiring, tmp_path) -> None:
     path = tmp_path / "old.svg"
     path.write_text(OLD_SVG, "ascii")
