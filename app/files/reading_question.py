@@ -18,6 +18,8 @@ from app.model.read_options import Reading
 UNIT_WORDS = {Units.MM: "mm", Units.INCH: "inch", Units.CM: "cm", Units.M: "m", Units.FOOT: "foot", Units.MICRON: "µm"}
 _OFFERED = (Units.MM, Units.INCH, Units.M)
 _MOST_LAYOUTS = 4
+_MOST_LETTERS = 40
+"""Of a name on a button; a DXF allows 255."""
 _THIN, _TIMES = "\N{THIN SPACE}", "\N{MULTIPLICATION SIGN}"
 
 Size = tuple[float, float]
@@ -85,8 +87,14 @@ NO_CHOICE = Contents()
 
 def size_words(size: Size) -> str:
     """Return a size for people, the times sign between width and height."""
-    wide, high = (f"{value:,.6g}".replace(",", _THIN) for value in size)
+    wide, high = map(_length, size)
     return f"{wide} {_TIMES} {high} mm"
+
+
+def _length(value: float) -> str:
+    """Return mm with three decimals at most, or three digits where that would be next to nothing."""
+    text = f"{value:,.3f}".rstrip("0").rstrip(".") if value >= 0.01 else f"{value:.3g}"
+    return text.replace(",", _THIN)
 
 
 def _scaled(size: Size, factor: float) -> Size:
@@ -125,11 +133,15 @@ def about_strays(count: int, reading: Reading) -> Question:
 def about_layouts(layouts: Mapping[str, int], reading: Reading) -> Question:
     """Ask which layout to take of a drawing whose model space is empty; `layouts` has how many entities each holds."""
     ranked = sorted(layouts.items(), key=lambda each: -each[1])
-    choices = tuple(Choice(f"Take layout {name}", replace(reading, how=replace(reading.how, layout=name)), _entities(count), likely=k == 0)
-                    for k, (name, count) in enumerate(ranked[:_MOST_LAYOUTS]))  # fmt: skip
+    choices = tuple(Choice(f"Take layout {_short(name)}", replace(reading, how=replace(reading.how, layout=name)), _entities(count),
+                           likely=name == ranked[0][0]) for name, count in ranked[:_MOST_LAYOUTS])  # fmt: skip
     if len(ranked) == 1:
-        return Question(f"Model space holds no curve; all that is drawn stands on the layout {ranked[0][0]}.", choices)
+        return Question(f"Model space holds no curve; all that is drawn stands on the layout {_short(ranked[0][0])}.", choices)
     return Question(f"Model space holds no curve; what is drawn stands on {len(ranked)} layouts.", choices)
+
+
+def _short(name: str) -> str:
+    return name if len(name) <= _MOST_LETTERS else f"{name[: _MOST_LETTERS - 1]}…"
 
 
 def _entities(count: int) -> str:
@@ -138,7 +150,7 @@ def _entities(count: int) -> str:
 
 def about_frozen(layers: tuple[str, ...], curves: int, reading: Reading) -> Question:
     """Ask whether to read what stands on frozen layers, where nothing else is drawn."""
-    words = f"Read layer {layers[0]}" if len(layers) == 1 else f"Read {len(layers)} layers"
+    words = f"Read layer {_short(layers[0])}" if len(layers) == 1 else f"Read {len(layers)} layers"
     read = Choice(words, replace(reading, layers=layers), f"{curves} curve{'s' * (curves != 1)} on {', '.join(layers)}", likely=True)
     return Question("Nothing of it is shown: all blocks are inserted on layers that are frozen.", (read,))
 

@@ -13,7 +13,7 @@ from app.files.reading_question import Choice, Question
 from app.model.read_options import Reading
 from app.ui.icons import IconButton
 from app.ui.labels import Elided, muted
-from app.ui.panels.section import heading
+from app.ui.theme import HEADING_PX, text_font
 
 ROW_PX = 28
 NOW = "as it is now"
@@ -31,7 +31,9 @@ class QuestionCard(QWidget):
         self.setObjectName("card")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setAccessibleName("Question about the drawing")
-        self.title, self.text = heading(""), QLabel()
+        self.title, self.text = Elided(), QLabel()
+        self.title.setFont(text_font(HEADING_PX, semibold=True))
+        self.title.setStyleSheet(f"font-size: {HEADING_PX}px; font-weight: 600;")
         self.text.setWordWrap(True)
         self.buttons: list[QPushButton] = []
         self.cancel = QPushButton("Do not open it")
@@ -46,8 +48,7 @@ class QuestionCard(QWidget):
     def _lay_out(self) -> None:
         head = QHBoxLayout()
         head.setSpacing(8)
-        head.addWidget(self.title)
-        head.addStretch(1)
+        head.addWidget(self.title, 1)
         head.addWidget(self._close, 0, Qt.AlignmentFlag.AlignTop)
         self._rows = QGridLayout()
         self._rows.setHorizontalSpacing(12)

@@ -215,6 +215,18 @@ def test_an_svg_of_an_older_editor_tells_what_it_was_read_with(qtbot, wiring, tm
     assert source(wiring).reading.how.pixels_per_inch == 72.0
 
 
+def test_long_names_do_not_make_the_window_wider(qtbot, wiring, tmp_path) -> None:
+    def named(document) -> None:
+        document.layouts.new("L" * 200)
+        plate(document.layouts.get("L" * 200))
+
+    before = wiring.window_.size()
+    ask(qtbot, wiring, written(tmp_path / f"{'n' * 180}.dxf", named))
+    assert wiring.window_.size() == before and wiring.window_.minimumSizeHint().width() < before.width()
+    answer(qtbot, wiring, f"Take layout {'L' * 39}…")
+    assert source(wiring).reading.how.layout == "L" * 200
+
+
 def test_an_answer_after_work_was_done_is_a_step_that_can_be_undone(qtbot, wiring, tmp_path) -> None:
     ask(qtbot, wiring, written(tmp_path / "none.dxf", in_metres, 0))
     wiring.window_.panel.job_form.margin.committed.emit(3.0)

@@ -187,7 +187,7 @@ def test_an_svg_in_pixels_can_be_read_in_mm(qtbot, wiring, tmp_path):
         wiring.files.open_file(path)
     card = wiring.window_.card
     assert card.text.text() == "It has no real size. It names no editor and was read with 96 units to the inch."
-    assert "10.5833 \u00d7 5.29167 mm" in [label.text() for label in card.findChildren(QLabel)]
+    assert "10.583 \u00d7 5.292 mm" in [label.text() for label in card.findChildren(QLabel)]
     assert [b.text() for b in card.buttons] == ["Keep 96 to the inch", "Read 90 to the inch", "Read 72 to the inch", "Read in mm",
                                                 "Read in inch"]  # fmt: skip
     with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
