@@ -120,11 +120,12 @@ class Rereading(QObject):
             self._take(value)
 
     def _take(self, opened: Opened) -> None:
-        assert opened.source is not None
+        source = opened.source
+        assert source is not None
         part = replace(opened.job.part, name=self._document.part.name)  # a project names its part
         opened = replace(opened, job=replace(opened.job, part=part))
-        self._remember(opened.source, opened)
-        self._document.read_again(f"Read {opened.path.name}", opened.job, opened.source)
+        self._remember(source, opened)
+        self._document.read_again(f"Read {opened.path.name}", opened.job, source)
         size = opened.size or (0.0, 0.0)
         words = f"{counted(len(opened.job.part.entities), 'curve')}, {grouped(size[0])} by {grouped(size[1])} mm."
         self._log.note(f"read {opened.path.name}", words)

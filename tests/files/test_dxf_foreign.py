@@ -274,7 +274,8 @@ def test_every_answer_is_read_as_it_says() -> None:
 
 
 @pytest.mark.parametrize(("size", "words"), [
-    ((40.0, 20.0), "40 \u00d7 20 mm"), ((1204.1479, 1976.72), "1\u2009204.148 \u00d7 1\u2009976.72 mm"), ((0.04, 2e-5), "0.04 \u00d7 2e-05 mm"),
+    ((40.0, 20.0), "40 \u00d7 20 mm"), ((1204.1479, 1976.72), "1\u2009204.148 \u00d7 1\u2009976.72 mm"),
+    ((0.04, 2e-5), "0.04 \u00d7 2e-05 mm"),
 ])
 def test_sizes_have_three_decimals_at_most(size: tuple[float, float], words: str) -> None:
     assert size_words(size) == words
