@@ -64,6 +64,7 @@ def sweep(*folders: Path) -> None:
     """Take away what writers that live no more have left in folders; what cannot be looked at or taken away stays.
 
     Of one on another machine, or from before names told the writer, nobody knows whether it lives: it goes when it is a day old.
+    A folder goes with all that is in it, if its name tells the writer.
     """
     for folder in folders:
         with suppress(OSError), os.scandir(folder) as found:
@@ -71,8 +72,16 @@ def sweep(*folders: Path) -> None:
                 left = _LEFT.fullmatch(entry.name)
                 if left is not None:
                     with suppress(OSError):
-                        if entry.is_file(follow_symlinks=False) and _is_abandoned(left["owner"], entry.stat().st_mtime):
-                            os.unlink(entry.path)
+                        _sweep_one(entry, left["owner"])
+
+
+def _sweep_one(entry: os.DirEntry[str], owner: str | None) -> None:
+    if not _is_abandoned(owner, entry.stat(follow_symlinks=False).st_mtime):
+        return
+    if entry.is_file(follow_symlinks=False):
+        os.unlink(entry.path)
+    elif owner is not None and entry.is_dir(follow_symlinks=False):
+        shutil.rmtree(entry.path, ignore_errors=True)
 
 
 _LEFT = re.compile(r"\..+?(?:\.(?P<owner>[0-9]+-[0-9a-f]{6}))?\.[a-z0-9_]{8}\.part(?:\.old)?")
@@ -98,7 +107,7 @@ def _machine() -> str:
 
 
 def waiting_prefix(name: str) -> str:
-    """Return what the name of a file begins with that waits to take another's place."""
+    """Return what the name of a file or a folder begins with that waits to take another's place; it ends in .part."""
     return f".{name[:32]}.{os.getpid()}-{_machine()}."
 
 

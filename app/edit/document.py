@@ -16,10 +16,11 @@ from app.edit.language import command_word
 from app.edit.layers import with_layer_renamed
 from app.edit.recorded import Recorded
 from app.edit.syntax import Command, Quantity, Statement
-from app.edit.values import wrong
+from app.edit.values import Curves, wrong
 from app.errors import InputError
 from app.model.job import Job
 from app.model.part import Part
+from app.model.read_options import Source
 from app.progress import NO_PROGRESS, Progress
 
 
@@ -211,9 +212,30 @@ class Document:
         self._history.change(name, replace(state, job=job, recorded=recorded), merge)
         self._tell(self._after(part_changed) | Change.JOB)
 
-    def load(self, job: Job, path: Path | None = None) -> None:
-        """Begin a new document with this job; history, log and selection start afresh."""
-        self.load_state(_first_state(job), path)
+    def read_again(self, name: str, job: Job, source: Source) -> None:
+        """Replace the drawing by what its file holds when it is read in another way; undone as one step.
+
+        What the shape language has named stays, but for curves, whose numbers are others now.
+
+        Args:
+            name: shown in the Edit menu.
+            job: with the drawing that was read.
+            source: its file, and how it was read.
+        """
+        state, part = self._history.state, job.part
+        names = {key: value for key, value in state.names.items() if not isinstance(value, Curves)}
+        layer = state.layer if any(each.name == state.layer for each in part.layers) else part.layers[0].name
+        self.selection = frozenset()
+        self._history.change(name, replace(state, job=job, layer=layer, names=names, recorded=Recorded(part), source=source))
+        self._tell(self._after(part_changed=True) | Change.JOB | Change.SELECTION)
+
+    def load(self, job: Job, path: Path | None = None, source: Source | None = None) -> None:
+        """Begin a new document with this job; history, log and selection start afresh.
+
+        Args:
+            path: where it was loaded from. source: the drawing that its part was read from.
+        """
+        self.load_state(replace(_first_state(job), source=source), path)
 
     def load_state(self, state: State, path: Path | None = None, saved: bool = True) -> None:
         """Begin a new document as `load` does, with the names and commands of its drawing.
@@ -271,7 +293,8 @@ class Document:
         for old, new in after.renamed:
             job = with_layer_renamed(job, old, new)
         recorded = state.recorded.then(line, before.selection, after.selection)
-        self._history.change(outcome.name, State(job, after.layer, after.last, after.names, after.commands, recorded))
+        self._history.change(outcome.name, replace(state, job=job, layer=after.layer, last=after.last, names=after.names,
+                                                   commands=after.commands, recorded=recorded))  # fmt: skip
         selected, self.selection = self.selection, after.selection
         change = self._after(part_changed)
         return outcome.reply, change | (Change.SELECTION if selected != self.selection else Change(0))

@@ -14,6 +14,7 @@ from app.edit.values import Value
 from app.model.curves import Curve, Point, Spline
 from app.model.job import Job
 from app.model.part import Entity, Part
+from app.model.read_options import Source
 
 MOST_BYTES = 256 * 2**20
 """What steps may hold together; beyond that the oldest go."""
@@ -33,6 +34,7 @@ class State:
         last: the point given last, mm.
         names: what the shape language has named. commands: what it has defined.
         recorded: the lines that drew the part.
+        source: the drawing that the part was read from; None where it was drawn here.
     """
 
     job: Job
@@ -41,6 +43,7 @@ class State:
     names: Mapping[str, Value] = field(default_factory=dict)
     commands: Mapping[str, Define] = field(default_factory=dict)
     recorded: Recorded = field(default_factory=lambda: Recorded(Part()))
+    source: Source | None = None
 
     def named(self, name: str) -> State:
         """Return it with another name of the part."""

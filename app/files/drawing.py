@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 from pathlib import PurePath
 
 from app.errors import InputError
-from app.files.read_options import AS_DRAWN, ReadOptions
+from app.files.reading_question import NO_CHOICE, Contents, Question
 from app.model.finding import Finding
 from app.model.part import Part, Units
+from app.model.read_options import AS_DRAWN, ReadOptions
 
 PROJECTS = (".hito", ".hito~")
 """A project, and the backup of one."""
@@ -27,12 +28,16 @@ class Drawing:
         findings: what is worth saying about the file.
         left_out: (type, how many) of what is not machined, such as ("TEXT", 5).
         units_named: False when the file names no units and they had to be assumed or given.
+        contents: what the file holds that can be chosen from.
+        question: what is worth asking about how it was read; None = nothing.
     """
 
     part: Part
     findings: tuple[Finding, ...] = ()
     left_out: tuple[tuple[str, int], ...] = ()
     units_named: bool = True
+    contents: Contents = NO_CHOICE
+    question: Question | None = None
 
 
 def read_drawing(

@@ -9,19 +9,21 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from app import tolerances
-from app.edit.sample import bounds
+from app.edit.sample import bounds, union
 from app.errors import InputError
 from app.files.dxf_affine import Affine, transformed
+from app.files.reading_question import Question, Size, about_strays
 from app.geometry.chain_pieces import FARTHEST, straightened, within_reach
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity, Part, Units
+from app.model.read_options import Reading
 
 MOST_CURVES = 500_000
 """A drawing that unfolds to more curves than this is refused before it fills the memory."""
 
 BEYOND = "curve beyond 1 km or without a place"
-MOVE = "move the drawing to zero in the CAD program, or say --to-zero and it is done on reading"
+MOVE = "move the drawing to zero in the CAD program, or say --to-zero (in the window: File, Reading options) and it is done on reading"
 _GONE = {True: "is missing from the part", False: "are missing from the part"}
 _COUNTABLE = 1e10
 """mm; beyond, neighbouring doubles are further apart than WELD, so that no shape is left to be moved."""
@@ -75,6 +77,24 @@ def taken(curves: Iterable[tuple[Curve, str]], to_mm: Affine | None, anchors: Ca
         else:
             lost += 1
     return replace(found, entities=tuple(entities), placeless=lost)
+
+
+def strays_or_none(found: Taken, reading: Reading, placed: Callable[[bool], Taken]) -> Question | None:
+    """Return what to ask where some curves lie beyond 1 km that would not when the drawing is moved to zero.
+
+    Args:
+        reading: by which they were found. placed: returns what there is when it is moved to zero, or not.
+    """
+    if not found.far or found.moved is not None or placed(True).missing:
+        return None
+    return about_strays(len(found.far), reading)
+
+
+def size_of(part: Part, layers: tuple[str, ...] = ()) -> Size:
+    """Return width and height of what is machined of a part, mm: what is on some layers, or else on all that are shown."""
+    wanted = {layer.casefold() for layer in layers} or {layer.name.casefold() for layer in part.layers if layer.visible}
+    box = union([bounds(entity.curve) for entity in part.entities if entity.layer.casefold() in wanted])
+    return (0.0, 0.0) if box is None else (box[2] - box[0], box[3] - box[1])
 
 
 def _shift(curves: list[Curve]) -> Point | None:

@@ -9,7 +9,6 @@ from pathlib import PurePath
 from typing import Any
 
 from app import tolerances
-from app.errors import InputError
 from app.files.drawing import Drawing
 from app.files.drawing_account import (
     MOVE,
@@ -20,6 +19,8 @@ from app.files.drawing_account import (
     on_layers,
     other_units,
     remark,
+    size_of,
+    strays_or_none,
     switched_off,
     taken,
     without_length,
@@ -29,9 +30,10 @@ from app.files.dxf_blocks import Sheet, Walker
 from app.files.dxf_findings import about_commas, about_hidden, about_negative
 from app.files.dxf_layouts import PAPER, layout_named, paper
 from app.files.dxf_load import load
-from app.files.read_options import AS_DRAWN, ReadOptions
+from app.files.reading_question import Contents, Question, UndecidedError, about_far, about_frozen, about_layouts, about_units
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity, Layer, Part, Units
+from app.model.read_options import AS_DRAWN, Reading, ReadOptions
 
 _NAMED_UNITS: dict[int, tuple[float, Units]] = {
     1: (25.4, Units.INCH), 2: (304.8, Units.FOOT), 3: (1609344.0, Units.FOOT), 4: (1.0, Units.MM), 5: (10.0, Units.CM),
@@ -63,23 +65,44 @@ def read_dxf(
         InputError: the file is no usable DXF, has no curves, or has not one of the layers or the layout.
     """
     loaded = load(data, name)
-    document = loaded.document
+    document, reading = loaded.document, Reading(units, layers, how)
     unit = _unit(document, data, units, how.overrule)
-    sheet = Walker(document, name, layers, how.without_types).sheet(layout_named(document, how.layout, name))
+    walker = Walker(document, name, layers, how.without_types)
+    sheet = walker.sheet(layout_named(document, how.layout, name))
     spelling, to_mm = _spelling(document), scaled(unit.size)
-    curves = ((curve, spelling.get(layer.casefold(), layer)) for curve, layer in sheet.curves)
-    found = taken(curves, to_mm if unit.size != 1.0 else None, _anchors(document, layers) if how.to_zero else None)
-    others = Counter() if how.layout else paper(document)
+    curves = [(curve, spelling.get(layer.casefold(), layer)) for curve, layer in sheet.curves]
+    anchors = _anchors(document, layers)
+
+    def placed(to_zero: bool) -> Taken:
+        return taken(curves, to_mm if unit.size != 1.0 else None, anchors if to_zero else None)
+
+    found, papers = placed(how.to_zero), paper(document)
+    others = Counter() if how.layout else papers
     if not found.entities:
-        raise InputError(f"{name}: {_nothing(sheet, found, others)}")
+        raise UndecidedError(f"{name}: {_nothing(sheet, found, others)}", _asked(sheet, found, others, (reading, unit)))
     part = Part(name=PurePath(name).stem, units=unit.shown, layers=_layers(document, found.entities)).with_entities(found.entities)
+    names = tuple(layer.name for layer in part.layers)
     part = on_layers(part, layers, name)
     left_out = sheet.left_out + Counter({PAPER: others.total()})
     nothing = [None if p is None else to_mm.point(p) for p in sheet.without_length] + found.nothing
     findings = [*_unit_findings(units, unit), *about_commas(loaded.commas), *_damage(loaded.repaired), *about_place(found),
                 *about_negative(sheet, unit.size), *without_length(nothing), *_heights(sheet, unit.size), *about_hidden(sheet, unit.size),
                 *switched_off(part, layers), *all_left_out(+left_out)]  # fmt: skip
-    return Drawing(part, tuple(findings), tuple(sorted((+left_out + found.missing).items())), unit.named)
+    contents = Contents(names, tuple(papers.items()), tuple(sorted(walker.types)), unit.own)
+    question = strays_or_none(found, reading, placed) or (None if unit.named or units else about_units(unit.shown, size_of(part), reading))
+    return Drawing(part, tuple(findings), tuple(sorted((+left_out + found.missing).items())), unit.named, contents, question)
+
+
+def _asked(sheet: Sheet, found: Taken, others: Counter[str], how: tuple[Reading, _Unit]) -> Question | None:
+    """Return what to ask about a drawing that has nothing to machine, in the order of `_nothing`."""
+    reading, unit = how
+    if found.far and found.moved is None:
+        return about_far(found.far[0][0], reading, unit.shown)
+    if sheet.hidden:
+        layers = dict.fromkeys(layer for each in sheet.hidden for layer in (each.layer, *each.curves))
+        count = sum(len(each.curves) for each in sheet.hidden)
+        return about_frozen(tuple(layers), count, reading) if count else None
+    return about_layouts(others, reading) if others else None
 
 
 @dataclass(frozen=True)
@@ -90,6 +113,11 @@ class _Unit:
     shown: Units
     named: bool
     overruled: Units | None = None
+
+    @property
+    def own(self) -> Units | None:
+        """What the file names, nearest to it; None = nothing."""
+        return self.overruled or (self.shown if self.named else None)
 
 
 def _unit(document: Any, data: bytes, given: Units | None, overrule: bool) -> _Unit:

@@ -87,6 +87,8 @@ class Walker:
         self._without = {kind.upper() for kind in without}
         self._blocks: dict[str, Sheet] = {}
         self._open: list[str] = []
+        self.types: set[str] = set()
+        """Types of the entities that were met, also of those that were left out."""
 
     def sheet(self, entities: Iterable[Any]) -> Sheet:
         """Return what some entities draw.
@@ -97,6 +99,7 @@ class Walker:
         sheet = Sheet()
         for entity in entities:
             kind = entity.dxftype()
+            self.types.add(kind)
             try:
                 self._one(entity, kind, sheet)
             except HitofudeError:

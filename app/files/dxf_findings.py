@@ -49,4 +49,4 @@ def _hidden(inserts: list[Hidden], size: float) -> Finding:
     wanted = " ".join(f"--layer {each}" for each in list(dict.fromkeys((layer, *curves)))[: _NAMED + 1])
     lost = "1 curve is" if len(curves) == 1 else f"{len(curves)} curves are"
     return remark(f"{what} inserted{where} on layer {layer}, which is frozen; {lost} not shown and not machined. "
-                  f"Say {wanted} to machine them.", float(len(curves)))
+                  f"Say {wanted} to machine them; in the window they are chosen in File, Reading options.", float(len(curves)))

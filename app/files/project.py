@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from pathlib import PurePath
+from pathlib import Path, PurePath
 from typing import Any
 
 from app.edit.grammar import read_script
@@ -25,6 +25,7 @@ from app.files.job_toml import TABLES, UNITS, read_kept_job, with_line
 from app.files.job_write import empty_lists, job_lines, word_of
 from app.files.project_beside import NOTHING_BESIDE, Beside, beside_lines, read_beside
 from app.files.project_curves import MOST_THINGS, curve_lines, note_lines, read_curves, read_notes
+from app.files.project_source import read_source, source_lines
 from app.model.curves import Point
 from app.model.notes import Note
 from app.model.part import Entity, Layer, Part, Units
@@ -40,7 +41,7 @@ UPGRADES: Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]] = {}
 """By version: what makes of a file's tables those of the next version."""
 
 _HEADER = "# A project of Hitofude: a drawing and the job that is cut from it. resources/docs/project.md explains every key."
-_OWN = ("format", "version", "part", "layer", "view", "underlay", "text", "names", "commands", "curves", "notes")
+_OWN = ("format", "version", "part", "layer", "view", "underlay", "text", "source", "names", "commands", "curves", "notes")
 _REMEDY = "mend the file, or open its backup, the file of the same name with ~ behind it"
 
 
@@ -65,6 +66,18 @@ class Project:
     state: State
     look: Look = Look()
     beside: Beside = NOTHING_BESIDE
+
+    def from_folder(self, folder: Path) -> Project:
+        """Return it with the paths of other files as they are seen from elsewhere, where they are told from this folder."""
+        source = self.state.source
+        state = self.state if source is None else replace(self.state, source=source.from_folder(folder))
+        return replace(self, state=state, beside=self.beside.from_folder(folder))
+
+    def in_folder(self, folder: Path) -> Project:
+        """Return it with the paths of other files told from this folder, where they lie in that."""
+        source = self.state.source
+        state = self.state if source is None else replace(self.state, source=source.in_folder(folder))
+        return replace(self, state=state, beside=self.beside.in_folder(folder))
 
 
 def write_project(project: Project) -> bytes:
@@ -92,7 +105,8 @@ def read_project(name: str, data: bytes) -> Project:
     names = {key: _value(name, key, value) for key, value in _table(tree, lines, "names").items()}
     commands = {key: _command(name, key, value) for key, value in _table(tree, lines, "commands").items()}
     beside = read_beside(lines, {path: _table(tree, lines, path) for path in ("underlay", "text")})
-    return Project(State(replace(job, part=part), layer, last, names, commands, Recorded(part)), _look(tree, lines), beside)
+    source = read_source(lines, _table(tree, lines, "source"))
+    return Project(State(replace(job, part=part), layer, last, names, commands, Recorded(part), source), _look(tree, lines), beside)
 
 
 def project_drawing(data: bytes, name: str, units: Units | None = None, layers: tuple[str, ...] = ()) -> Drawing:
@@ -261,6 +275,7 @@ def _lines(project: Project) -> Iterator[str]:
                     f"visible = {spelled(layer.visible)}", f"locked = {spelled(layer.locked)}")
     yield from _look_lines(project.look)
     yield from beside_lines(project.beside)
+    yield from source_lines(state.source)
     yield from _name_lines(state)
     yield from job_lines(state.job)
     for title, things in (("curves", curve_lines(part.entities)), ("notes", note_lines(part.notes))):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from dataclasses import replace
 from pathlib import Path
 
 from app.atomic import read_whole, write_atomically
@@ -45,8 +44,7 @@ def load_project(path: Path) -> tuple[Project, Stamp | None]:
         data = read_whole(path)
     except OSError as error:
         raise InputError(f"Cannot read {path}: {error.strerror}. Choose another file.") from error
-    project = read_project(path.name, data)
-    return replace(project, beside=project.beside.from_folder(path.parent)), stamp
+    return read_project(path.name, data).from_folder(path.parent), stamp
 
 
 def save_project(path: Path, project: Project, known: Stamp | None = None, backup: bool = True) -> Stamp:
@@ -62,7 +60,7 @@ def save_project(path: Path, project: Project, known: Stamp | None = None, backu
         ChangedElsewhere: the file has changed since it had that stamp; nothing was written.
         InputError: it cannot be written; what was there is untouched.
     """
-    data = write_project(replace(project, beside=project.beside.in_folder(path.parent)))
+    data = write_project(project.in_folder(path.parent))
     there = stamp_of(path)
     if known is not None and there is not None and there != known:
         raise ChangedElsewhere(f"{path.name} was changed by another program since it was opened or saved here.")

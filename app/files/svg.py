@@ -11,24 +11,28 @@ from app.errors import InputError
 from app.files.drawing import Drawing
 from app.files.drawing_account import (
     MOVE,
+    Taken,
     about_place,
     all_left_out,
     listed,
     on_layers,
     other_units,
     remark,
+    size_of,
+    strays_or_none,
     switched_off,
     taken,
     without_length,
 )
 from app.files.dxf_affine import Affine
-from app.files.read_options import AS_DRAWN, ReadOptions
-from app.files.svg_generator import CSS_PER_INCH, Density, density_of
+from app.files.reading_question import Contents, Question, Size, UndecidedError, about_far, about_pixels
+from app.files.svg_generator import CSS_PER_INCH, KNOWN_PER_INCH, Density, density_of
 from app.files.svg_numbers import MM, Box, Length, UnreadableError, fitted, length, numbers, view_box
 from app.files.svg_walk import Sheet, Walker
 from app.files.svg_xml import Node, read_xml
 from app.model.finding import Finding, FindingKind
 from app.model.part import Layer, Part, Units
+from app.model.read_options import AS_DRAWN, Reading, ReadOptions
 
 HITOFUDE = "urn:hitofude:svg"
 """Namespace of what only this program writes: the attribute `zero`, the part's zero in user units of the page."""
@@ -84,18 +88,42 @@ def read_svg(
     except UnreadableError as error:
         raise InputError(f"{name}:{root.line}: the page's width, height or viewBox, {error.args[0][:60]!r}, cannot be read; "
                          "give it a size above 0 and save it again.") from None
-    sheet = Walker(root, name).sheet(page.to, page.view)
-    found = taken(sheet.curves, None, _anchors(sheet, layers) if how.to_zero else None)
+    sheet, reading = Walker(root, name).sheet(page.to, page.view), Reading(units, layers, how)
+
+    def placed(to_zero: bool) -> Taken:
+        return taken(sheet.curves, None, _anchors(sheet, layers) if to_zero else None)
+
+    found = placed(how.to_zero)
     left_out = sheet.left_out + found.missing
     if not found.entities:
         why = "all of the drawing lies beyond 1 km" if found.far else "the drawing has no lines, arcs or curves to machine"
-        raise InputError(f"{name}: {why}{f'; {MOVE}' * bool(found.far and not how.to_zero)}{listed(left_out, '; left out: ')}.")
+        far = bool(found.far and not how.to_zero)
+        raise UndecidedError(f"{name}: {why}{f'; {MOVE}' * far}{listed(left_out, '; left out: ')}.",
+                             about_far(found.far[0][0], reading, page.shown) if far else None)
     shown = tuple(note.layer(layer) for layer, note in sheet.layers.items())
     part = Part(name=PurePath(name).stem, units=page.shown, layers=shown or (Layer(),)).with_entities(found.entities)
     part = on_layers(part, layers, name)
     findings = [*_units(units, page, density, how), *about_place(found), *_faults(sheet), *without_length(sheet.nothing + found.nothing),
                 *_clipped(sheet), *switched_off(part, layers), *all_left_out(sheet.left_out)]  # fmt: skip
-    return Drawing(part, tuple(findings), tuple(sorted(left_out.items())), page.named)
+    own = density_of(root)
+    contents = Contents(tuple(layer.name for layer in shown), units=page.shown if page.named else None,
+                        per_inch=None if page.named else own.per_inch, editor=own.editor)  # fmt: skip
+    question = strays_or_none(found, reading, placed)
+    if question is None and not (page.named or units or how.pixels_per_inch):
+        question = _about_pixels(root, density, (size_of(part), page.to), reading)
+    return Drawing(part, tuple(findings), tuple(sorted(left_out.items())), page.named, contents, question)
+
+
+def _about_pixels(root: Node, density: Density, now: tuple[Size, Affine], reading: Reading) -> Question:
+    """Ask how large the page's units are; `now` is the drawing's size, mm, and the map by which it has it."""
+    (wide, high), to = now
+
+    def size_in(other: Reading) -> Size:
+        per_inch = other.how.pixels_per_inch
+        made = _page(root, other.units, Density(per_inch).pixel if per_inch else density.pixel).to
+        return wide * made.xx / to.xx, high * made.yy / to.yy
+
+    return about_pixels((density.per_inch, density.editor), KNOWN_PER_INCH, size_in, reading)
 
 
 def _anchors(sheet: Sheet, layers: tuple[str, ...]) -> Callable[[str], bool]:

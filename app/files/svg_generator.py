@@ -12,6 +12,8 @@ SODIPODI = "http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd"
 CSS_PER_INCH = 96.0
 _OLD_INKSCAPE = 90.0
 _ILLUSTRATOR = 72.0
+KNOWN_PER_INCH = (CSS_PER_INCH, _OLD_INKSCAPE, _ILLUSTRATOR)
+"""What is or was usual."""
 _VERSION = re.compile(r"\s*(\d+)\.(\d+)")
 
 

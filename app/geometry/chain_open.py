@@ -93,7 +93,7 @@ def _unfinished(contour: Contour, bounding: set[str]) -> Finding:
     gap = math.dist(start, end)
     text = (f"{named(contour)} is open by {gap:.3g} mm: its loose ends are at {at(start)} and {at(end)}. "
             f"Complete it, or {_leaving('it', contour.layer, bounding)}.")
-    return Finding(FindingKind.OPEN_CONTOUR, text, *start, True, contour.entity_ids, gap)
+    return Finding(FindingKind.OPEN_CONTOUR, text, *start, True, contour.entity_ids, gap, layer=_spare(contour.layer, bounding))
 
 
 def _bounding_nothing(lines: Sequence[Contour], bounding: set[str]) -> Finding:
@@ -103,7 +103,12 @@ def _bounding_nothing(lines: Sequence[Contour], bounding: set[str]) -> Finding:
     text = (f"Layer {longest.layer} has {len(lines)} lines that bound nothing, the longest {size_of(longest)} at {at(start)}. "
             f"Complete them, or {_leaving('them', longest.layer, bounding)}.")
     ids = tuple(dict.fromkeys(number for contour in lines for number in contour.entity_ids))
-    return Finding(FindingKind.OPEN_CONTOUR, text, *start, True, ids, math.dist(start, end))
+    return Finding(FindingKind.OPEN_CONTOUR, text, *start, True, ids, math.dist(start, end), layer=_spare(longest.layer, bounding))
+
+
+def _spare(layer: str, bounding: set[str]) -> str:
+    """Return a layer that may be left out as a whole, or ""; `bounding` are those that must stay."""
+    return "" if layer in bounding else layer
 
 
 def _leaving(what: str, layer: str, bounding: set[str]) -> str:

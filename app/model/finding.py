@@ -56,6 +56,7 @@ class Finding:
         entity_ids: entities concerned, so that the window can mark them.
         amount: the measured length (mm) or area (mm2) or number, if there is one.
         line: of the NC program, 1-based; 0 = it is about none.
+        layer: that can be left out to mend it; "" = none.
     """
 
     kind: FindingKind
@@ -66,6 +67,7 @@ class Finding:
     entity_ids: tuple[int, ...] = ()
     amount: float | None = None
     line: int = 0
+    layer: str = ""
 
 
 def worst_first(findings: Iterable[Finding]) -> tuple[Finding, ...]:

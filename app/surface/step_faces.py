@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from app.atomic import waiting_prefix
 from app.errors import GeometryError, InputError
 
 Floats = NDArray[np.float64]
@@ -60,7 +61,7 @@ def _faces(name: str, data: bytes) -> tuple[Any, list[Any]]:
         from OCP.TopoDS import TopoDS
     except ImportError as error:
         raise InputError(f"{name}: {EXTRA.format(sys.executable)}") from error
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory(prefix=waiting_prefix("step"), suffix=".part") as folder:
         path = Path(folder) / "scene.step"
         path.write_bytes(data)
         reader = STEPControl_Reader()

@@ -13,6 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
+from app.geometry.distance import DistanceField
 from app.geometry.near_points import nearest
 from app.geometry.offset import Level
 from app.geometry.primitives import TURN, Indices, Rows, lengths, points_at, sweeps
@@ -86,9 +87,8 @@ def gaps(level: Level, sheet: Sheet) -> list[Gap]:
     """Return all gaps in the walls of regions that a level's rings are in; clamps and the frame are no walls."""
     if not level.rings:
         return []
-    rings = np.concatenate([ring.rows for ring in level.rings])
     known = {ring.region for ring in level.rings}
-    spans = _covered(rings, level.distance, sheet)
+    spans = _covered(level, sheet)
     chains = _chains(_uncovered(spans, sheet, known), sheet)
     found = [_gap(chain, sheet) for chain in chains]
     found = [gap for gap in found if gap.length > _LEAST]
@@ -102,14 +102,29 @@ def feet(rows: Rows, fraction: float, distance: float) -> Floats:
     return touched
 
 
-def _covered(rings: Rows, distance: float, sheet: Sheet) -> tuple[Indices, Floats, Floats]:
-    """Return (wall row, from, to) of what each row of the rings covers of the walls, sorted by both."""
+def _covered(level: Level, sheet: Sheet) -> tuple[Indices, Floats, Floats]:
+    """Return (wall row, from, to) of what each row of a level's rings covers of the walls, sorted by both."""
+    rings, distance = np.concatenate([ring.rows for ring in level.rings]), level.distance
+    region = np.repeat([ring.region for ring in level.rings], [len(ring.rows) for ring in level.rings])
     walls = sheet.distances.rows
-    row = sheet.distances.nearest(feet(rings, 0.5, distance))[1]
+    row = _touched(feet(rings, 0.5, distance), region, sheet)
     a, b = (fractions_at(walls[row], feet(rings, part, distance)) for part in (0.0, 1.0))
     low, high = np.minimum(a, b), np.maximum(a, b)
     order = np.lexsort((low, row))
     return row[order], low[order], high[order]
+
+
+def _touched(points: Floats, region: Indices, sheet: Sheet) -> Indices:
+    """Return the wall row (n,) that each point lies on: where walls of two regions lie on each other, that of its own region."""
+    row: Indices = sheet.distances.nearest(points)[1].copy()
+    owner = sheet.primitives.region
+    for each in np.unique(region[owner[row] != region]).tolist():
+        own = np.flatnonzero(owner == each)
+        asked = np.flatnonzero((region == each) & (owner[row] != each))
+        if len(own):
+            off, which = DistanceField.of(sheet.distances.rows[own]).nearest(points[asked])[:2]
+            row[asked[off < _SAME]] = own[which[off < _SAME]]
+    return row
 
 
 def _uncovered(spans: tuple[Indices, Floats, Floats], sheet: Sheet, known: set[int]) -> dict[int, list[tuple[float, float]]]:

@@ -96,6 +96,7 @@ class Coverage:
         wanted: what was to be cleared, floor by floor.
         given_up: the skin that paths made from pixels left along the walls on purpose, the largest disc first; not among the places.
         given_up_mm: how thick it may be, mm; 0 for exact paths.
+        on_pixels: the paths were made from pixels.
     """
 
     reachable_left_mm2: float = 0.0
@@ -107,6 +108,7 @@ class Coverage:
     given_up: tuple[Place, ...] = ()
     given_up_mm: float = 0.0
     wanted: tuple[Wanted, ...] = field(default=(), repr=False)
+    on_pixels: bool = False
 
     @property
     def given_up_mm2(self) -> float:
@@ -156,7 +158,7 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: 
         places=(*left, *corners),
         area_mm2=sum(float(each.floor.area) for each in found),
         floor_mm=max((each.depth for each in found), default=0.0),
-        given_up=tuple(skins), given_up_mm=program.allowance_mm, wanted=found,
+        given_up=tuple(skins), given_up_mm=program.allowance_mm, wanted=found, on_pixels=program.given_up_mm is not None,
     )  # fmt: skip
 
 
@@ -348,7 +350,8 @@ def coverage_findings(coverage: Coverage) -> tuple[Finding, ...]:
         worst, count = places[0], len(places)
         spots = "1 place" if count == 1 else f"{count} places"
         if reachable:
-            remedy = "use a smaller pocket tool or a larger bitmap" if coverage.given_up_mm else "add rest machining, or use a smaller tool"
+            pixels = coverage.on_pixels or coverage.given_up_mm
+            remedy = "use a smaller pocket tool or a larger bitmap" if pixels else "add rest machining, or use a smaller tool"
             text = (f"{area:.3f} mm2 of material within reach is left in {spots}, the worst {worst.disc_mm:.3f} mm wide "
                     f"at ({worst.x:.3f}, {worst.y:.3f}); {remedy}.")
         else:

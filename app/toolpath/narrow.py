@@ -83,7 +83,7 @@ def too_small(regions: Sequence[Region], level: Level, tool: Tool, least: float)
         if region.number in reached:
             continue
         x, y, diameter = largest_disc(region)
-        text = (f"Region {region.number} at ({x:.3f}, {y:.3f}) is too small: its largest disc is about {diameter:.2f} mm, "
+        text = (f"Region {region.number} at ({x:.3f}, {y:.3f}) is too small: its largest disc is about {diameter:.3f} mm, "
                 f"and {need.text}. Use a smaller tool for it.")
         counts = diameter < least or 0 < need.width <= least + 1e-9
         findings.append(Finding(FindingKind.REGION_TOO_SMALL, text, x, y, counts, amount=diameter,

@@ -25,6 +25,9 @@ _MOST = 200_000
 _SLIVER = 0.25
 """Share of a cutter's radius below which a piece of metal is a sliver."""
 
+_NOMINAL = tolerances.NOMINAL - 2 * tolerances.FIT
+"""mm; a cutter that is too large by exactly `NOMINAL` does not fit, whatever rounding and doubt make of it: no path goes there."""
+
 _START = 8
 """Squares along a diameter at the beginning."""
 
@@ -43,7 +46,7 @@ class Cutter:
     wall: float
     radius: float
 
-    def reaches(self, x: float, y: float, fields: Fields, spare: float = -tolerances.NOMINAL) -> bool:
+    def reaches(self, x: float, y: float, fields: Fields, spare: float = -_NOMINAL) -> bool:
         """Tell whether its centre may be somewhere within its radius of a place; True also where that stays in doubt.
 
         Args:
@@ -91,5 +94,5 @@ def reached(points: NDArray[np.float64], cutters: Sequence[Cutter], fields: Fiel
     A sliver counts where a cutter does that stays 1 um farther from the walls, as its paths may: in a neck that grows narrow
     slowly, a micrometre decides on tenths of a millimetre.
     """
-    spare = -tolerances.NOMINAL if any(size > _SLIVER * cutter.radius for cutter in cutters) else tolerances.LEVEL
+    spare = -_NOMINAL if any(size > _SLIVER * cutter.radius for cutter in cutters) else tolerances.LEVEL
     return any(cutter.reaches(x, y, fields, spare) for x, y in points.tolist() for cutter in cutters)

@@ -41,6 +41,7 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
     ("&File", (
         Spec("new", "&New", "Ctrl+N", "new"),
         Spec("open", "&Open…", "Ctrl+O", "open"),
+        Spec("reading", "Readin&g options…"),
         Spec("sample", "Open sa&mple part"),
         Spec("scene_new", "New sce&ne"),
         Spec("scene_compound", "Figure 1: three surfaces", under="Sample scenes"),

@@ -8,13 +8,14 @@ import tempfile
 from functools import cache
 from pathlib import Path
 
+from app.atomic import waiting_prefix
 from app.ui.icons import pixmap
 from app.ui.theme import Theme
 
 
 @cache
 def _folder() -> Path:
-    folder = Path(tempfile.mkdtemp(prefix="hitofude-"))
+    folder = Path(tempfile.mkdtemp(prefix=waiting_prefix("hitofude"), suffix=".part"))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return folder
 

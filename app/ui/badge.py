@@ -14,6 +14,7 @@ from app.ui.verdict import Level, Verdict, finding_level, short, worst_first
 
 _TURN = "◐◓◑◒"
 _TURN_MS = 150
+_TEXT_PX, _BUTTON_PX = 472, 24
 
 
 class Badge(QPushButton):
@@ -56,31 +57,35 @@ class Badge(QPushButton):
 
 
 class FindingsList(QFrame):
-    """Every finding, worst first; a click goes to its place.
+    """Every finding, worst first; a click goes to its place, a button mends what one button can.
 
     Signals:
-        picked(finding).
+        picked(finding). left_out(layer): what is on it shall not be machined.
     """
 
     picked = Signal(Finding)
+    left_out = Signal(str)
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)
         self.setObjectName("findings")
         self.rows: list[Row] = []
+        self._layers: frozenset[str] = frozenset()
         self._column = QVBoxLayout(self)
         self._column.setContentsMargins(0, 12, 0, 8)
         self._column.setSpacing(0)
 
-    def show_findings(self, findings: tuple[Finding, ...], above: QWidget, empty: str) -> None:
+    def show_findings(self, findings: tuple[Finding, ...], above: QWidget, empty: str, layers: frozenset[str] = frozenset()) -> None:
         """Open above a widget.
 
         Args:
             findings: what to list, in any order.
             above: the badge; the list's right edge is the badge's.
             empty: what to say when there are none.
+            layers: that can be left out.
         """
         self._clear()
+        self._layers = layers
         counting = sum(f.counts for f in findings)
         remarks = counted(len(findings) - counting, "remark") if len(findings) > counting else ""
         title = heading(", ".join(filter(None, (counted(counting, "finding") if counting else "No findings", remarks))))
@@ -123,18 +128,45 @@ class FindingsList(QFrame):
     def _row(self, finding: Finding) -> Row:
         label = QLabel(finding.text.replace("mm2", "mm²"))
         label.setWordWrap(True)
-        label.setFixedWidth(472)
+        label.setFixedWidth(_TEXT_PX)
         label.setToolTip(short(finding))
         if finding_level(finding) is Level.BAD:
             label.setProperty("role", "error")
         elif not finding.counts:
             label.setProperty("role", "muted")
-        row = Row(label)
-        row.setFixedHeight(label.heightForWidth(472) + 12)
-        row.clicked.connect(lambda: self._pick(finding))
+        mends = finding.layer in self._layers
+        row = Row(_above(label, self._hiding(finding.layer)) if mends else label)
+        row.setFixedHeight(label.heightForWidth(_TEXT_PX) + 12 + (_BUTTON_PX if mends else 0))
+        row.setAccessibleName(label.text())
         self.rows.append(row)
+        if finding.entity_ids or finding.x is not None:
+            row.setCursor(Qt.CursorShape.PointingHandCursor)
+            row.clicked.connect(lambda: self._pick(finding))
+        else:
+            row.setProperty("row", "false")
+            row.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         return row
+
+    def _hiding(self, layer: str) -> QPushButton:
+        button = QPushButton(f"Hide layer {layer}")
+        button.setProperty("role", "link")
+        button.setToolTip("What is on a hidden layer is not machined")
+        button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        button.clicked.connect(self.hide)
+        button.clicked.connect(lambda: self.left_out.emit(layer))
+        return button
 
     def _pick(self, finding: Finding) -> None:
         self.hide()
         self.picked.emit(finding)
+
+
+def _above(label: QLabel, button: QPushButton) -> QWidget:
+    """Return both, one above the other."""
+    both = QWidget()
+    column = QVBoxLayout(both)
+    column.setContentsMargins(0, 6, 0, 4)
+    column.setSpacing(0)
+    column.addWidget(label)
+    column.addWidget(button, 0, Qt.AlignmentFlag.AlignLeft)
+    return both

@@ -131,6 +131,12 @@ class Computation(QObject):
         self.drawing_findings = drawing_findings
         self.changed.emit()
 
+    def know_drawing(self, findings: tuple[Finding, ...]) -> None:
+        """Take over what reading the drawing had to say, when it was read again or that was undone."""
+        if findings != self.drawing_findings:
+            self.drawing_findings = findings
+            self.changed.emit()
+
     def operation_times(self) -> dict[int, float]:
         """Return the time of each operation, seconds, by its index; nothing while the result is out of date."""
         if self.made is None or self.state is not State.CURRENT:

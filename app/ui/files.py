@@ -10,9 +10,11 @@ from pathlib import Path
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
+from app.edit.document import Change
 from app.files.drawing import SUFFIXES
 from app.files.project import Look, Project
-from app.model.part import Part, Units
+from app.model.part import Part
+from app.model.read_options import AS_THE_FILE_SAYS, Reading
 from app.ui import opening as opening_files
 from app.ui.canvas.view import View as CanvasView
 from app.ui.exporting import FILTER, Exporting
@@ -22,7 +24,8 @@ from app.ui.main_window import MainWindow
 from app.ui.memory import remember
 from app.ui.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
 from app.ui.nc.reading import is_program
-from app.ui.opening import Opened, Opening
+from app.ui.opening import Asked, Opened, Opening
+from app.ui.rereading import Rereading
 from app.ui.saving import Saving
 from app.ui.showing import Showing
 from app.ui.surfaces.shown_scene import is_scene
@@ -32,7 +35,6 @@ from app.workflow.bitmap_options import PICTURES, is_picture
 FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
 OPEN_FILTER = ("Drawings, scenes, pictures and NC programs "
                f"({' '.join('*' + suffix for suffix in (*SUFFIXES, '.DXF', '.toml', *PICTURES, *PROGRAM_SUFFIXES))});;All files (*)")
-_UNIT_NAMES = {Units.MM: "mm", Units.INCH: "inch"}
 
 
 @dataclass(frozen=True)
@@ -54,6 +56,7 @@ class Files(QObject):
         self._given_up: object = None
         self._open_program, self._open_picture, self._open_scene = open_others.program, open_others.picture, open_others.scene
         self.opening = Opening(window.document, window.worker)
+        self.rereading = Rereading(window, log)
         self.saving = Saving(window, showing, log)
         self.exporting = Exporting(window.computation, window.notice, self._choose_nc_file)
         window.dropped.connect(lambda path: self.open_file(Path(path)))
@@ -61,7 +64,9 @@ class Files(QObject):
         window.actions_.recent.aboutToShow.connect(self._list_recent)
         self.opening.read.connect(lambda opened: showing.know_size(opened.job.part, opened.size))
         self.opening.opened.connect(self._on_opened)
+        self.opening.asked.connect(self._ask_how)
         self.exporting.written.connect(self._on_written)
+        self._unsubscribe = window.document.subscribe(lambda change: window.card.hide() if change & Change.LOADED else None)
 
     @property
     def _would_lose(self) -> bool:
@@ -78,8 +83,12 @@ class Files(QObject):
         """Open the sample part, after asking when changes would be lost."""
         self._leave_drawing("Open the sample part", self.open_sample)
 
-    def open_file(self, path: Path, units: Units | None = None) -> None:
-        """Open a drawing, after asking when changes would be lost; NC programs and scenes are shown beside it, and nothing is lost."""
+    def open_file(self, path: Path, reading: Reading = AS_THE_FILE_SAYS) -> None:
+        """Open a drawing, after asking when changes would be lost; NC programs and scenes are shown beside it, and nothing is lost.
+
+        Args:
+            path: of the file. reading: how it is read, if it is a drawing.
+        """
         if is_program(path):
             self._open_program(path)
             return
@@ -89,7 +98,7 @@ class Files(QObject):
         if is_picture(path.name):
             self._leave_drawing(f"Open {path.name}", lambda: self._open_picture(path))
             return
-        self._leave_drawing(f"Open {path.name}", lambda: self.opening.open(path, units))
+        self._leave_drawing(f"Open {path.name}", lambda: self.opening.open(path, reading))
 
     def open_sample(self) -> None:
         """Open the sample part; it is computed at once."""
@@ -169,6 +178,7 @@ class Files(QObject):
         self._computation.forget(opened.drawing.findings)
         self._log.note(f"open {opened.path.name}", self._opened_sentence(opened))
         window.notice.hide()
+        self.rereading.know(opened)
         if opened.project is not None:
             self.saving.beside.mark_saved(opened.project.beside)
             self.bring(opened.project)
@@ -179,8 +189,8 @@ class Files(QObject):
             self._showing.show_view(View.PATHS)
             tour = [] if window.settings.tour else [("Show me round", window.actions_["tour"].trigger)]
             window.notice.ask(FIRST_START, [*tour, ("Draw your own", self.ask_new)])
-        elif not opened.drawing.units_named:
-            self._ask_units(opened)
+        elif opened.drawing.question is not None:
+            self._ask_after(opened)
         window.lay_out_now()
         window.canvas.fit()
 
@@ -206,14 +216,28 @@ class Files(QObject):
         more = f" {counted(findings, 'remark')} on the drawing: see Compute, Findings." if findings else ""
         return f"{counted(len(opened.job.part.entities), 'curve')}, {grouped(size[0])} by {grouped(size[1])} mm.{more}"
 
-    def _ask_units(self, opened: Opened) -> None:
-        read = opened.units
-        if read is None and opened.path.suffix.lower() != ".svg":
-            read = Units.MM
-        words = _UNIT_NAMES[read] if read else "pixels, 96 to the inch"
-        size = opened.size or (0.0, 0.0)
-        others = [units for units in _UNIT_NAMES if units is not read]
-        self._window.notice.ask(
-            f"{opened.path.name} names no units. It was read in {words}, which makes it {size[0]:.3f} by {size[1]:.3f} mm.",
-            [(f"Keep {words.split(',')[0]}", lambda: None),
-             *((f"Read in {_UNIT_NAMES[units]}", partial(self.open_file, opened.path, units)) for units in others)], stays=True)
+    def _ask_how(self, asked: Asked) -> None:
+        """Ask how a drawing is to be read that cannot be opened before; what was to be said of changes has been said."""
+        state = self._document.state
+
+        def answer(reading: Reading) -> None:
+            if self._document.state is state:
+                self.opening.open(asked.path, reading)
+            else:
+                self.open_file(asked.path, reading)
+
+        self._window.notice.dismiss()
+        self._window.card.ask(asked.path.name, asked.question, answer, waits=True)
+
+    def _ask_after(self, opened: Opened) -> None:
+        """Ask about a drawing that is open: what something was assumed about; once it was worked on, the answer is a step."""
+        state, question = self._document.state, opened.drawing.question
+        assert question is not None
+
+        def answer(reading: Reading) -> None:
+            if self._document.state is state:
+                self.opening.open(opened.path, reading)
+            else:
+                self.rereading.ask(reading)
+
+        self._window.card.ask(opened.path.name, question, answer, waits=False)

@@ -26,6 +26,7 @@ from app.ui.panels.drawing_page import DrawingPage
 from app.ui.panels.side_panel import SidePanel
 from app.ui.panels.side_tabs import SideTabs
 from app.ui.plot.panel import PlotPanel
+from app.ui.question_card import QuestionCard
 from app.ui.stages.import_panel import ImportPanel
 from app.ui.stages.stages_panel import StagesPanel
 from app.ui.status_bar import StatusBar
@@ -72,7 +73,7 @@ class MainWindow(QMainWindow):
         self.stages_panel, self.import_panel, self.plot_panel = StagesPanel(), ImportPanel(), PlotPanel()
         self.scene = SceneDocument(self)
         self.scene_side = SceneSide(self.scene)
-        self.notice, self.command_line, self.status = Notice(), CommandLine(), StatusBar()
+        self.notice, self.card, self.command_line, self.status = Notice(), QuestionCard(), CommandLine(), StatusBar()
         self.top_bar, self.tool_strip = TopBar(self.actions_), ToolStrip(self.actions_)
         self.findings_list = FindingsList(self)
         self.file_label = QLabel()
@@ -88,6 +89,7 @@ class MainWindow(QMainWindow):
         centre = QVBoxLayout()
         centre.setSpacing(0)
         centre.addWidget(self.notice)
+        centre.addWidget(self.card)
         centre.addWidget(self.views, 1)
         middle = QHBoxLayout()
         middle.setSpacing(0)

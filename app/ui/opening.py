@@ -1,4 +1,4 @@
-"""Opening drawings in the background; asks for units when a drawing names none."""
+"""Opening drawings in the background; tells what has to be asked before one can be read."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from app.edit.document import Document
 from app.edit.sample import bounds, union
 from app.errors import InputError
 from app.model.job import Job
-from app.model.part import Part, Units
+from app.model.part import Part
+from app.model.read_options import AS_THE_FILE_SAYS, Reading, Source
 from app.progress import Progress
 from app.resources import resource
 from app.ui.worker import Answer, Worker
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
     from app.files.drawing import Drawing
     from app.files.project import Project
     from app.files.project_files import Stamp
+    from app.files.reading_question import Question
+
+READ_AGAIN = (".dxf", ".svg")
+"""Drawings that can be read in other ways than one."""
 
 
 @dataclass(frozen=True)
@@ -30,18 +35,26 @@ class Opened:
 
     Attributes:
         path: the file. drawing: what it holds. job: the job to work on, with the tools that were there before.
-        units: what the user said its units are; None when he was not asked.
         size: width and height, mm.
+        source: the drawing, and how it was read; None of what can be read in one way alone.
         project: what a project file holds beside its job; None for a drawing. stamp: of that file.
     """
 
     path: Path
     drawing: Drawing
     job: Job
-    units: Units | None = None
     size: tuple[float, float] | None = None
+    source: Source | None = None
     project: Project | None = None
     stamp: Stamp | None = None
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A drawing that was not read, for somebody has to say how."""
+
+    path: Path
+    question: Question
 
 
 def size_of(part: Part, without: tuple[str, ...] = ()) -> tuple[float, float] | None:
@@ -55,22 +68,52 @@ def sample_path() -> Path:
     return resource("samples", "fig2.dxf")
 
 
-def _read(path: Path, units: Units | None, before: Job, progress: Progress) -> Opened:
-    from app.files.drawing import PROJECTS, read_drawing  # imports the DXF reader: never on the window's thread
-    from app.workflow.make import job_from_drawing
+def read_drawing_file(path: Path, reading: Reading, before: Job, progress: Progress) -> Opened | Asked:
+    """Return a drawing, with the job to work on.
+
+    Args:
+        path: of the file. reading: how it is read.
+        before: the job that goes on with this drawing.
+
+    Raises:
+        HitofudeError: it cannot be used. Cancelled: `progress` says so.
+    """
+    from app.files.reading_question import UndecidedError
+    from app.workflow.make import job_from_drawing  # imports the DXF reader: never on the window's thread
     from app.workflow.options import MakeOptions
+    from app.workflow.plausible import diameters_used, read_plausible
 
     progress.step(0.05, f"Reading {path.name}")
-    if path.suffix.lower() in PROJECTS:
-        return _read_project(path)
     try:
         data = read_whole(path)
     except OSError as error:
         raise InputError(f"Cannot read {path}: {error.strerror}. Choose another file.") from error
-    drawing = read_drawing(path.name, data, units, ())
+    try:
+        drawing = read_plausible(path.name, data, reading, lambda _: diameters_used(before))
+    except UndecidedError as error:
+        if error.question is None:
+            raise
+        return Asked(path, error.question)
     progress.step(0.9, f"Reading {path.name}")
-    job = job_from_drawing(drawing, MakeOptions(job=before, units=units))
-    return Opened(path, drawing, job, units, size_of(job.part))
+    drawing = replace(drawing, part=_shown(drawing.part, reading.layers))
+    job = job_from_drawing(drawing, MakeOptions(job=before))
+    source = Source(str(path.absolute()), reading) if path.suffix.lower() in READ_AGAIN else None
+    return Opened(path, drawing, job, size_of(job.part), source)
+
+
+def _shown(part: Part, layers: tuple[str, ...]) -> Part:
+    """Return a part with layers shown that were asked for by name."""
+    wanted = {layer.casefold() for layer in layers}
+    return replace(part, layers=tuple(replace(each, visible=each.visible or each.name.casefold() in wanted) for each in part.layers))
+
+
+def _read(path: Path, reading: Reading, before: Job, progress: Progress) -> Opened | Asked:
+    from app.files.drawing import PROJECTS
+
+    if path.suffix.lower() in PROJECTS:
+        progress.step(0.05, f"Reading {path.name}")
+        return _read_project(path)
+    return read_drawing_file(path, reading, before, progress)
 
 
 def _read_project(path: Path) -> Opened:
@@ -81,7 +124,7 @@ def _read_project(path: Path) -> Opened:
     project = replace(project, state=project.state.named(path.stem))
     job = project.state.job
     part = job.part
-    return Opened(path, Drawing(part), job, None, size_of(part, job.keep_out_layers), project, stamp)
+    return Opened(path, Drawing(part), job, size_of(part, job.keep_out_layers), None, project, stamp)
 
 
 class Opening(QObject):
@@ -89,10 +132,12 @@ class Opening(QObject):
 
     Signals:
         read(Opened): the document will hold it next. opened(Opened): the document holds it now. failed(sentence).
+        asked(Asked): it is not opened before somebody has said how it is to be read.
     """
 
     read = Signal(Opened)
     opened = Signal(Opened)
+    asked = Signal(Asked)
     failed = Signal(str)
 
     def __init__(self, document: Document, worker: Worker) -> None:
@@ -102,28 +147,34 @@ class Opening(QObject):
         worker.done.connect(self._on_done)
         worker.failed.connect(self._on_failed)
 
-    def open(self, path: Path, units: Units | None = None) -> None:
+    def open(self, path: Path, reading: Reading = AS_THE_FILE_SAYS) -> None:
         """Read a drawing; the document changes only when it has been read whole.
 
         Args:
             path: a drawing or a project.
-            units: of a drawing that names none; None = not asked yet.
+            reading: how a drawing is read.
         """
         before = self._document.job
-        self._job_id = self._worker.start(lambda progress: _read(path, units, before, progress), self._document.revision)
+        self._job_id = self._worker.start(lambda progress: _read(path, reading, before, progress), self._document.revision)
 
     def _on_done(self, answer: Answer) -> None:
-        if answer.job_id != self._job_id or not isinstance(answer.value, Opened):
+        if answer.job_id != self._job_id:
             return
+        if isinstance(answer.value, Asked):
+            self.asked.emit(answer.value)
+        elif isinstance(answer.value, Opened):
+            self._take(answer, answer.value)
+
+    def _take(self, answer: Answer, opened: Opened) -> None:
         if answer.revision != self._document.revision and self._document.modified:
-            self.failed.emit(f"The drawing was changed while {answer.value.path.name} was being read, so it was kept. Open the file again.")
+            self.failed.emit(f"The drawing was changed while {opened.path.name} was being read, so it was kept. Open the file again.")
             return
-        self.read.emit(answer.value)
-        if answer.value.project is not None:
-            self._document.load_state(answer.value.project.state, answer.value.path)
+        self.read.emit(opened)
+        if opened.project is not None:
+            self._document.load_state(opened.project.state, opened.path)
         else:
-            self._document.load(answer.value.job, answer.value.path)
-        self.opened.emit(answer.value)
+            self._document.load(opened.job, opened.path, opened.source)
+        self.opened.emit(opened)
 
     def _on_failed(self, answer: Answer) -> None:
         if answer.job_id == self._job_id:

@@ -65,7 +65,7 @@ class Recovering(QObject):
 
     def offer(self, otherwise: Callable[[], None] = lambda: None) -> None:
         """Ask what is to become of what other windows have left; where there is nothing, or none is wanted now, do the other thing."""
-        if self._window.notice.isVisible():
+        if self._window.notice.isVisible() or self._window.card.isVisible():
             return  # another question waits for its answer; the next start asks
         self._left, self._otherwise = list(recoveries()), otherwise
         self._offer_next()

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject, Signal
 
 from app.edit.document import Change
+from app.edit.sample import bounds, union
+from app.edit.words import name_text
 from app.model.finding import Finding
 from app.model.part import Part
 from app.ui.canvas.modes import CanvasTool, ColourBy, PathLayers
@@ -85,6 +87,7 @@ class Showing(QObject):
         window.worker.busy_changed.connect(self._on_busy)
         window.status.badge.clicked.connect(self.open_findings)
         window.findings_list.picked.connect(self.go_to)
+        window.findings_list.left_out.connect(self.leave_out)
         window.canvas.tool_changed.connect(lambda _: self.show_missing())
         window.views.empty.pressed.connect(lambda: window.actions_[self._empty_action].trigger())
         window.views.legend.layer_switched.connect(self._on_layer)
@@ -288,16 +291,26 @@ class Showing(QObject):
             said = self._window.views.surfaces.verdict
             self._window.findings_list.show_findings(self._window.views.surfaces.findings, self._window.status.badge, said.tip or said.text)
             return
-        self._window.findings_list.show_findings(self.findings, self._window.status.badge, empty)
+        shown = frozenset(layer.name for layer in self._document.part.layers if layer.visible)
+        self._window.findings_list.show_findings(self.findings, self._window.status.badge, empty, shown)
 
     def go_to(self, finding: Finding) -> None:
-        """Show the place of a finding on the canvas."""
-        if finding.x is None or finding.y is None:
+        """Show the place of a finding on the canvas, with the whole of the curves that it is about, and select these."""
+        ids = set(finding.entity_ids)
+        box = union([bounds(entity.curve) for entity in self._document.part.entities if entity.id in ids])
+        if finding.x is not None and finding.y is not None:
+            place = (finding.x, finding.y)
+        elif box is not None:
+            place = ((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
+        else:
             return
         self._window.canvas.set_findings((*self._marked(), finding))
         if self.view not in (View.DRAW, View.PATHS):
             self.show_view(View.PATHS)
-        self._window.canvas.go_to(finding.x, finding.y, closely=True)
+        self._window.canvas.go_to(*place, closely=True, around=box)
         self._window.canvas.setFocus()
         self._document.select(finding.entity_ids)
 
+    def leave_out(self, layer: str) -> None:
+        """Hide a layer, so that what is on it is not machined; one undoable line."""
+        self._document.run(f"hide {name_text(layer)}")

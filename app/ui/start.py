@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import signal
 import sys
+import tempfile
 import traceback
 from functools import partial
 from importlib import import_module
@@ -16,7 +17,7 @@ from PySide6.QtWidgets import QApplication
 from app.atomic import sweep
 from app.edit.document import Document
 from app.progress import Progress
-from app.settings import config_folder, load_settings, state_folder
+from app.settings import Settings, config_folder, load_settings, state_folder
 from app.ui.icons import pixmap
 from app.ui.main_window import MainWindow
 from app.ui.memory import restore_geometry
@@ -29,10 +30,17 @@ _ENGINES = (
 )
 
 
-def _warm(progress: Progress) -> None:
-    """Load what the first Open and Compute need: an import on the way would make the window stutter."""
+def places(settings: Settings) -> set[Path]:
+    """Return the folders in which a run of the program that was killed may have left something unfinished, but for its own."""
+    recent = {Path(name).parent for name in settings.recent_files}
+    return recent | {Path(tempfile.gettempdir())} | ({Path(settings.last_folder)} if settings.last_folder else set())
+
+
+def _warm(settings: Settings, progress: Progress) -> None:
+    """Sweep, which may wait for a disk, and load what the first Open and Compute need, which would make the window stutter later."""
     from app.kernels import warm
 
+    sweep(*places(settings))
     for engine in _ENGINES:
         import_module(engine)
     warm(progress)
@@ -51,7 +59,7 @@ def warm_up(window: MainWindow) -> Worker:
     warmer = Worker(window)
     warmer.progress.connect(lambda _, text: window.status.show_waiting(text))
     warmer.busy_changed.connect(lambda _: window.status.show_waiting(""))
-    warmer.start(_warm, 0)
+    warmer.start(partial(_warm, window.settings), 0)
     return warmer
 
 

@@ -74,6 +74,10 @@ QPushButton[role="primary"]:focus { border-color: $ink; }
 QPushButton[role="primary"]:disabled { background: $hover; color: $muted; border-color: $hairline; }
 QPushButton[role="link"] { border: 0; background: transparent; color: $accent_text; padding: 2px 4px; text-align: left; }
 QPushButton[role="link"]:hover { text-decoration: underline; }
+QPushButton[role="drop"] { border: 0; border-bottom: 1px solid $edge; border-radius: 0; padding: 2px 6px; }
+QPushButton[role="drop"]:focus { border-bottom: 1px solid $accent_text; }
+QPushButton[role="drop"]::menu-indicator { image: url($arrow); width: 12px; height: 12px; right: 4px;
+  subcontrol-origin: padding; subcontrol-position: center right; }
 QPushButton[role="badge"] { border: 0; border-radius: 4px; padding: 3px 12px; font-weight: 600; background: $hover; color: $muted; }
 QPushButton[role="badge"][verdict="ok"] { background: $ok_fill; color: $ok; }
 QPushButton[role="badge"][verdict="remark"] { background: $warning_fill; color: $warning; }
@@ -113,6 +117,7 @@ QScrollBar::add-line, QScrollBar::sub-line, QScrollBar::add-page, QScrollBar::su
 QProgressBar { background: $hairline; border: 0; border-radius: 2px; }
 QProgressBar::chunk { background: $accent; border-radius: 2px; }
 QWidget#notice { background: $notice; border-bottom: 1px solid $hairline; }
+QWidget#card { background: $paper; border-bottom: 1px solid $hairline; }
 QWidget#notice[error="true"] { background: $notice_error; }
 QFrame#ring { border: 2px solid $accent; border-radius: 6px; background: transparent; }
 QFrame#findings, QFrame#palette, QFrame#callout { background: $raised; border: 1px solid $edge; border-radius: 4px; }

@@ -21,8 +21,10 @@ from app.ui.language.page import TextPage
 from app.ui.main_window import MainWindow
 from app.ui.nc.nc_view import NcView
 from app.ui.panels.drawing_page import DrawingPage
+from app.ui.panels.reading_section import ReadingSection
 from app.ui.panels.side_panel import SidePanel
 from app.ui.panels.side_tabs import SideTabs
+from app.ui.question_card import QuestionCard
 from app.ui.stages.stages_view import StagesView
 from app.ui.status_bar import StatusBar
 from app.ui.surfaces.points_page import PointsPage
@@ -48,6 +50,9 @@ PLACES: dict[type[QWidget], tuple[str, str]] = {
     SidePanel: ("What is machined with which tool, how deep and how fast. F5 computes the paths anew.", ""),
     DrawingPage: (
         "Numbers of what is selected, to be changed; layers; what is wrong with the drawing; everything that was done.", LANGUAGE),
+    ReadingSection: (
+        "How the drawing was read from its file. A change reads it again, as one step that can be undone; a project keeps it.", ""),
+    QuestionCard: ("What the file of a drawing leaves open. Choose how it is read; behind each answer stands what comes of it.", ""),
     TextPage: ("The drawing as a text. What it would draw is shown while it is written; Ctrl+Enter draws it.", LANGUAGE),
     CommandLine: (
         "Type what a tool asks for, or a whole line such as circle 10,10 5. Above it is everything that was done, in the same words.",

@@ -132,7 +132,7 @@ class Wiring(QObject):
         self._on("export", self.export)
         self._on("frame", files.exporting.start_frame)
         self._on("quit", self.window_.close)
-        for part in (files.opening, self.scenes, self.scene_export):
+        for part in (files.opening, files.rereading, self.scenes, self.scene_export):
             part.failed.connect(self._say_error)
         files.exporting.failed.connect(self._say_error)
         files.exporting.show_findings.connect(self._show_worst)

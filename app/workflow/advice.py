@@ -6,17 +6,17 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from app.errors import GeometryError
-from app.files.drawing import read_drawing
-from app.files.read_options import AS_DRAWN, ReadOptions
 from app.model.finding import Finding
 from app.model.job import Job
 from app.model.part import Units
+from app.model.read_options import AS_DRAWN, Reading, ReadOptions
 from app.model.tool import Tool
 from app.progress import NO_PROGRESS, Progress
-from app.toolpath.advise import Advice, Choice, RegionAdvice, advise
+from app.toolpath.advise import Advice, Choice, RegionAdvice, advise, standard_tools
 from app.toolpath.advise_time import Plan
 from app.toolpath.compute import regions_of
 from app.workflow.layers import with_layers_spelled
+from app.workflow.plausible import read_plausible
 
 Json = dict[str, Any]
 
@@ -69,7 +69,8 @@ def advice_for(name: str, data: bytes, options: AdviceOptions, progress: Progres
         Cancelled: the job was asked to stop.
     """
     progress.step(0.0, f"Reading {name}")
-    drawing = read_drawing(name, data, options.units, options.layers, options.reading)
+    diameters = [tool.diameter for tool in options.tools or standard_tools()]
+    drawing = read_plausible(name, data, Reading(options.units, options.layers, options.reading), lambda _: diameters)
     job = Job(drawing.part, layer_names=options.layers)
     if options.join_tolerance is not None:
         job = Job(drawing.part, layer_names=options.layers, join_tolerance=options.join_tolerance)

@@ -14,17 +14,17 @@ from app.bitmap.frame import Frame
 from app.bitmap.picture import Picture, PictureOptions, Shows, read_picture
 from app.bitmap.walls import Mask, free_contours
 from app.errors import GeometryError, InputError, ParameterError
-from app.files.drawing import read_drawing
-from app.files.read_options import AS_DRAWN
 from app.geometry.region import nest
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.part import Entity, Part, Region
+from app.model.read_options import AS_DRAWN
 from app.toolpath.compute import regions_of
 from app.workflow.bitmap_options import BitmapOptions, BitmapSize, is_picture
 from app.workflow.bitmap_part import BitmapPart, part_of_mask, part_of_regions
-from app.workflow.options import MakeOptions, job_with_options, layers_of_drawing
+from app.workflow.options import MakeOptions, job_with_options
 from app.workflow.own_job import with_own_job
+from app.workflow.plausible import read_for
 
 _TOLD = 20
 """Doubtful places of one kind that are findings of their own."""
@@ -67,7 +67,7 @@ def bitmap_job(name: str, data: bytes, options: MakeOptions) -> BitmapJob:
                              "--layout, --to-zero and --px-per-inch away.")
         return picture_job(read_picture(name, data, bitmap.picture), options, bitmap.picture, PurePath(name).stem)
     options = with_own_job(name, data, options)
-    drawing = read_drawing(name, data, options.units, layers_of_drawing(options), options.reading)
+    drawing = read_for(name, data, options)
     job = job_with_options(drawing.part, options)
     return drawn_job(job, bitmap.size, drawing.findings)
 

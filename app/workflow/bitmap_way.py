@@ -7,7 +7,7 @@ is metal along the walls: how much is measured too.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -285,16 +285,22 @@ def _findings(part: BitmapPart, paths: Sequence[OperationPaths], given_up: Given
     pitch = part.frame.pitch
     text = (f"On pixels of {pitch:.3g} mm the paths along the walls are up to {given_up.most_mm:.3f} mm farther from them than asked, "
             f"{given_up.mean_mm:.3f} mm in the mean, so that none is nearer; a larger bitmap gives up less.")
-    found = [Finding(FindingKind.TOLERANCE, text, counts=False, amount=given_up.most_mm)]
+    return [Finding(FindingKind.TOLERANCE, text, counts=False, amount=given_up.most_mm), *_without_path(part, paths, job)]
+
+
+def _without_path(part: BitmapPart, paths: Sequence[OperationPaths], job: Job) -> Iterator[Finding]:
+    """Yield the regions in which a tool has no path, once a tool; whether it fits between the lines as drawn is another question."""
+    missed: dict[tuple[int, int], bool] = {}
     for each in paths:
-        tool = job.tool(job.operations[each.index].cut.tool)
         reached = {int(part.label[path.chain.start]) for level in each.levels for path in level}
         alone = isinstance(job.operations[each.index], ContourOperation) or each.wall == 0
         for region in part.regions:
-            if region.number in reached:
-                continue
-            x, y = region.boundary.primitives[0].start
-            text = (f"Region {region.number}, which begins at ({x:.3f}, {y:.3f}), is too small for T{tool.number} {tool.label} "
-                    f"on pixels of {pitch:.3g} mm; use a larger bitmap or a smaller tool.")
-            found.append(Finding(FindingKind.REGION_TOO_SMALL, text, x, y, alone, region.boundary.entity_ids))
-    return found
+            if region.number not in reached:
+                key = (region.number, job.operations[each.index].cut.tool)
+                missed[key] = missed.get(key, False) or alone
+    boundaries = {region.number: region.boundary for region in part.regions}
+    for (number, tool_number), counts in missed.items():
+        (x, y), tool = boundaries[number].primitives[0].start, job.tool(tool_number)
+        text = (f"Region {number}, which begins at ({x:.3f}, {y:.3f}), has no room for T{tool.number} {tool.label} on pixels of "
+                f"{part.frame.pitch:.3g} mm; use a larger bitmap or a smaller tool.")
+        yield Finding(FindingKind.REGION_TOO_SMALL, text, x, y, counts, boundaries[number].entity_ids)

@@ -31,9 +31,9 @@ from app.workflow.bitmap_options import is_picture
 from app.workflow.cut import CutProgram
 from app.workflow.cut_job import cut_job, news
 from app.workflow.machining import check_order
-from app.workflow.options import MakeOptions, job_with_options, layers_of_drawing
+from app.workflow.options import MakeOptions, job_with_options
 from app.workflow.own_job import with_own_job
-from app.workflow.plausible import read_plausible
+from app.workflow.plausible import read_for
 from app.workflow.report import Measured, Report, make_report, rings_in_words
 from app.workflow.verdict import Gouge, RapidInMaterial, clamps_met, deepest_of, gouge_depths, rapids_in_material
 from app.workflow.written import write_and_check
@@ -103,20 +103,6 @@ def job_from_drawing(drawing: Drawing, options: MakeOptions) -> Job:
     check_order(job, options.order)
     load_post(job.post)
     return job
-
-
-def read_for(name: str, data: bytes, options: MakeOptions) -> Drawing:
-    """Return the drawing that a job machines.
-
-    Raises:
-        HitofudeError: it or an option cannot be used, or its size cannot be meant with the job's tools.
-    """
-    def diameters(drawing: Drawing) -> list[float]:
-        job = job_with_options(drawing.part, options)
-        used = {operation.cut.tool for operation in job.operations if operation.cut.enabled}
-        return [tool.diameter for tool in job.tools if tool.number in used]
-
-    return read_plausible(name, data, (options.units, layers_of_drawing(options)), options.reading, diameters)
 
 
 def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_PROGRESS) -> Made:

@@ -12,7 +12,6 @@ from app.dexel.solid import SolidStock, read_solid
 from app.dexel.workpiece import BoxStock, Stock
 from app.errors import HitofudeError, InputError
 from app.files.job_toml import JobFile
-from app.files.read_options import AS_DRAWN, ReadOptions
 from app.model.entry import LONGEST_LEAD, Lead
 from app.model.finding import Finding, FindingKind
 from app.model.job import Copies, Job, OriginXY, OriginZ
@@ -22,6 +21,7 @@ from app.model.moves import DogBone, Tab
 from app.model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, RestOperation
 from app.model.part import Contour, Region, Units
 from app.model.part import Part as DrawnPart
+from app.model.read_options import AS_DRAWN, Reading, ReadOptions
 from app.model.scene import Scene
 from app.model.stock_box import stock_box, work_origin
 from app.nc.read.codes import ROTARY
@@ -241,7 +241,7 @@ def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
     units = wishes.units or (wishes.job.units if wishes.job else None) or header.drawing_units
     asked = _job(DrawnPart(), programs, tools, wishes)
     diameters = [each.tool.diameter for each in tools.values()]
-    drawing = read_plausible(name, data, (units, layers_to_read(asked)), wishes.reading, lambda _: diameters)
+    drawing = read_plausible(name, data, Reading(units, layers_to_read(asked), wishes.reading), lambda _: diameters)
     job = with_layers_spelled(replace(asked, part=drawing.part))
     parts = drawn(job)
     made, lines = machined(parts), followed_lines(job, parts)

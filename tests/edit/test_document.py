@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 from app.edit.document import Change, Document, LogLine
 from app.errors import InputError
-from app.model.curves import Circle
+from app.model.curves import Circle, Line
 from app.model.job import Job, Stock
-from app.model.part import Entity, Layer, Part
+from app.model.part import Entity, Layer, Part, Units
+from app.model.read_options import Reading, Source
 from tests.examples import examples
 
 
@@ -234,3 +235,21 @@ def test_undoing_everything_leads_back_and_every_log_replays(lines: list[str]) -
     while document.undo_name is not None:
         document.undo()
     assert document.part == Part()
+
+
+def test_a_drawing_that_is_read_again_is_one_step_that_undo_takes_back_with_how_it_was_read() -> None:
+    first, second = Source("a.dxf"), Source("a.dxf", Reading(Units.INCH))
+    document = Document()
+    document.load(Job(Part().with_curves([Line((0, 0), (1, 0))], "0")), None, first)
+    document.run("let w = 3")
+    document.run("circle 5,5 2 as hole")
+    document.select({1})
+    part = Part(layers=(Layer("cut"),)).with_curves([Line((0, 0), (25.4, 0))], "cut")
+    document.read_again("Read a.dxf", replace(document.job, part=part), second)
+    assert (document.part, document.state.source, document.selection, document.layer) == (part, second, frozenset(), "cut")
+    assert set(document.state.names) == {"w"}, "a name of curves that are no longer there"
+    assert document.recorded.base is part
+    document.run("circle 0,0 1")
+    assert document.state.source == second
+    document.go_to(2)
+    assert document.state.source == first and len(document.part.entities) == 2 and "hole" in document.state.names

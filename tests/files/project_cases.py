@@ -16,6 +16,7 @@ from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
 from app.model.notes import Dimension, Guide, Mark, Measure, Note
 from app.model.operation import ContourOperation, Cut, Direction, DrillOperation, Order, PocketOperation, RestOperation, Side
 from app.model.part import Entity, Layer, Part, Units
+from app.model.read_options import Reading, ReadOptions, Source
 from app.model.tool import FeedRow, Tool, ToolKind, shape_keys
 from app.model.underlay import Underlay
 
@@ -137,4 +138,13 @@ def projects(draw: st.DrawFn) -> Project:
     place = st.builds(Underlay, TEXT.map(lambda name: f"p{name}"), POINT, floats(1e-6, 1e3), floats(-7, 7), floats(0, 1))
     text = st.lists(TEXT, min_size=1, max_size=5).map(lambda lines: "\n".join(["x", *lines]))
     beside = Beside(draw(st.one_of(st.none(), place)), *draw(st.one_of(st.just(()), st.tuples(text, st.booleans()))))
-    return Project(State(draw(jobs(part)), layer, draw(POINT), names, commands), look, beside)
+    state = State(draw(jobs(part)), layer, draw(POINT), names, commands, source=draw(st.one_of(st.none(), sources())))
+    return Project(state, look, beside)
+
+
+def sources() -> st.SearchStrategy[Source]:
+    """Return drawings that parts were read from, in every way that they can be read."""
+    names = NAMES.map(tuple)
+    how = st.builds(ReadOptions, st.booleans(), TEXT, st.booleans(), st.one_of(st.none(), floats(1, 1e5)), names, names)
+    reading = st.builds(Reading, st.one_of(st.none(), st.sampled_from(Units)), names, how)
+    return st.builds(Source, TEXT.map(lambda name: f"d{name}.dxf"), reading)

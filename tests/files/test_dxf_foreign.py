@@ -8,10 +8,12 @@ import pytest
 
 from app.errors import InputError
 from app.files.drawing import Drawing, read_drawing
-from app.files.read_options import ReadOptions
+from app.files.drawing_account import size_of
+from app.files.reading_question import UndecidedError, size_words
 from app.model.curves import Circle, Line
 from app.model.finding import Finding, FindingKind
 from app.model.part import Units
+from app.model.read_options import Reading, ReadOptions
 from app.workflow.plausible import read_plausible
 
 
@@ -203,7 +205,7 @@ def test_paper_space_is_offered_and_read() -> None:
 def sized(units: int, given: Units | None, diameter: float = 6.0) -> Drawing:
     document = new(units)
     plate(document.modelspace())
-    return read_plausible("x.dxf", bytes_of(document), (given, ()), ReadOptions(), lambda _: [diameter])
+    return read_plausible("x.dxf", bytes_of(document), Reading(given), lambda _: [diameter])
 
 
 def width(drawing: Drawing) -> float:
@@ -247,3 +249,33 @@ def test_layers_and_types_are_left_out_as_asked() -> None:
 def test_options_that_say_nothing_of_a_kind_of_file_are_refused(name: str, how: dict[str, Any], option: str) -> None:
     with pytest.raises(InputError, match=f"^{option} is for .* and says nothing of {name}"):
         read_drawing(name, b"", None, (), ReadOptions(**how))
+
+
+def test_units_that_would_be_no_better_are_not_offered() -> None:
+    """3e5 pixels are 79 m: no unit that is offered makes them less, and in metres they lie beyond 1 km."""
+    text = b'<svg xmlns="http://www.w3.org/2000/svg"><rect width="3e5" height="1e5" stroke="red" fill="none"/></svg>'
+    with pytest.raises(UndecidedError, match="79375 x 26458") as caught:
+        read_plausible("a.svg", text, Reading(), lambda _: [6.0])
+    question = caught.value.question
+    assert question is not None and [choice.words for choice in question.choices] == ["Keep 96 to the inch"]
+    assert read_plausible("a.svg", text, question.choices[0].reading, lambda _: [6.0]).part.entities
+
+
+def test_every_answer_is_read_as_it_says() -> None:
+    document = new(6)
+    plate(document.modelspace())
+    with pytest.raises(UndecidedError) as caught:
+        read_plausible("a.dxf", bytes_of(document), Reading(), lambda _: [6.0])
+    question = caught.value.question
+    assert question is not None and [choice.likely for choice in question.choices] == [True, False, False]
+    for choice in question.choices:
+        part = read_plausible("a.dxf", bytes_of(document), choice.reading, lambda _: [6.0]).part
+        assert choice.outcome == size_words(size_of(part))
+
+
+@pytest.mark.parametrize(("size", "words"), [
+    ((40.0, 20.0), "40 \u00d7 20 mm"), ((1204.1479, 1976.72), "1\u2009204.148 \u00d7 1\u2009976.72 mm"),
+    ((0.04, 2e-5), "0.04 \u00d7 2e-05 mm"),
+])
+def test_sizes_have_three_decimals_at_most(size: tuple[float, float], words: str) -> None:
+    assert size_words(size) == words

@@ -127,6 +127,9 @@ TEXT = write_project(drawn()).decode()
     ("thickness = 10.0", "thickness = inf", "thickness is inf"),
     ("[names]", "[underlay]\norigin = [0, 0]\n[names]", r"p.hito:\d+: \[underlay\] names no picture"),
     ("[names]", '[underlay]\npath = "a.png"\nmm_per_px = 0\n[names]', r"p.hito:\d+: The picture a.png cannot lie there"),
+    ("[names]", "[source]\nto_zero = true\n[names]", r"p.hito:\d+: \[source\] names no drawing"),
+    ("[names]", '[source]\npath = "a.svg"\npixels_per_inch = 0\n[names]', r"p.hito:\d+: --px-per-inch is 0; use 1 to 100000"),
+    ("[names]", '[source]\npath = "a.dxf"\nlayuot = "A3"\n[names]', r"p.hito:\d+: layuot is no key of \[source\]"),
     ("[names]", "[text]\nlines = 3\n[names]", r"p.hito:\d+: lines is 3: it must be a list of texts"),
 ])  # fmt: skip
 def test_what_is_wrong_is_told_with_its_place(old: str, new: str, told: str) -> None:

@@ -3,6 +3,7 @@
 import os
 import resource
 import signal
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,8 @@ from app.files.project import Project, read_project
 from app.files.project_beside import Beside
 from app.files.project_files import ChangedElsewhere, load_project, save_project, stamp_of
 from app.model.job import Job
-from app.model.part import Part
+from app.model.part import Part, Units
+from app.model.read_options import Reading, ReadOptions, Source
 from app.model.underlay import Underlay
 from tests.files.project_cases import plate
 
@@ -154,3 +156,12 @@ def test_stamps(tmp_path: Path) -> None:
     assert stamp_of(tmp_path / "none") is None
     with pytest.raises(InputError, match="Cannot read"):
         load_project(tmp_path / "none.hito")
+
+
+def test_the_drawing_it_was_read_from_is_told_from_its_folder_where_it_lies_in_that(tmp_path: Path) -> None:
+    reading = Reading(Units.MM, (), ReadOptions(overrule=True, to_zero=True))
+    for drawing, told in ((tmp_path / "cad" / "a.dxf", 'path = "cad/a.dxf"'), (tmp_path.parent / "b.dxf", f'path = "{tmp_path.parent}')):
+        project = Project(replace(named("one").state, source=Source(str(drawing), reading)))
+        save_project(tmp_path / "p.hito", project)
+        assert told in (tmp_path / "p.hito").read_text()
+        assert load_project(tmp_path / "p.hito")[0].state.source == Source(str(drawing), reading)

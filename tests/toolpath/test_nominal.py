@@ -7,6 +7,9 @@ from collections.abc import Sequence
 
 import pytest
 
+from app.model.finding import FindingKind
+from app.tolerances import NOMINAL
+from app.workflow.bitmap_options import BitmapOptions, BitmapSize
 from app.workflow.make import Made, make
 from app.workflow.options import MakeOptions
 
@@ -70,3 +73,38 @@ def test_a_tool_that_is_wider_by_more_does_not_fit() -> None:
     made = made_with("circle 0,0 10\n" + f"circle 30,0 {WIDTH / 2 - 7e-4!r}\n")
     assert made.coverage.unreachable_mm2 == pytest.approx(math.pi * WIDTH**2 / 4, abs=0.02)
     assert [finding for finding in made.findings if "too small" in finding.text]
+
+
+def narrow_words(made: Made) -> list[str]:
+    return [finding.text for finding in made.findings if finding.kind in (FindingKind.REGION_TOO_SMALL, FindingKind.NECK_TOO_NARROW)]
+
+
+@pytest.mark.parametrize("width", [5.999, 5.9989, 5.998, 5.996])
+def test_a_hole_that_is_too_small_is_told_to_be_smaller_than_the_tool_and_out_of_its_reach(width: float) -> None:
+    made = made_with(f"circle 0,0 10\ncircle 30,0 {width / 2!r}\n", 6.0)
+    assert made.coverage.reachable_left_mm2 == 0
+    (told,) = {float(text.split("about ")[1].split()[0]) for text in narrow_words(made)}
+    assert width - 0.006 < told <= 5.999
+
+
+def test_what_no_path_enters_is_out_of_reach_at_the_very_limit() -> None:
+    """0.5 um of radius too large, to the last digit: the ring at that distance is one point, and nothing."""
+    made = made_with(f"circle 0,0 10\ncircle 30,0 {3 - NOMINAL!r}\n", 6.0)
+    assert made.coverage.reachable_left_mm2 == 0 and made.coverage.unreachable_mm2 == pytest.approx(math.pi * 9, abs=0.05)
+
+
+@pytest.mark.parametrize("width", [6.0, 10.0])
+def test_the_corners_of_a_slot_beside_another_area_are_no_necks(width: float) -> None:
+    made = made_with(f"rect 0,{7 - width / 2!r} 40,{7 + width / 2!r}\nrect 40,-5 60,20\n", 6.0)
+    assert narrow_words(made) == []
+    assert made.coverage.unreachable_mm2 == pytest.approx(8 * (1 - math.pi / 4) * 9, abs=0.02)
+
+
+@pytest.mark.parametrize("width", [3.175, 3.3])
+def test_on_pixels_an_area_without_a_path_is_told_once_and_not_to_be_too_small(width: float) -> None:
+    options = MakeOptions(pocket_diameter=3.175, contour_diameter=3.175, bitmap=BitmapOptions(BitmapSize(400)))
+    made = make("words.draw", f"slot -8,0 8,0 {width}\nrect 20,0 60,40\n".encode(), options)
+    (told,) = narrow_words(made)
+    assert "has no room for T1 Flat 3.175 mm on pixels of 0.176 mm" in told
+    (left,) = [finding.text for finding in made.findings if finding.kind is FindingKind.LEFT_REACHABLE]
+    assert left.endswith("use a smaller pocket tool or a larger bitmap.")

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, QRect, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QWidget
 
 from app.resources import resource
 from app.settings import ThemeChoice, load_settings
@@ -171,10 +171,10 @@ def test_drawing_without_units_asks_above_the_canvas(qtbot, wiring, tmp_path):
     path.write_text(NO_UNITS, "ascii")
     with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
         wiring.files.open_file(path)
-    notice = wiring.window_.notice
-    assert "plate.dxf names no units" in notice.text.text()
-    assert "40.000 by 40.000 mm" in notice.text.text()
-    inch = next(b for b in notice.buttons if b.text() == "Read in inch")
+    card = wiring.window_.card
+    assert card.title.text() == "plate.dxf" and card.text.text() == "It names no units. It was read in mm."
+    assert "40 \u00d7 40 mm" in [label.text() for label in card.findChildren(QLabel)]
+    inch = next(b for b in card.buttons if b.text() == "Read in inch")
     with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
         qtbot.mouseClick(inch, Qt.MouseButton.LeftButton)
     assert wiring.showing.part_size() == pytest.approx((1016.0, 1016.0))
@@ -185,11 +185,13 @@ def test_an_svg_in_pixels_can_be_read_in_mm(qtbot, wiring, tmp_path):
     path.write_text('<svg xmlns="http://www.w3.org/2000/svg"><rect width="40" height="20" stroke="black" fill="none"/></svg>', "ascii")
     with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
         wiring.files.open_file(path)
-    notice = wiring.window_.notice
-    assert "It was read in pixels, 96 to the inch, which makes it 10.583 by 5.292 mm" in notice.text.text()
-    assert [b.text() for b in notice.buttons] == ["Keep pixels", "Read in mm", "Read in inch"]
+    card = wiring.window_.card
+    assert card.text.text() == "It has no real size. It names no editor and was read with 96 units to the inch."
+    assert "10.583 \u00d7 5.292 mm" in [label.text() for label in card.findChildren(QLabel)]
+    assert [b.text() for b in card.buttons] == ["Keep 96 to the inch", "Read 90 to the inch", "Read 72 to the inch", "Read in mm",
+                                                "Read in inch"]  # fmt: skip
     with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
-        qtbot.mouseClick(notice.buttons[1], Qt.MouseButton.LeftButton)
+        qtbot.mouseClick(card.buttons[3], Qt.MouseButton.LeftButton)
     assert wiring.showing.part_size() == pytest.approx((40.0, 20.0))
 
 

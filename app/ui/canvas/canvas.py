@@ -42,6 +42,9 @@ _BLEED_PX = 8.0
 _CLOSE_MM = 16.0
 """How much is seen around a place that is looked at closely."""
 
+_SEEN = 0.8
+"""Share of the view that what shall be seen whole takes at most."""
+
 _STALE = 0.4
 """So much is left of the colours of paths that the job has outgrown."""
 
@@ -149,10 +152,19 @@ class Canvas(Hands):
         """Show the whole part, or the frame while nothing is drawn."""
         self.glide_to_box(self.picture.box or self.frame.extent)
 
-    def go_to(self, x: float, y: float, closely: bool = False) -> None:
-        """Bring a point in mm to the middle; with `closely` zoom in, too, unless it is seen larger already."""
-        scale = min(self.area.width(), self.area.height()) / _CLOSE_MM if closely else 0.0
-        self.glide_to(replace(self.view, scale=max(self.view.scale, scale)).centred((x, y), self.area))
+    def go_to(self, x: float, y: float, closely: bool = False, around: Box | None = None) -> None:
+        """Bring a point in mm to the middle; with `closely` zoom in, too, unless it is seen larger already.
+
+        Args:
+            around: a box, mm, all of which is seen then with the point, however far one has to zoom out for that.
+        """
+        scale = max(self.view.scale, min(self.area.width(), self.area.height()) / _CLOSE_MM if closely else 0.0)
+        if around is not None:
+            x0, y0, x1, y1 = min(x, around[0]), min(y, around[1]), max(x, around[2]), max(y, around[3])
+            sides = ((self.area.width(), x1 - x0), (self.area.height(), y1 - y0))
+            scale = min([scale, *(_SEEN * room / size for room, size in sides if size > 0)])
+            x, y = (x0 + x1) / 2, (y0 + y1) / 2
+        self.glide_to(replace(self.view, scale=scale).centred((x, y), self.area))
 
     @property
     def heavy(self) -> bool:

@@ -25,6 +25,7 @@ from app.ui.cut.surface import pixel_size
 from app.ui.cut.tool_outline import DrawnTool
 from app.ui.log import Log
 from app.ui.main_window import MainWindow
+from app.ui.memory import remember
 from app.ui.worker import Answer, Worker
 
 
@@ -140,6 +141,8 @@ class Recorder(QObject):
         if shown is None or self.worker.busy:
             return
         self._page.close_sheet()
+        self._window.settings = replace(self._window.settings, last_folder=str(target.absolute().parent))
+        remember(self._window)  # before it begins: should the program be killed, the next start knows where to sweep
         plan, view_size = self._sheet.plan, pixel_size(view)
         size = plan.size(view_size)
         camera, section, paths = view.frame_parts()

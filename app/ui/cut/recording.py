@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from app.atomic import write_atomically
+from app.atomic import sweep, waiting_prefix, write_atomically
 from app.errors import HitofudeError, InputError
 from app.graphics import standalone_context
 from app.progress import NO_PROGRESS, Progress
@@ -115,6 +115,7 @@ def record(shots: Iterable[Shot], frame: Frame, target: Path, reel: Reel, progre
         HitofudeError: there is no OpenGL 3.3. InputError: it cannot be written.
         Cancelled: nothing was written.
     """
+    sweep(target.parent)
     write = write_gif if target.suffix.casefold() == ".gif" else write_pictures
     write(rendered(shots, frame), target, reel, progress)
 
@@ -141,7 +142,7 @@ def write_pictures(frames: Iterator[Pixels], folder: Path, reel: Reel, progress:
     try:
         if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
             raise InputError(f"{folder} is not empty; name a new folder for the pictures, so that no others are among them.")
-        waiting = Path(tempfile.mkdtemp(prefix=f".{folder.name[:32]}.", suffix=".part", dir=folder.parent))
+        waiting = Path(tempfile.mkdtemp(prefix=waiting_prefix(folder.name), suffix=".part", dir=folder.parent))
         try:
             whole = waiting / "whole"  # a folder for one's own eyes alone is no place for pictures
             whole.mkdir()

@@ -1,4 +1,4 @@
-"""The page "Drawing" of the right side: properties of what is selected, layers, clean-up, history."""
+"""The page "Drawing" of the right side: properties of what is selected, layers, how it was read, clean-up, history."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from app.ui.panels.drawing_history import HistorySection
 from app.ui.panels.drawing_layers import LayersSection
 from app.ui.panels.drawing_properties import PropertiesSection
 from app.ui.panels.fields import NumberField
+from app.ui.panels.reading_section import ReadingSection
 from app.ui.panels.section import Section, hairline
 from app.ui.panels.side_panel import WIDTH
 
@@ -39,7 +40,7 @@ class DrawingPage(QScrollArea):
         super().__init__()
         self._document, self._extent = document, extent
         self.properties, self.layers, self.history = PropertiesSection(document), LayersSection(document), HistorySection(document)
-        self.cleanup = CleanUpSection()
+        self.cleanup, self.reading, self._below_reading = CleanUpSection(), ReadingSection(document), hairline()
         self._due = QTimer(self)
         self._due.setSingleShot(True)
         self._due.timeout.connect(self.refresh)
@@ -55,9 +56,9 @@ class DrawingPage(QScrollArea):
         column = self.column = QVBoxLayout(inner)
         column.setContentsMargins(0, 4, 0, 8)
         column.setSpacing(0)
-        for section in (self.properties, self.layers, self.cleanup):
+        for section in (self.properties, self.layers, self.reading, self.cleanup):
             column.addWidget(section)
-            column.addWidget(hairline())
+            column.addWidget(self._below_reading if section is self.reading else hairline())
         column.addWidget(self.history, 1)
         self.setWidget(inner)
         self.setWidgetResizable(True)
@@ -81,6 +82,8 @@ class DrawingPage(QScrollArea):
         self._due.stop()
         self.properties.refresh(self._extent())
         self.layers.refresh()
+        self.reading.refresh()
+        self._below_reading.setVisible(not self.reading.isHidden())
         self.history.refresh()
 
     def show_section(self, section: Section) -> None:

@@ -1,5 +1,10 @@
 """What is played is recorded: painted apart from the window, written whole or not at all."""
 
+import os
+import shutil
+import signal
+import subprocess
+import sys
 import threading
 from itertools import pairwise
 from pathlib import Path
@@ -8,9 +13,11 @@ import cv2
 import numpy as np
 import pytest
 
+from app.atomic import sweep, waiting_prefix
 from app.errors import Cancelled, InputError
 from app.model.tool import Tool
 from app.progress import Progress
+from app.settings import Settings
 from app.ui.cut.camera import Camera
 from app.ui.cut.colouring import CutColour, colouring
 from app.ui.cut.frame import Frame
@@ -18,6 +25,8 @@ from app.ui.cut.patch import patch_of
 from app.ui.cut.recording import Reel, Shot, Whole, record, rendered, write_gif, write_pictures
 from app.ui.cut.scene import CutScene
 from app.ui.cut.tool_outline import DrawnTool, outline_of
+from app.ui.start import places
+from tests.conftest import ROOT
 from tests.ui.cut.pictures import INKS, LOOK, flat_picture, without_a_screen
 
 SIZE = (120, 90)
@@ -150,3 +159,44 @@ def test_what_ends_before_its_end_leaves_nothing_behind(tmp_path: Path, name, fa
 def test_a_gif_that_would_be_too_fast_is_refused(tmp_path: Path):
     with pytest.raises(InputError, match="cannot show 60 pictures a second; use more than 0 and not more than 50"):
         write_gif(iter([]), tmp_path / "play.gif", Reel(1, 60.0))
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+import numpy as np
+from app.ui.cut.recording import Reel, write_pictures
+
+def frames():
+    yield np.zeros((4, 4, 3), np.uint8)
+    os.kill(os.getpid(), signal.SIGKILL)
+
+write_pictures(frames(), Path(sys.argv[1]), Reel(9))
+"""
+
+
+def test_what_a_killed_recording_has_left_is_swept_by_the_next_one_and_at_start(tmp_path: Path):
+    def killed() -> Path:
+        done = subprocess.run([sys.executable, "-c", KILLED, str(tmp_path / "play")], cwd=ROOT, timeout=60)
+        assert done.returncode == -signal.SIGKILL
+        (left,) = tmp_path.iterdir()
+        assert len(list((left / "whole").iterdir())) == 1
+        return left
+
+    left = killed()
+    record(shots(), frame(), tmp_path / "other", Reel(COUNT))
+    assert not left.exists() and [each.name for each in tmp_path.iterdir()] == ["other"]
+    shutil.rmtree(tmp_path / "other")
+    left = killed()
+    assert tmp_path in places(Settings(last_folder=str(tmp_path)))
+    sweep(*places(Settings(last_folder=str(tmp_path))))
+    assert not left.exists()
+
+
+def test_a_folder_that_tells_no_writer_or_a_living_one_is_not_swept(tmp_path: Path):
+    (tmp_path / ".cut.a1b2c3d4.part").mkdir()
+    os.utime(tmp_path / ".cut.a1b2c3d4.part", (0, 0))
+    mine = tmp_path / f"{waiting_prefix('cut')}a1b2c3d4.part"
+    mine.mkdir()
+    sweep(tmp_path)
+    assert len(list(tmp_path.iterdir())) == 2

@@ -310,4 +310,4 @@ def test_what_gets_no_path_is_said(qtbot, staged):
     assert staged.window_.views.stages.rail.numbers == (110,) and "No operation" in panel.finding.text() and panel.finding.isVisible()
     staged.window_.panel.operations.switched.emit(2, True)
     staged.run("circle 60,5 1")
-    qtbot.waitUntil(lambda: "too small for T2" in panel.finding.text(), timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: "has no room for T2" in panel.finding.text(), timeout=WAIT_MS)
