@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 from app import tolerances
 from app.geometry.distance import DistanceField
 from app.geometry.offset import Level, Ring
-from app.geometry.primitives import Rows, lengths, points_at
+from app.geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, Rows, lengths, points_at
 from app.geometry.triangulation import neighbours
 from app.toolpath.link_rows import Place
 
@@ -78,10 +79,19 @@ class RingField:
 
     def nearest(self, point: NDArray[np.float64]) -> tuple[float, Place, NDArray[np.float64]]:
         """Return (distance, place, point there) of the nearest point (2,) of any ring."""
-        distance, found = self.field.nearest(point[None])
-        row = self.field.rows[found[0]]
-        part = fraction_at(row, point)
-        return float(distance[0]), Place(int(self.ring[found[0]]), int(self.row[found[0]]), part), points_at(row[None], np.array([part]))[0]
+        distance, rows, parts, places = self.nearest_of(point[None])
+        return float(distance[0]), self.place(int(rows[0]), float(parts[0])), places[0]
+
+    def nearest_of(self, points: NDArray[np.float64]) -> tuple[NDArray[np.float64], Indices, NDArray[np.float64], NDArray[np.float64]]:
+        """Return for points (n, 2) (distances (n,), rows of the field (n,), fractions of these (n,), points there (n, 2))."""
+        distance, found = self.field.nearest(points)
+        rows = self.field.rows[found]
+        parts = fractions_at(rows, points)
+        return distance, found, parts, points_at(rows, parts)
+
+    def place(self, row: int, part: float) -> Place:
+        """Return the place at a fraction of a row of the field."""
+        return Place(int(self.ring[row]), int(self.row[row]), part)
 
 
 def _from_ring(ring: Ring, number: int, target: RingField, field: DistanceField, step: float) -> list[Bridge]:
@@ -132,22 +142,30 @@ def outward(ring: Ring, number: int, targets: Sequence[tuple[float, RingField]],
     return []
 
 
-def foot(rows: Rows, points: np.ndarray) -> np.ndarray:
+def foot(rows: Rows, points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the point of each row (n, 8) nearest to each point (n, 2)."""
-    return points_at(rows, np.array([fraction_at(row, point) for row, point in zip(rows, points, strict=True)]))
+    return points_at(rows, fractions_at(rows, points))
 
 
-def fraction_at(row: Rows, point: np.ndarray) -> float:
+def fractions_at(rows: Rows, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the fraction in [0, 1] of each row's length (n, 8) that is nearest to each point (n, 2)."""
+    along, arm = rows[:, X1:CX] - rows[:, X0:X1], points - rows[:, X0:X1]
+    arc = rows[:, TURN] != 0
+    square = along[:, 0] * along[:, 0] + along[:, 1] * along[:, 1]
+    parts = np.clip((arm[:, 0] * along[:, 0] + arm[:, 1] * along[:, 1]) / np.where(square > 0, square, 1.0), 0.0, 1.0)
+    if arc.any():
+        rows, points = rows[arc], points[arc]
+        start, end, at = (np.arctan2(y - rows[:, CY], x - rows[:, CX]) for x, y in
+                          ((rows[:, X0], rows[:, Y0]), (rows[:, X1], rows[:, Y1]), (points[:, 0], points[:, 1])))  # fmt: skip
+        sweep, turn = ((angle - start) * rows[:, TURN] % math.tau for angle in (end, at))
+        beyond = np.where(turn - sweep < math.tau - turn, 1.0, 0.0)
+        parts[arc] = np.where(turn <= sweep, turn / np.where(sweep > 0, sweep, 1.0), beyond)
+    return parts
+
+
+def fraction_at(row: Rows, point: NDArray[np.float64]) -> float:
     """Return the fraction in [0, 1] of a row's length that is nearest to a point."""
-    if row[7] == 0:
-        along = row[2:4] - row[:2]
-        return float(np.clip((point - row[:2]) @ along / (along @ along), 0, 1))
-    start = np.arctan2(row[1] - row[5], row[0] - row[4])
-    sweep = (np.arctan2(row[3] - row[5], row[2] - row[4]) - start) * row[7] % (2 * np.pi)
-    turn = (np.arctan2(point[1] - row[5], point[0] - row[4]) - start) * row[7] % (2 * np.pi)
-    if turn <= sweep:
-        return float(turn / sweep)
-    return 1.0 if turn - sweep < 2 * np.pi - turn else 0.0
+    return float(fractions_at(row[None], point[None])[0])
 
 
 def level_bridges(rings: Sequence[Ring], some: Sequence[int], groups: Sequence[int], spacing: float,

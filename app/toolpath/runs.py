@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from app.geometry.distance import DistanceField
 from app.geometry.near_points import groups, pairs_within
 from app.geometry.offset import Level, Ring
-from app.geometry.primitives import Rows, lengths, points_at, reversed_rows, sample
+from app.geometry.primitives import Indices, Rows, lengths, points_at, reversed_rows, sample
 from app.toolpath import runs_kernels, uncut_kernels
 from app.toolpath.bridge import RingField, is_clear
 from app.toolpath.link_rows import Place, part_of, straight
@@ -174,9 +174,10 @@ class _Space:
         trips: list[Trip] = []
         reach = 2 * (inner.distance - half.distance if inner else self._radius)
         groups = self._groups(gaps_of(half, inner, self._radius), reach)
-        for group, uncut in zip(groups, self._uncut(groups, half, inner), strict=True):
-            points = np.concatenate([uncut, *(gap.points(_CHORD * self._radius) for gap in group)])
-            spur = self._spur(shapely.get_coordinates(shapely.convex_hull(shapely.multipoints(points))))
+        points = [np.concatenate([uncut, *(gap.points(_CHORD * self._radius) for gap in group)])
+                  for group, uncut in zip(groups, self._uncut(groups, half, inner), strict=True)]
+        corners = [shapely.get_coordinates(shapely.convex_hull(shapely.multipoints(each))) for each in points]
+        for group, spur in zip(groups, self._spurs(corners), strict=True):
             if spur is not None:
                 trips.append(spur)
                 continue
@@ -225,24 +226,40 @@ class _Space:
             found.setdefault(k, []).append(gap)
         return list(found.values())
 
-    def _spur(self, points: Floats) -> Trip | None:
-        """Return the shortest straight way there and back that comes within the radius of all points (n, 2); None without one."""
-        reach = self._radius * (1 - 2 * _CHORD)
-        middle = (points.min(axis=0) + points.max(axis=0)) / 2
-        one = points[np.argmax(np.hypot(*(points - middle).T))]
-        other = points[np.argmax(np.hypot(*(points - one).T))]
-        ways = []
-        for side in self._sides:
-            for probe in (middle, one, other):
-                _, place, start = side.nearest(probe)
-                far = points[np.argmax(np.hypot(*(points - start).T))]
-                for target in (middle, far):
-                    tip = _tip(start, target, points, reach)
-                    if tip is not None:
-                        ways.append((float(np.hypot(*(tip - start))), place, start, tip))
-        for length, place, start, tip in sorted(ways, key=lambda way: way[0]):
-            if length > 0 and is_clear(self._walls[0], start, tip, self._walls[1]):
-                return Trip(place, np.concatenate([straight(start, tip), straight(tip, start)]), np.array([True, False]))
+    def _spurs(self, places: Sequence[Floats]) -> list[Trip | None]:
+        """Return for each set of points (m, 2) the shortest straight way there and back that comes within the radius of all of them."""
+        if not places:
+            return []
+        counts = np.array([len(each) for each in places])
+        probes = np.concatenate([_far_apart(each) for each in places])
+        asked = [side.nearest_of(probes) for side in self._sides]
+        starts = np.concatenate([each[3].reshape(len(places), -1, 2) for each in asked], axis=1)
+        ways = np.empty((len(places), 2 * starts.shape[1], 3))
+        runs_kernels.tips(np.concatenate(places), np.append(0, np.cumsum(counts)), np.ascontiguousarray(starts),
+                          self._radius * (1 - 2 * _CHORD), ways)  # fmt: skip
+        spurs: list[Trip | None] = []
+        for k in range(len(places)):
+            mine = slice(3 * k, 3 * k + 3)
+            sides = [(side, each[1][mine], each[2][mine]) for side, each in zip(self._sides, asked, strict=True)]
+            spurs.append(self._spur(starts[k], ways[k], sides))
+        return spurs
+
+    def _spur(self, starts: Floats, ways: Floats, sides: Sequence[tuple[RingField, Indices, Floats]]) -> Trip | None:
+        """Return the shortest of ways there and back that is clear.
+
+        Args:
+            starts: (n, 2) where they begin, three a side. ways: (2 n, 3) length, infinite where there is none, and where each ends.
+            sides: rings, rows of theirs (3,) and fractions (3,) where ways begin.
+        """
+        for way in np.argsort(ways[:, 0], kind="stable").tolist():
+            (length, *tip), start = ways[way], starts[way // 2]
+            if not np.isfinite(length):
+                return None
+            if length > 0 and is_clear(self._walls[0], start, np.array(tip), self._walls[1]):
+                side, rows, parts = sides[way // 6]
+                probe = way // 2 % 3
+                out, back = straight(start, np.array(tip)), straight(np.array(tip), start)
+                return Trip(side.place(int(rows[probe]), float(parts[probe])), np.concatenate([out, back]), np.array([True, False]))
         return None
 
     def _run(self, rows: Rows) -> Trip:
@@ -289,16 +306,9 @@ def _along(rows: Rows, step: float) -> Floats:
     return np.concatenate([points_at(rows[row], part), rows[-1:, 2:4]])
 
 
-def _tip(start: Floats, target: Floats, points: Floats, reach: float) -> Floats | None:
-    """Return the end of the shortest straight way from a start towards a target that comes within `reach` mm of all points."""
-    ahead = target - start
-    size = float(np.hypot(*ahead))
-    if size == 0:
-        return None
-    ahead = ahead / size
-    along, off = (points - start) @ ahead, np.abs((points - start) @ np.array([-ahead[1], ahead[0]]))
-    spare = reach**2 - off**2
-    if np.any(spare < 0) or np.any((along < 0) & (along**2 > spare)):
-        return None
-    tip: Floats = start + ahead * max(0.0, float((along - np.sqrt(spare)).max()))
-    return tip
+def _far_apart(points: Floats) -> Floats:
+    """Return three places (3, 2): the middle of the box of points, the one farthest from that, the one farthest from the last."""
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    one = points[np.argmax(np.hypot(*(points - middle).T))]
+    other = points[np.argmax(np.hypot(*(points - one).T))]
+    return np.array([middle, one, other])

@@ -106,3 +106,47 @@ def squares_beyond(rows, order, nodes, gaps, gap_order, gap_nodes, path, path_or
             stack[top, 0], stack[top, 1], stack[top, 2] = x + half * (k % 2 - 0.5), y + half * (k // 2 - 0.5), half / 2
             top += 1
     return found, count
+
+
+@kernel("void(float64[:, ::1], int64, int64, float64, float64, float64, float64, float64, float64[::1])")
+def _tip(points, first, last, x, y, to_x, to_y, reach, way):
+    """Write length and end of the shortest straight way from a place towards another that comes within `reach` of all points."""
+    way[0], way[1], way[2] = math.inf, x, y
+    ux, uy = to_x - x, to_y - y
+    size = math.hypot(ux, uy)
+    if size == 0.0:
+        return
+    ux, uy, length = ux / size, uy / size, 0.0
+    for i in range(first, last):
+        px, py = points[i, 0] - x, points[i, 1] - y
+        along, off = px * ux + py * uy, py * ux - px * uy
+        spare = reach * reach - off * off
+        if spare < 0.0 or (along < 0.0 and along * along > spare):
+            return
+        length = max(length, along - math.sqrt(spare))
+    way[0], way[1], way[2] = length, x + ux * length, y + uy * length
+
+
+@kernel("void(float64[:, ::1], int64[::1], float64[:, :, ::1], float64, float64[:, :, ::1])")
+def tips(points, first, starts, reach, ways):
+    """Write the shortest straight ways that come within a distance of all points of a set, from places towards its middle and its far end.
+
+    Args:
+        points: (m, 2) of all sets; those of set k are first[k] ... first[k + 1] - 1.
+        starts: (n, s, 2) places for each set. reach: mm.
+        ways: (n, 2 s, 3) length of each way and where it ends, mm; infinite where none does.
+    """
+    for k in range(len(starts)):
+        a, b = first[k], first[k + 1]
+        low_x, low_y, high_x, high_y = math.inf, math.inf, -math.inf, -math.inf
+        for i in range(a, b):
+            low_x, high_x = min(low_x, points[i, 0]), max(high_x, points[i, 0])
+            low_y, high_y = min(low_y, points[i, 1]), max(high_y, points[i, 1])
+        for s in range(starts.shape[1]):
+            x, y = starts[k, s, 0], starts[k, s, 1]
+            far = a
+            for i in range(a + 1, b):
+                if math.hypot(points[i, 0] - x, points[i, 1] - y) > math.hypot(points[far, 0] - x, points[far, 1] - y):
+                    far = i
+            _tip(points, a, b, x, y, (low_x + high_x) / 2, (low_y + high_y) / 2, reach, ways[k, 2 * s])
+            _tip(points, a, b, x, y, points[far, 0], points[far, 1], reach, ways[k, 2 * s + 1])
