@@ -9,9 +9,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from app.atomic import read_whole, sweep
-from app.cli_output import on_terminal, show
+from app.cli_output import on_terminal, say, show
 from app.errors import InputError
 from app.progress import Progress
+
+EVERY = 5.0
+"""Seconds between lines that tell how far a job is, where they are no terminal's."""
 
 
 def read_input(path: Path) -> bytes:
@@ -69,14 +72,18 @@ def identity(path: Path) -> object:
 
 
 def shown_progress(quiet: bool, stopped: threading.Event) -> Progress:
-    """Return a progress that shows itself on stderr where that is a terminal."""
-    if quiet or not on_terminal():
+    """Return a progress that shows itself on stderr: on a terminal all the time, elsewhere in a line every EVERY seconds."""
+    if quiet:
         return Progress(None, stopped)
-    shown = [0.0]
+    alone = on_terminal()
+    shown = [0.0 if alone else time.monotonic()]
 
     def told(fraction: float, text: str) -> None:
-        if time.monotonic() - shown[0] > 0.1 or fraction >= 1:
+        if time.monotonic() - shown[0] > (0.1 if alone else EVERY) or (alone and fraction >= 1):
             shown[0] = time.monotonic()
+            if not alone:
+                say(f"hitofude: {fraction:.0%} {text}".rstrip())
+                return
             end = "\r\x1b[K" if fraction >= 1 else ""
             show(f"\r\x1b[K{fraction:4.0%} {text}{end}")
 

@@ -14,6 +14,7 @@ from app.cli_options import make_options, make_parser, read_arguments
 from app.cli_output import finding_lines, helped, tell
 from app.cli_signals import undisturbed
 from app.errors import InputError
+from app.stage_times import StageTimes
 from app.workflow.make import Made, make
 from app.workflow.options import MakeOptions
 
@@ -34,11 +35,17 @@ def make_command(argv: Sequence[str], stopped: threading.Event) -> int:
     arguments = read_arguments(argv)
     outputs = _check_outputs(arguments)
     options = _with_job(make_options(arguments), arguments.job)
-    made = make(arguments.drawing.name, read_input(arguments.drawing), options, shown_progress(arguments.quiet, stopped))
+    times = StageTimes() if arguments.timings else None
+    progress = shown_progress(arguments.quiet, stopped)
+    made = make(arguments.drawing.name, read_input(arguments.drawing), options, times.watch(progress) if times else progress)
+    if times:
+        made = replace(made, report=made.report.with_timings(times.seconds()))
     names = [file.named(arguments.output) for file in made.files]
     _write(made, outputs, names)
     if not arguments.quiet:
         _summary(made, names)
+        if times:
+            tell("\n".join(times.lines()))
     return 0 if made.clean else 1
 
 

@@ -61,6 +61,7 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--job", metavar="J.toml", type=Path, help="tools, operations, stock and origin; options override it")
     group.add_argument("--report", metavar="R.json", type=Path, help="everything that was measured, as JSON")
     group.add_argument("--image", metavar="OUT.svg|png", type=Path, help="a picture of part and paths")
+    group.add_argument("--timings", action="store_true", help="tell how long each stage took, here and in the report")
     group.add_argument("--post", metavar="NAME", help="the control that the program is for: linuxcnc (default), grbl, fanuc, haas, mach3, "
                        "or one of your own; where it changes no tools there is a file for each, OUT_1_T1.ngc, OUT_2_T2.ngc, …")
     group.add_argument("--machine", metavar="NAME|FILE", type=typed(machine_named), help=MACHINE_HELP)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -73,6 +74,10 @@ class Report:
     def text(self) -> str:
         """Return it as JSON text."""
         return json.dumps(self.data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+    def with_timings(self, seconds: Mapping[str, float]) -> Report:
+        """Return it with the wall time of each stage of the job, s, in their order."""
+        return Report({**self.data, "timings_s": dict(seconds)})
 
     def summary(self, output: str) -> str:
         """Return it in one line for people."""
