@@ -43,11 +43,13 @@ class Entity:
         id: unique in its part, never used again, > 0.
         curve: the curve, mm.
         layer: name of its layer.
+        lettering: True for a stroke of a letter: a tool may follow it, and it never bounds anything.
     """
 
     id: int
     curve: Curve
     layer: str = "0"
+    lettering: bool = False
 
 
 @dataclass(frozen=True)
