@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from app.cli_parser import number
-from app.files.read_options import ReadOptions
+from app.model.read_options import ReadOptions
 
 NAMES = ("skip_layer", "skip_type", "layout", "to_zero", "px_per_inch")
 """Where argparse keeps them."""

@@ -30,7 +30,7 @@ from app.files.dxf_drawn import all_drawn
 from app.files.dxf_findings import about_commas, about_hatches, about_hidden, about_letterings, about_negative
 from app.files.dxf_layouts import PAPER, layout_named, paper
 from app.files.dxf_load import load
-from app.files.read_options import AS_DRAWN, ReadOptions
+from app.model.read_options import AS_DRAWN, ReadOptions
 from app.model.curves import Curve
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity, Layer, Part, Units
@@ -52,8 +52,8 @@ def read_dxf(
 
     Curves of inserted blocks are put in place, but for those inserted on frozen layers, which no CAD program shows. Texts are the
     outlines of their letters, or strokes where their font is not here; boundaries of hatches are outlines, unless they lie on
-    curves that are drawn anyway. Dimensions, points, solids and paper space are counted, not read. Units come from $INSUNITS alone ($MEASUREMENT
-    only chooses hatch patterns); a drawing that names none is in `units`, or in mm.
+    curves that are drawn anyway. Dimensions, points, solids and paper space are counted, not read. Units come from $INSUNITS
+    alone ($MEASUREMENT only chooses hatch patterns); a drawing that names none is in `units`, or in mm.
 
     Args:
         data: the whole file, ASCII or binary DXF, R12 or later.
@@ -72,7 +72,7 @@ def read_dxf(
     to_mm, machined = scaled(unit.size), _machined(document, layers, how.without_layers)
     drawn = all_drawn(sheet, machined, unit.size)
     curves = _spelled(document, drawn.curves)
-    found = taken(curves, to_mm if unit.size != 1.0 else None, _machined(document, layers) if how.to_zero else None, drawn.strokes)
+    found = taken(curves, to_mm if unit.size != 1.0 else None, machined if how.to_zero else None, drawn.strokes)
     others = Counter() if how.layout else paper(document)
     if not found.entities:
         raise InputError(f"{name}: {_nothing(sheet, found, others)}")
@@ -112,7 +112,7 @@ def _unit(document: Any, data: bytes, given: Units | None, overrule: bool) -> _U
     return _Unit(unit.value, unit, False)
 
 
-def _machined(document: Any, layers: tuple[str, ...], without: tuple[str, ...] = ()) -> Callable[[str], bool]:
+def _machined(document: Any, layers: tuple[str, ...], without: tuple[str, ...]) -> Callable[[str], bool]:
     """Return what tells whether a layer is machined, and so counts for where the drawing lies."""
     wanted, gone = ({layer.casefold() for layer in names} for names in (layers, without))
     hidden = {layer.dxf.name.casefold() for layer in document.layers if layer.is_off() or layer.is_frozen()}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePath
 
 from app.errors import InputError
@@ -22,7 +22,7 @@ from app.files.drawing_account import (
     without_length,
 )
 from app.files.dxf_affine import Affine
-from app.files.read_options import AS_DRAWN, ReadOptions
+from app.model.read_options import AS_DRAWN, ReadOptions
 from app.files.svg_generator import CSS_PER_INCH, Density, density_of
 from app.files.svg_numbers import MM, Box, Length, UnreadableError, fitted, length, numbers, view_box
 from app.files.svg_walk import Sheet, Walker
@@ -85,24 +85,25 @@ def read_svg(
         raise InputError(f"{name}:{root.line}: the page's width, height or viewBox, {error.args[0][:60]!r}, cannot be read; "
                          "give it a size above 0 and save it again.") from None
     sheet = Walker(root, name).sheet(page.to, page.view)
-    found = taken(sheet.curves, None, _anchors(sheet, layers) if how.to_zero else None)
+    found = taken(sheet.curves, None, _anchors(sheet, layers, how.without_layers) if how.to_zero else None)
     left_out = sheet.left_out + found.missing
     if not found.entities:
         why = "all of the drawing lies beyond 1 km" if found.far else "the drawing has no lines, arcs or curves to machine"
         raise InputError(f"{name}: {why}{f'; {MOVE}' * bool(found.far and not how.to_zero)}{listed(left_out, '; left out: ')}.")
     shown = tuple(note.layer(layer) for layer, note in sheet.layers.items())
     part = Part(name=PurePath(name).stem, units=page.shown, layers=shown or (Layer(),)).with_entities(found.entities)
-    part = on_layers(part, layers, name)
+    assumed = not page.named and units is None  # told, so that whoever reads the drawing again takes the same
+    part = replace(on_layers(part, layers, name), reading=replace(how, pixels_per_inch=density.per_inch) if assumed else how)
     findings = [*_units(units, page, density, how), *about_place(found), *_faults(sheet), *without_length(sheet.nothing + found.nothing),
                 *_clipped(sheet), *switched_off(part, layers), *all_left_out(sheet.left_out)]  # fmt: skip
     return Drawing(part, tuple(findings), tuple(sorted(left_out.items())), page.named)
 
 
-def _anchors(sheet: Sheet, layers: tuple[str, ...]) -> Callable[[str], bool]:
+def _anchors(sheet: Sheet, layers: tuple[str, ...], without: tuple[str, ...]) -> Callable[[str], bool]:
     """Return what tells whether a layer is machined, and so counts for where the drawing lies."""
-    wanted = {layer.casefold() for layer in layers}
+    wanted, gone = ({layer.casefold() for layer in names} for names in (layers, without))
     hidden = {layer for layer, note in sheet.layers.items() if not note.visible}
-    return lambda layer: layer.casefold() in wanted if wanted else layer not in hidden
+    return lambda layer: layer.casefold() not in gone and (layer.casefold() in wanted if wanted else layer not in hidden)
 
 
 def _page(root: Node, units: Units | None, pixel: float, overrule: bool = False) -> _Page:

@@ -7,7 +7,7 @@ from typing import Any
 
 from app.errors import GeometryError
 from app.files.drawing import read_drawing
-from app.files.read_options import AS_DRAWN, ReadOptions
+from app.model.read_options import AS_DRAWN, ReadOptions
 from app.model.finding import Finding
 from app.model.job import Job
 from app.model.part import Units

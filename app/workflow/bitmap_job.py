@@ -15,7 +15,7 @@ from app.bitmap.picture import Picture, PictureOptions, Shows, read_picture
 from app.bitmap.walls import Mask, free_contours
 from app.errors import GeometryError, InputError, ParameterError
 from app.files.drawing import read_drawing
-from app.files.read_options import AS_DRAWN
+from app.model.read_options import AS_DRAWN
 from app.geometry.region import nest
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job

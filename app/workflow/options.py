@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from app.errors import ParameterError
-from app.files.read_options import AS_DRAWN, ReadOptions
+from app.model.read_options import AS_DRAWN, ReadOptions
 from app.model.job import Job, OriginXY, OriginZ, Stock
 from app.model.machine import Machine
 from app.model.operation import (

@@ -12,7 +12,7 @@ from pathlib import PurePath
 from app.edit.sample import bounds, union
 from app.errors import InputError
 from app.files.drawing import Drawing, read_drawing
-from app.files.read_options import ReadOptions
+from app.model.read_options import ReadOptions
 from app.model.part import Part, Units
 
 _WIDEST, _LEAST_WIDE = 2000.0, 5000.0

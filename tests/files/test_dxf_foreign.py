@@ -8,7 +8,7 @@ import pytest
 
 from app.errors import InputError
 from app.files.drawing import Drawing, read_drawing
-from app.files.read_options import ReadOptions
+from app.model.read_options import ReadOptions
 from app.model.curves import Circle, Line
 from app.model.finding import Finding, FindingKind
 from app.model.part import Units

@@ -6,7 +6,7 @@ import pytest
 
 from app.errors import InputError
 from app.files.drawing import Drawing, read_drawing
-from app.files.read_options import ReadOptions
+from app.model.read_options import ReadOptions
 from app.files.svg import read_svg
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from app.model.finding import FindingKind
