@@ -90,12 +90,14 @@ class Sheet:
             yield from (each.layer for _ in range(each.size))
 
     def add(self, made: Lettering | Hatch) -> None:
-        """Note what a text or a hatch draws."""
+        """Note what a text or a hatch draws, if it does; one of which letters are missing alone counts as a curve."""
+        if not made.size and not (isinstance(made, Lettering) and made.lacking):
+            return
         if isinstance(made, Hatch):
             self.hatches.append(made)
         else:
             self.letterings.append(made)
-        self._more += made.size
+        self._more += max(made.size, 1)
 
     def see(self, heights: Iterable[float]) -> None:
         """Note some Z."""
@@ -119,7 +121,7 @@ class Walker:
         wanted = {layer.casefold() for layer in asked}
         self._frozen = {layer.dxf.name.casefold() for layer in document.layers if layer.is_frozen()} - wanted
         self._without = {kind.upper() for kind in without}
-        self._fonts = Fonts()
+        self._fonts = Fonts(document.styles)
         self._blocks: dict[str, Sheet] = {}
         self._open: list[str] = []
 

@@ -61,16 +61,15 @@ def about_letterings(texts: Sequence[Lettering], size: float) -> Iterator[Findin
     Args:
         texts: on layers that are machined. size: of the drawing's unit, mm.
     """
-    drawn = [each for each in texts if each.size or each.lacking]
-    if not drawn:
+    if not texts:
         return
-    out = "leave them out with " + " ".join(f"--skip-type {kind}" for kind in dict.fromkeys(each.kind for each in drawn))
-    counts = Counter(pair for each in drawn for pair in each.fonts)
+    out = "leave them out with " + " ".join(f"--skip-type {kind}" for kind in dict.fromkeys(each.kind for each in texts))
+    counts = Counter(pair for each in texts for pair in each.fonts)
     fonts = ", ".join(f"{count} {_in_font(*pair)}" for pair, count in counts.most_common(_NAMED))
     more = f" and {len(counts) - _NAMED} more fonts" if len(counts) > _NAMED else ""
-    what = "1 text is" if len(drawn) == 1 else f"{len(drawn)} texts are"
-    yield Finding(FindingKind.ASSUMED, f"{what} read as curves to machine: {fonts}{more}; {out}.", counts=False, amount=float(len(drawn)))
-    short = [each for each in drawn if each.lacking]
+    what = "1 text is" if len(texts) == 1 else f"{len(texts)} texts are"
+    yield Finding(FindingKind.ASSUMED, f"{what} read as curves to machine: {fonts}{more}; {out}.", counts=False, amount=float(len(texts)))
+    short = [each for each in texts if each.lacking]
     if short:
         letters = list(dict.fromkeys(letter for each in short for letter in each.lacking))
         named = " ".join(letter if letter.isprintable() else f"U+{ord(letter):04X}" for letter in letters[:_LETTERS])

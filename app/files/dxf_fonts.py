@@ -54,9 +54,18 @@ class Set:
 
 @dataclass
 class Fonts:
-    """The fonts that one drawing uses; every file is opened once."""
+    """The fonts that one drawing uses; every file is opened once.
 
+    Attributes:
+        styles: the library's table of text styles.
+    """
+
+    styles: Any
     _found: dict[FontName, Typeface | None] = field(default_factory=dict)
+
+    def style(self, name: str) -> Any:
+        """Return the text style of a name, None where the drawing has none."""
+        return self.styles.get(name) if self.styles.has_entry(name) else None
 
     def of(self, name: FontName, words: str) -> Set:
         """Return the letters for some words; those that the font lacks are of the engraving face."""

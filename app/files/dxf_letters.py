@@ -49,7 +49,7 @@ class Lettering:
         strokes: that are followed and bound nothing. outlines: closed contours.
         layer, kind: of the entity.
         at: where it begins.
-        fonts: by the name of each font that it asks for, the font that it is drawn in; "" = the engraving face.
+        fonts: ("", each font that it is drawn in), and for the engraving face (the font that it stands for, "").
         lacking: letters that are in no font, and so are missing.
     """
 
@@ -136,7 +136,8 @@ def bar_curves(start: Point, length: float, height: float, stroke: bool) -> Iter
 
 def lettered(curves: Iterable[tuple[Curve, bool]], runs: Iterable[Run], to: Affine = IDENTITY) -> Lettering:
     """Return what curves (and whether each is a stroke) of some runs are together, under a map."""
-    drawn, letters = list(curves), [(run.look.font.said, run.letters) for run in runs if run.words.strip()]
+    drawn = list(curves)
+    letters = [("" if run.letters.font else run.look.font.said, run.letters) for run in runs if run.words.strip()]
     strokes, outlines = (tuple(curve for curve, stroke in drawn if stroke is wanted) for wanted in (True, False))
     fonts = tuple(dict.fromkeys((said, each.font) for said, each in letters))
     lacking = "".join(dict.fromkeys(letter for _, each in letters for letter in each.lacking))

@@ -12,7 +12,7 @@ from app.files.dxf_codes import Bar, legible, numbered_signs
 from app.files.dxf_curves import NoLengthError
 from app.files.dxf_fonts import FontName, Fonts, style_font
 from app.files.dxf_letters import LeftOutError, Lettering, Look, Run, bar_curves, lettered, run_of
-from app.files.dxf_text import MOST_LETTERS, style_of
+from app.files.dxf_text import MOST_LETTERS
 from app.model.curves import Curve
 
 _APART = 5 / 3
@@ -36,7 +36,7 @@ def mtext_lettering(entity: Any, fonts: Fonts) -> Lettering:
         NoLengthError: its height is none.
         LeftOutError: it stands in columns or runs downwards, or is too long.
     """
-    dxf, style = entity.dxf, style_of(entity)
+    dxf, style = entity.dxf, fonts.style(entity.dxf.style)
     at = (float(dxf.insert.x), float(dxf.insert.y))
     if dxf.get("flow_direction", 1) == _DOWNWARD:
         raise LeftOutError("MTEXT (vertical)")

@@ -30,7 +30,7 @@ def text_lettering(entity: Any, fonts: Fonts) -> Lettering:
         LeftOutError: its letters stand below one another, or are too many.
     """
     dxf, kind = entity.dxf, entity.dxftype()
-    style = style_of(entity)
+    style = fonts.style(entity.dxf.style)
     if style is not None and style.dxf.flags & _VERTICAL:
         raise LeftOutError(f"{kind} (vertical)")
     if len(dxf.text) > MOST_LETTERS:
@@ -45,11 +45,6 @@ def text_lettering(entity: Any, fonts: Fonts) -> Lettering:
     starts = _starts(stretched)
     made = lettered((pair for run, x in zip(stretched, starts, strict=True) for pair in run.curves(x, 0.0)), stretched, to)
     return replace(made, layer=dxf.layer, kind=kind, at=plane_of(entity, dxf.insert.z).point(place.at))
-
-
-def style_of(entity: Any) -> Any:
-    """Return the text style of an entity, None where the drawing has none of that name."""
-    return entity.doc.styles.get(entity.dxf.style) if entity.doc is not None and entity.doc.styles.has_entry(entity.dxf.style) else None
 
 
 @dataclass(frozen=True, slots=True)

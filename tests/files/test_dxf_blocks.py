@@ -129,10 +129,10 @@ def test_what_blocks_leave_out_is_counted_for_each_copy() -> None:
     document = new()
     block = document.blocks.new("B")
     block.add_line((0, 0), (1, 0))
-    block.add_text("x")
+    block.add_point((0, 0))
     for k in range(3):
-        document.modelspace().add_blockref("B", (0, k)).add_attrib("TAG", "value")
-    assert dict(read(document).left_out) == {"TEXT": 3, "ATTRIB": 3}
+        document.modelspace().add_blockref("B", (0, k)).add_attrib("TAG", "value").is_invisible = True
+    assert dict(read(document).left_out) == {"POINT": 3, "ATTRIB (invisible)": 3}
 
 
 def test_missing_block_is_named() -> None:
@@ -179,14 +179,15 @@ def test_doubling_blocks_are_refused_within_bounds() -> None:
 
 def test_empty_doubling_blocks_take_no_time() -> None:
     document = new()
-    document.blocks.new("B0").add_text("x")
+    document.blocks.new("B0").add_point((0, 0))
+    document.blocks.get("B0").add_text(" ")
     for k in range(60):
         block = document.blocks.new(f"B{k + 1}")
         block.add_blockref(f"B{k}", (0, 0))
         block.add_blockref(f"B{k}", (0, 1))
     document.modelspace().add_blockref("B60", (0, 0))
     document.modelspace().add_line((0, 0), (1, 0))
-    assert dict(read(document).left_out) == {"TEXT": 2**60}
+    assert dict(read(document).left_out) == {"POINT": 2**60}
 
 
 def test_nesting_has_a_limit() -> None:
