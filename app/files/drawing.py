@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from pathlib import PurePath
 
 from app.errors import InputError
-from app.model.read_options import AS_DRAWN, ReadOptions
 from app.model.finding import Finding
 from app.model.part import Part, Units
+from app.model.read_options import AS_DRAWN, ReadOptions
 
 PROJECTS = (".hito", ".hito~")
 """A project, and the backup of one."""

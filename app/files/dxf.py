@@ -30,10 +30,10 @@ from app.files.dxf_drawn import all_drawn
 from app.files.dxf_findings import about_commas, about_hatches, about_hidden, about_letterings, about_negative
 from app.files.dxf_layouts import PAPER, layout_named, paper
 from app.files.dxf_load import load
-from app.model.read_options import AS_DRAWN, ReadOptions
 from app.model.curves import Curve
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity, Layer, Part, Units
+from app.model.read_options import AS_DRAWN, ReadOptions
 
 _NAMED_UNITS: dict[int, tuple[float, Units]] = {
     1: (25.4, Units.INCH), 2: (304.8, Units.FOOT), 3: (1609344.0, Units.FOOT), 4: (1.0, Units.MM), 5: (10.0, Units.CM),

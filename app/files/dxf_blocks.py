@@ -83,10 +83,15 @@ class Sheet:
         """True where nothing is drawn, and nothing is to be said of a place."""
         return not (self.size or self.letterings or self.without_length or self.hidden or self.negative)
 
+    def more(self) -> Iterator[Lettering | Hatch]:
+        """Yield its texts and hatches."""
+        yield from self.letterings
+        yield from self.hatches
+
     def layers(self) -> Iterator[str]:
         """Yield the layer of every curve."""
         yield from (layer for _, layer in self.curves)
-        for each in (*self.letterings, *self.hatches):
+        for each in self.more():
             yield from (each.layer for _ in range(each.size))
 
     def add(self, made: Lettering | Hatch) -> None:
@@ -229,7 +234,7 @@ class Walker:
         sheet.hidden += [replace(each, at=each.at and place.point(each.at)) for each in inner.hidden]
         sheet.negative += [replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
                            for each in inner.negative]
-        for each in (*inner.letterings, *inner.hatches):
+        for each in inner.more():
             sheet.add(each.moved(place, outer))
         for curve, layer in inner.curves:
             moved = transformed(curve, place)

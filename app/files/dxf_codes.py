@@ -53,7 +53,7 @@ def _sign(match: re.Match[str]) -> str:
     if sign:
         return _SIGNS.get(sign.lower(), "")
     if number:
-        return _OF_STROKED_FONTS.get(int(number), chr(int(number)) if int(number) < 128 else bytes([int(number) % 256]).decode("cp1252", "replace"))
+        return _OF_STROKED_FONTS.get(int(number)) or bytes([int(number) % 256]).decode("cp1252", "replace")
     if point:
         return chr(int(point, 16))
     if page:

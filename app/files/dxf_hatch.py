@@ -105,7 +105,8 @@ def apart(rings: Sequence[tuple[Curve, ...]], drawn: Sequence[Curve], size: floa
         return [True] * len(rings)
     spare = tolerances.JOIN / size
     x0, y0, x1, y1 = around[0] - spare, around[1] - spare, around[2] + spare, around[3] + spare
-    near = [curve for curve in drawn if has_place(curve) for box in [bounds(curve)] if box[0] <= x1 and box[2] >= x0 and box[1] <= y1 and box[3] >= y0]
+    boxed = ((curve, bounds(curve)) for curve in drawn if has_place(curve))
+    near = [curve for curve, box in boxed if box[0] <= x1 and box[2] >= x0 and box[1] <= y1 and box[3] >= y0]
     to = Affine(size, 0.0, 0.0, size, -x0 * size, -y0 * size)
     rows = _rows(near, to)
     if not len(rows):

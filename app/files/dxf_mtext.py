@@ -239,7 +239,7 @@ class _Page:
         wanted, unit = context.paragraph, self._look.height
         begin = wanted.left * unit + (0.0 if follows else wanted.indent * unit)
         end = self._width - wanted.right * unit if self._width > 0 else 0.0
-        align = {"LEFT": "l", "CENTER": "c", "RIGHT": "r"}.get(wanted.align.name, "lcr"[self._across] if wanted.align.name == "DEFAULT" else "l")
+        align = {"DEFAULT": "lcr"[self._across], "CENTER": "c", "RIGHT": "r"}.get(wanted.align.name, "l")
         self.lines.append(_Line(context.cap_height or unit, begin, end, align))
         self._fresh = False
         return self.lines[-1]

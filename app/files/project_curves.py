@@ -1,8 +1,8 @@
 """Curves and notes of a project file, one a line: in the words of the shape language, and exact to the last digit.
 
 A line `#17` gives the next one its number; without it a line's number is one more than that of the line before. A line
-`layer "name"` puts what follows on a layer, and `layer "name" letters` says that it is strokes of letters, which bound nothing. An ellipse is written by its ratio and a part of it by radians, because the
-language's own form would round them.
+`layer "name"` puts what follows on a layer, and `layer "name" letters` says that it is strokes of letters, which bound nothing. An
+ellipse is written by its ratio and a part of it by radians, because the language's own form would round them.
 """
 
 from __future__ import annotations

@@ -22,13 +22,13 @@ from app.files.drawing_account import (
     without_length,
 )
 from app.files.dxf_affine import Affine
-from app.model.read_options import AS_DRAWN, ReadOptions
 from app.files.svg_generator import CSS_PER_INCH, Density, density_of
 from app.files.svg_numbers import MM, Box, Length, UnreadableError, fitted, length, numbers, view_box
 from app.files.svg_walk import Sheet, Walker
 from app.files.svg_xml import Node, read_xml
 from app.model.finding import Finding, FindingKind
 from app.model.part import Layer, Part, Units
+from app.model.read_options import AS_DRAWN, ReadOptions
 
 HITOFUDE = "urn:hitofude:svg"
 """Namespace of what only this program writes: the attribute `zero`, the part's zero in user units of the page."""

@@ -7,10 +7,10 @@ from typing import Any
 
 from app.errors import GeometryError
 from app.files.drawing import read_drawing
-from app.model.read_options import AS_DRAWN, ReadOptions
 from app.model.finding import Finding
 from app.model.job import Job
 from app.model.part import Units
+from app.model.read_options import AS_DRAWN, ReadOptions
 from app.model.tool import Tool
 from app.progress import NO_PROGRESS, Progress
 from app.toolpath.advise import Advice, Choice, RegionAdvice, advise

@@ -15,11 +15,11 @@ from app.bitmap.picture import Picture, PictureOptions, Shows, read_picture
 from app.bitmap.walls import Mask, free_contours
 from app.errors import GeometryError, InputError, ParameterError
 from app.files.drawing import read_drawing
-from app.model.read_options import AS_DRAWN
 from app.geometry.region import nest
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.part import Entity, Part, Region
+from app.model.read_options import AS_DRAWN
 from app.toolpath.compute import regions_of
 from app.workflow.bitmap_options import BitmapOptions, BitmapSize, is_picture
 from app.workflow.bitmap_part import BitmapPart, part_of_mask, part_of_regions

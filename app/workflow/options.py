@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from app.errors import ParameterError
-from app.model.read_options import AS_DRAWN, ReadOptions
 from app.model.job import Job, OriginXY, OriginZ, Stock
 from app.model.machine import Machine
 from app.model.operation import (
@@ -21,6 +20,7 @@ from app.model.operation import (
     Side,
 )
 from app.model.part import Part, Units
+from app.model.read_options import AS_DRAWN, ReadOptions
 from app.model.tool import Tool
 from app.workflow.bitmap_options import BitmapOptions
 from app.workflow.layers import layers_to_read, with_layers_spelled

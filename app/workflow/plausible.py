@@ -12,8 +12,8 @@ from pathlib import PurePath
 from app.edit.sample import bounds, union
 from app.errors import InputError
 from app.files.drawing import Drawing, read_drawing
-from app.model.read_options import ReadOptions
 from app.model.part import Part, Units
+from app.model.read_options import ReadOptions
 
 _WIDEST, _LEAST_WIDE = 2000.0, 5000.0
 """So many times as long as the widest tool is wide, and so many mm, a part is no part any more: no machine for that tool takes it."""

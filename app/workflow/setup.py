@@ -12,7 +12,6 @@ from app.dexel.solid import SolidStock, read_solid
 from app.dexel.workpiece import BoxStock, Stock
 from app.errors import HitofudeError, InputError
 from app.files.job_toml import JobFile
-from app.model.read_options import AS_DRAWN, ReadOptions
 from app.model.entry import LONGEST_LEAD, Lead
 from app.model.finding import Finding, FindingKind
 from app.model.job import Copies, Job, OriginXY, OriginZ
@@ -22,6 +21,7 @@ from app.model.moves import DogBone, Tab
 from app.model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, RestOperation
 from app.model.part import Contour, Region, Units
 from app.model.part import Part as DrawnPart
+from app.model.read_options import AS_DRAWN, ReadOptions
 from app.model.scene import Scene
 from app.model.stock_box import stock_box, work_origin
 from app.nc.read.codes import ROTARY
@@ -260,8 +260,8 @@ def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
     part = FlatPart(job, regions, _origin(job, (regions, lines), wishes, header), tolerance if proven is None else proven, tolerance,
                     header.allowance or 0.0, areas, lines, clamps=parts.clamps, tabs=tabs, dog_bones=dog_bones)
     told = (*reading.findings, *_differing(wishes, header, drawing.part.units))
-    return part, (*told, *drawing.findings, *about_drawing(job, parts, lines), *made.findings, *sheets.findings, *about_floors(areas, CHORD),
-                  *missed(sheets, regions))
+    return part, (*told, *drawing.findings, *about_drawing(job, parts, lines), *made.findings, *sheets.findings,
+                  *about_floors(areas, CHORD), *missed(sheets, regions))
 
 
 def _differing(wishes: Wishes, header: HeaderNote, units: Units) -> Iterator[Finding]:

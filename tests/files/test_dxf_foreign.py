@@ -8,10 +8,10 @@ import pytest
 
 from app.errors import InputError
 from app.files.drawing import Drawing, read_drawing
-from app.model.read_options import ReadOptions
 from app.model.curves import Circle, Line
 from app.model.finding import Finding, FindingKind
 from app.model.part import Units
+from app.model.read_options import ReadOptions
 from app.workflow.plausible import read_plausible
 
 

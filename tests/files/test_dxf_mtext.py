@@ -60,7 +60,8 @@ def test_spacing_and_empty_lines(fonts: Path) -> None:
 @pytest.mark.parametrize(("content", "box"), [
     ("\\H2x;H", (2, 0, 10, 14)), ("\\H14;H", (2, 0, 10, 14)), ("\\W2;H", (2, 0, 10, 7)), ("{\\H2x;}H", (1, 0, 5, 7)),
     ("\\fBlock|b1|i0;H", (1, 0, 5, 7)), ("\\Fheavy.ttf;H", (1, 0, 5, 7)), ("\\pql;H", (1, 0, 5, 7)), ("\\pi1;H", (8, 0, 12, 7)),
-    ("\\C1;H", (1, 0, 5, 7)), ("\\U+0048", (1, 0, 5, 7)), ("%%c", (0, 0, 7, 7)), ("\tH", (29, 0, 33, 7)), ("\\pt2;\tH", (15, 0, 19, 7))])  # fmt: skip
+    ("\\C1;H", (1, 0, 5, 7)), ("\\U+0048", (1, 0, 5, 7)), ("%%c", (0, 0, 7, 7)),
+    ("\tH", (29, 0, 33, 7)), ("\\pt2;\tH", (15, 0, 19, 7))])  # fmt: skip
 def test_codes(fonts: Path, content: str, box: tuple[float, ...]) -> None:
     assert near(letters(content), [box])
 
@@ -91,7 +92,10 @@ def test_lines_of_the_style(fonts: Path) -> None:
     assert near(boxes(curves(document)), [(2, 0, 10, 7), (14, 0, 22, 7), (0, -1.65, 24, -1.15)])
 
 
-@pytest.mark.parametrize("attributes", [{"rotation": 17}, {"text_direction": (math.cos(math.radians(17)), math.sin(math.radians(17)), 0), "rotation": 80}])
+ALONG = (math.cos(math.radians(17)), math.sin(math.radians(17)), 0)
+
+
+@pytest.mark.parametrize("attributes", [{"rotation": 17}, {"text_direction": ALONG, "rotation": 80}])
 def test_turned_by_an_angle_or_a_direction_which_comes_first(fonts: Path, attributes: dict[str, Any]) -> None:
     ends = [curve.start for curve in curves(mtext("H", insert=(3, 4), **attributes))]
     corner = complex(5, 7) * complex(math.cos(math.radians(17)), math.sin(math.radians(17))) + complex(3, 4)
@@ -115,6 +119,8 @@ def test_columns_and_lines_that_run_down_are_left_out_by_name(fonts: Path) -> No
     assert dict(left_out(mtext("H" * 10_001)).left_out) == {"MTEXT (of more than 10000 letters)": 1}
 
 
-@pytest.mark.parametrize("content", ["\\S", "\\S;", "\\H;H", "{{{H", "}}}H", "\\pi;H", "\\f;H", "\\", "\\H-2x;H", "\\pt;\tH", "\\W0;H", "\\T0;H", "\\Q90;H"])
+@pytest.mark.parametrize("content", [
+    "\\S", "\\S;", "\\H;H", "{{{H", "}}}H", "\\pi;H", "\\f;H", "\\", "\\H-2x;H", "\\pt;\tH", "\\W0;H", "\\T0;H", "\\Q90;H",
+])  # fmt: skip
 def test_codes_that_are_not_whole_do_no_harm(fonts: Path, content: str) -> None:
     left_out(mtext(content))

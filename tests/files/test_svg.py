@@ -6,11 +6,11 @@ import pytest
 
 from app.errors import InputError
 from app.files.drawing import Drawing, read_drawing
-from app.model.read_options import ReadOptions
 from app.files.svg import read_svg
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from app.model.finding import FindingKind
 from app.model.part import Layer, Units
+from app.model.read_options import ReadOptions
 
 PIXEL = 25.4 / 96
 NAMESPACES = ('xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
