@@ -103,7 +103,8 @@ def test_from_below_x_runs_the_other_way(fonts: Path) -> None:
 
 @settings(max_examples=examples(60), deadline=None)
 @given(st.lists(st.floats(-3, 3).filter(lambda v: abs(v) > 0.05), min_size=2, max_size=2),
-       st.lists(st.floats(-180, 180), min_size=2, max_size=2), st.lists(st.floats(-500, 500), min_size=4, max_size=4), st.floats(-40, 40), st.floats(0.2, 4))  # fmt: skip
+       st.lists(st.floats(-180, 180), min_size=2, max_size=2), st.lists(st.floats(-500, 500), min_size=4, max_size=4),
+       st.floats(-40, 40), st.floats(0.2, 4))  # fmt: skip
 def test_letters_of_a_block_go_where_its_maps_take_them(
     scales: list[float], turns: list[float], places: list[float], lean: float, wide: float,
 ) -> None:  # fmt: skip
