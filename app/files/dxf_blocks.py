@@ -129,6 +129,7 @@ class Walker:
         self._fonts = Fonts(document.styles)
         self._blocks: dict[str, Sheet] = {}
         self._open: list[str] = []
+        self._read: dict[str, None] = {}  # types of texts that are
 
     def sheet(self, entities: Iterable[Any]) -> Sheet:
         """Return what some entities draw.
@@ -181,6 +182,7 @@ class Walker:
             sheet.add(made)
 
     def _lettering(self, entity: Any, kind: str) -> Lettering:
+        self._read[kind] = None
         if kind == "MTEXT":
             return mtext_lettering(entity, self._fonts)
         if kind == "ATTRIB" and entity.has_embedded_mtext_entity:
@@ -259,8 +261,9 @@ class Walker:
     def _bounded(self, count: int, insert: Any = None) -> None:
         if count > MOST_CURVES:
             where = f" at block {insert.dxf.name}" if insert is not None else ""
+            texts = f", or leave its texts out: {' '.join(f'--skip-type {kind}' for kind in self._read)}" if self._read else ""
             raise InputError(f"{self._name}: the drawing unfolds to more than {MOST_CURVES} curves{where}; "
-                             "reduce the rows and columns of its inserted blocks.")
+                             f"reduce the rows and columns of its inserted blocks{texts}.")
 
 
 def _origins(insert: Any) -> list[Point]:

@@ -162,6 +162,15 @@ def test_huge_array_is_refused_at_once() -> None:
     assert time.process_time() - started < 5
 
 
+def test_too_many_letters_are_refused_with_the_way_to_leave_them_out() -> None:
+    document = new()
+    document.blocks.new("B").add_text("x")
+    grid = {"row_count": 3000, "column_count": 3000, "row_spacing": 1, "column_spacing": 1}
+    document.modelspace().add_blockref("B", (0, 0), dxfattribs=grid)
+    with pytest.raises(InputError, match="its inserted blocks, or leave its texts out: --skip-type TEXT"):
+        read(document)
+
+
 @pytest.mark.exhaustive
 def test_doubling_blocks_are_refused_within_bounds() -> None:
     document = new()
