@@ -186,3 +186,62 @@ def test_a_solid_is_compared_with(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert report_of(tmp_path, *common, "--against", inches, "--units", "in")["gouge"]["count"] == 0
     assert cut(*common, "--against", part) == 0
     assert "0.0000 mm gouge, 0.000 mm2 left within reach, 0.000 mm2 out of reach" in capsys.readouterr().out
+
+
+def with_notes(path: Path, units: int = 4, layout: bool = False) -> Path:
+    """Draw a plate away from zero, a centre line across it, an ellipse, and the same in paper space where `layout` is so."""
+    document = ezdxf.new()
+    document.header["$INSUNITS"] = units
+    space = document.layouts.new("Blatt 2") if layout else document.modelspace()
+    space.add_lwpolyline([(100, 50), (140, 50), (140, 80), (100, 80)], close=True)
+    space.add_line((90, 65), (150, 65), dxfattribs={"layer": "Mitte (x)"})
+    space.add_ellipse((120, 65), (8, 0), 0.5)
+    document.saveas(path)
+    return path
+
+
+@pytest.mark.parametrize(("options", "units", "layout"), [
+    (["--to-zero", "--skip-layer", "mitte (x)"], 4, False), (["--skip-layer=Mitte (x)", "--skip-type=ellipse"], 4, False),
+    (["--units", "in", "--skip-layer=Mitte (x)"], 0, False), (["--units", "mm", "--skip-layer=Mitte (x)", "--to-zero"], 6, False),
+    (["--layout", "blatt 2", "--skip-layer=Mitte (x)"], 4, True)])  # fmt: skip
+def test_a_program_tells_how_its_drawing_was_read(options: list[str], units: int, layout: bool, tmp_path: Path) -> None:
+    """What `make` was told need not be said again; without these words in the header the verdict is another one, as it ever was."""
+    drawing = with_notes(tmp_path / "part.dxf", units, layout)
+    (program,) = made(drawing, tmp_path, *options, "--contour-tool", "4", "--pocket-tool", "6")
+    assert main(["cut", str(program), "--against", str(drawing), "--quiet", "--grid", "128"]) == 0
+    lines = program.read_text().splitlines(keepends=True)
+    keys = ("skip_", "to_zero", "layout", "overrule", "drawing_units")
+    program.write_text("".join(line for line in lines if not any(f"hitofude: {key}" in line for key in keys)))
+    try:
+        status = main(["cut", str(program), "--against", str(drawing), "--quiet", "--grid", "128"])
+    except SystemExit as stopped:
+        status = int(stopped.code or 0)
+    assert status in (1, 2)
+    assert main(["cut", str(program), "--against", str(drawing), "--quiet", "--grid", "128", *options]) == 0
+
+
+@pytest.mark.parametrize("options", [[], ["--px-per-inch", "90"], ["--px-per-inch", "50", "--to-zero"], ["--units", "mm"]])
+def test_a_page_without_a_real_size_is_read_as_it_was(options: list[str], tmp_path: Path) -> None:
+    drawing = tmp_path / "page.svg"
+    drawing.write_text('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 300 200"><rect x="10" y="20" width="180" height="120"/></svg>')
+    (program,) = made(drawing, tmp_path, *options, "--contour-tool", "4", "--pocket-tool", "6")
+    assert main(["cut", str(program), "--against", str(drawing), "--quiet", "--grid", "128"]) == 0
+
+
+def test_what_is_asked_stands_before_what_the_program_tells_and_is_said(tmp_path: Path) -> None:
+    drawing = with_notes(tmp_path / "part.dxf")
+    (program,) = made(drawing, tmp_path, "--skip-layer=Mitte (x)", "--skip-type=ellipse", "--contour-tool", "4", "--pocket-tool", "6")
+    findings = report_of(tmp_path, program, "--against", drawing, "--grid=128", "--skip-type=line", status=1)["findings"]
+    assert ("The program was made with --skip-type ellipse; here it is --skip-type line, as asked."
+            in [each["text"] for each in findings if each["kind"] == "assumed"])  # fmt: skip
+    same = report_of(tmp_path, program, "--against", drawing, "--grid=128", "--skip-type=ELLIPSE", "--skip-layer=MITTE (X)")["findings"]
+    assert not [each for each in same if "as asked." in each["text"] and "made with" in each["text"]]
+
+
+def test_what_a_program_tells_of_another_kind_of_drawing_is_passed_over(tmp_path: Path) -> None:
+    """Also a layer to leave out that a later drawing has no more."""
+    drawing = with_notes(tmp_path / "part.dxf")
+    (program,) = made(drawing, tmp_path, "--skip-layer=Mitte (x)", "--skip-type=ellipse", "--contour-tool", "4", "--pocket-tool", "6")
+    (tmp_path / "part.draw").write_text("rect 100,50 140,80\n")
+    assert main(["cut", str(program), "--against", str(tmp_path / "part.draw"), "--quiet", "--grid", "128"]) == 0
+    assert main(["cut", str(program), "--against", str(plate(tmp_path / "new.dxf", 100, 50)), "--quiet", "--grid", "128"]) == 0

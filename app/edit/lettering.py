@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 
+from app.edit.sample import bounds
 from app.model.curves import Arc, Curve, Line, Point
 from app.resources import resource
 
@@ -31,6 +32,7 @@ class Face:
     Attributes:
         capital: height of the capitals, units. between: the part of each advance that is empty at the end of a line, units.
         kerning: by a pair of letters what their distance is more than their advance, units.
+        below: how far small letters reach below the baseline, units, >= 0.
     """
 
     name: str
@@ -38,6 +40,7 @@ class Face:
     between: float
     glyphs: Mapping[str, Glyph]
     kerning: Mapping[tuple[str, str], float]
+    below: float = 0.0
 
 
 def placed(face: Face, words: str) -> Iterator[tuple[Glyph, float]]:
@@ -56,7 +59,12 @@ def engraving() -> Face:
     strokes, metrics, kerning = table["glyphs"], table["metrics"], table["kerning"]
     glyphs = {letter: _glyph(letter, strokes, table["widths"].get(letter), metrics["between"]) for letter in strokes}
     pairs = {(pair[0], pair[1]): -kerning[kind] for kind in ("close", "tight") for pair in kerning[f"{kind}_pairs"].split()}
-    return Face("engraving", metrics["capital"], metrics["between"], glyphs, pairs)
+    return Face("engraving", metrics["capital"], metrics["between"], glyphs, pairs, reach_below(glyphs["p"]))
+
+
+def reach_below(glyph: Glyph) -> float:
+    """Return how far a letter reaches below the baseline, units, >= 0."""
+    return max(0.0, -min((bounds(curve)[1] for curve in glyph.curves), default=0.0))
 
 
 def _glyph(letter: str, strokes: Mapping[str, str], width: float | None, between: float) -> Glyph:

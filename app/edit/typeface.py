@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import difflib
+import io
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
@@ -13,7 +16,7 @@ from typing import Any
 from fontTools.pens.basePen import BasePen
 from fontTools.ttLib import TTFont, TTLibError
 
-from app.edit.lettering import Face, Glyph
+from app.edit.lettering import Face, Glyph, reach_below
 from app.errors import InputError
 from app.model.curves import Curve, Line, Point, Spline
 
@@ -30,25 +33,66 @@ def outlined(name: str, words: str) -> Face:
     Raises:
         InputError: there is no such font, it cannot be read, or it lacks a letter.
     """
-    path = _found(name)
-    try:
-        with TTFont(path, fontNumber=0, lazy=True) as font:
-            return _face(font, name, words)
-    except (OSError, TTLibError, KeyError, ValueError, AssertionError) as error:
-        raise InputError(f"The font {path.name} cannot be read ({error}); choose another one.") from error
-
-
-def _face(font: Any, name: str, words: str) -> Face:
-    letters, shapes, widths = font.getBestCmap() or {}, font.getGlyphSet(), font["hmtx"]
-    lacking = "".join(dict.fromkeys(letter for letter in words if ord(letter) not in letters))
+    font = Typeface(_found(name))
+    lacking = font.lacking(words)
     if lacking:
         raise InputError(f"The font {name} has no letter for {' '.join(lacking)}; choose other words or another font.")
-    glyphs = {}
-    for letter in dict.fromkeys(words):
-        pen = _Pen(shapes)
-        shapes[letters[ord(letter)]].draw(pen)
-        glyphs[letter] = Glyph(tuple(pen.curves), float(widths[letters[ord(letter)]][0]))
-    return Face(name, _capital(font, letters), 0.0, glyphs, _kerning(font, letters, words))
+    return font.face(words)
+
+
+class Typeface:
+    """A font file, of which each letter is read once, when it is first asked for."""
+
+    def __init__(self, path: Path) -> None:
+        """Read what the file says of all its letters.
+
+        Raises:
+            InputError: the file cannot be read, or is no font.
+        """
+        self.name = path.stem
+        self._glyphs: dict[str, Glyph] = {}
+        self._file = path.name
+        with _readable(self._file):
+            self._font: Any = TTFont(io.BytesIO(path.read_bytes()), fontNumber=0, lazy=True)
+            self._letters: dict[int, str] = self._font.getBestCmap() or {}
+            self._shapes, self._widths = self._font.getGlyphSet(), self._font["hmtx"]
+            self._capital = _capital(self._font, self._letters)
+            self._below = -float(self._font["hhea"].descent) if ord("p") not in self._letters else reach_below(self._glyph("p"))
+
+    def lacking(self, words: str) -> str:
+        """Return the letters of some words that the font does not have, each once."""
+        return "".join(dict.fromkeys(letter for letter in words if ord(letter) not in self._letters))
+
+    def face(self, words: str, kerned: bool = True) -> Face:
+        """Return a face with those letters of some words that the font has.
+
+        Args:
+            words: that are to be set.
+            kerned: neighbours stand as the font's table has it; CAD programs leave that aside.
+
+        Raises:
+            InputError: a letter cannot be read.
+        """
+        letters = [letter for letter in dict.fromkeys(words) if ord(letter) in self._letters]
+        with _readable(self._file):
+            glyphs = {letter: self._glyph(letter) for letter in letters}
+            kerning = _kerning(self._font, self._letters, words) if kerned else {}
+        return Face(self.name, self._capital, 0.0, glyphs, kerning, max(self._below, 0.0))
+
+    def _glyph(self, letter: str) -> Glyph:
+        if letter not in self._glyphs:
+            name, pen = self._letters[ord(letter)], _Pen(self._shapes)
+            self._shapes[name].draw(pen)
+            self._glyphs[letter] = Glyph(tuple(pen.curves), float(self._widths[name][0]))
+        return self._glyphs[letter]
+
+
+@contextmanager
+def _readable(name: str) -> Iterator[None]:
+    try:
+        yield
+    except Exception as error:  # whatever a font of any origin makes of a parser
+        raise InputError(f"The font {name} cannot be read ({error}); choose another one.") from error
 
 
 def _capital(font: Any, letters: dict[int, str]) -> float:
@@ -61,7 +105,7 @@ def _capital(font: Any, letters: dict[int, str]) -> float:
 
 def _kerning(font: Any, letters: dict[int, str], words: str) -> dict[tuple[str, str], float]:
     """Return what the font's kerning table says of neighbours; that of newer layout tables is left aside."""
-    pairs = set(pairwise(words))
+    pairs = [(a, b) for a, b in set(pairwise(words)) if ord(a) in letters and ord(b) in letters]
     tables = [table.kernTable for table in font["kern"].kernTables if hasattr(table, "kernTable")] if "kern" in font else []
     return {(a, b): float(table[key]) for table in tables for a, b in pairs if (key := (letters[ord(a)], letters[ord(b)])) in table}
 
@@ -117,13 +161,39 @@ def _found(name: str) -> Path:
     return fonts[wanted]
 
 
+def installed(file: str, family: str = "", style: str = "") -> Path | None:
+    """Return the font of this machine that another one's drawing means; None where there is none.
+
+    Args:
+        file: the name of its file, its ending with it; a folder before it means nothing here, and no such file is ever opened.
+        family: where the file is not here or not named.
+        style: of the family, such as "bold italic"; "" = the upright one.
+    """
+    stem, _, ending = file.replace("\\", "/").rpartition("/")[2].rpartition(".")
+    if f".{ending.lower()}" in _KINDS and _plain(stem) in _files():
+        return _files()[_plain(stem)]
+    if not _plain(family):
+        return None
+    names = [_plain(family + each) for each in ((style, style.replace("italic", "oblique")) if style else ())]
+    return next((_installed()[name] for name in (*names, _plain(family)) if name in _installed()), None)
+
+
+@lru_cache(1)
+def _files() -> dict[str, Path]:
+    """Return the font files of this machine by their names, without endings and blanks and in lower case."""
+    return {_plain(path.stem): path for path in reversed(_paths())}
+
+
+def _paths() -> list[Path]:
+    return sorted(path for folder in _folders() if folder.is_dir() for path in folder.rglob("*") if path.suffix.lower() in _KINDS)
+
+
 @lru_cache(1)
 def _installed() -> dict[str, Path]:
     """Return the fonts of this machine by every name they go by, without blanks and in lower case."""
-    paths = sorted(path for folder in _folders() if folder.is_dir() for path in folder.rglob("*") if path.suffix.lower() in _KINDS)
     found: dict[str, Path] = {}
     plain: dict[str, Path] = {}
-    for path in paths:
+    for path in _paths():
         try:
             with TTFont(path, fontNumber=0, lazy=True) as font:
                 names = font["name"]

@@ -61,21 +61,23 @@ def read_drawing(
         raise InputError(f"{name}: drawings of type {suffix or 'without a suffix'} cannot be read; supported: {', '.join(SUFFIXES)}.")
     how.check(name, suffix)
     drawing = _READERS[suffix](data, name, (units, layers), how)
-    return _without_layers(drawing, how.without_layers, name)
+    drawing = _without_layers(drawing, how, name)
+    return drawing if suffix == ".svg" else replace(drawing, part=replace(drawing.part, reading=how))
 
 
-def _without_layers(drawing: Drawing, layers: tuple[str, ...], name: str) -> Drawing:
+def _without_layers(drawing: Drawing, how: ReadOptions, name: str) -> Drawing:
     """Return the drawing without the curves on some layers.
 
     Raises:
         InputError: there is no such layer, or nothing is left.
     """
+    layers = how.without_layers
     if not layers:
         return drawing
     part, gone = drawing.part, {layer.casefold() for layer in layers}
     known = {layer.name.casefold() for layer in part.layers}
     missing = [layer for layer in layers if layer.casefold() not in known]
-    if missing:
+    if missing and not how.lenient:
         raise InputError(f"{name}: there is no layer {missing[0]} to leave out; "
                          f"the drawing has {', '.join(layer.name for layer in part.layers)}.")
     kept = tuple(entity for entity in part.entities if entity.layer.casefold() not in gone)

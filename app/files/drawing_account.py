@@ -52,13 +52,16 @@ class Taken:
         return +Counter({BEYOND: len(self.far) + self.placeless})
 
 
-def taken(curves: Iterable[tuple[Curve, str]], to_mm: Affine | None, anchors: Callable[[str], bool] | None = None) -> Taken:
+def taken(
+    curves: Iterable[tuple[Curve, str]], to_mm: Affine | None, anchors: Callable[[str], bool] | None = None, strokes: int = 0,
+) -> Taken:  # fmt: skip
     """Return all curves that have a length, in mm.
 
     Args:
         curves: with the names of their layers.
         to_mm: from the curves' units; None: they are in mm.
         anchors: tells whether a layer counts for where the drawing lies, which is then moved to zero; None: it stays.
+        strokes: so many of the last ones are strokes of letters.
     """
     placed = [(transformed(curve, to_mm) if to_mm is not None else curve, layer) for curve, layer in curves]
     moved = None if anchors is None else _shift([curve for curve, layer in placed if curve is not None and anchors(layer)])
@@ -66,12 +69,12 @@ def taken(curves: Iterable[tuple[Curve, str]], to_mm: Affine | None, anchors: Ca
     found = Taken((), [], [], 0, moved)
     entities: list[Entity] = []
     lost = 0
-    for curve, layer in placed:
+    for left, (curve, layer) in zip(range(len(placed), 0, -1), placed, strict=True):
         drawn = None if curve is None else straightened(transformed(curve, shift) or curve if shift is not None else curve)
         if drawn is None or (within_reach(drawn) and not has_length(drawn)):
             found.nothing.append(None if drawn is None else drawn.start)
         elif within_reach(drawn):
-            entities.append(Entity(len(entities) + 1, drawn, layer))
+            entities.append(Entity(len(entities) + 1, drawn, layer, left <= strokes))
         elif all(map(math.isfinite, (*drawn.start, *drawn.end))):
             found.far.append((drawn.start, layer))
         else:
@@ -102,12 +105,17 @@ def _shift(curves: list[Curve]) -> Point | None:
 
     What lies more than 1 km from the middle one of all is a stray and counts for nothing.
     """
-    boxes = [box for curve in curves if all(abs(v) < _COUNTABLE for v in _numbers(curve)) for box in [bounds(curve)]]
+    boxes = [box for curve in curves if has_place(curve) for box in [bounds(curve)]]
     if not boxes:
         return None
     x, y = (statistics.median((box[k] + box[k + 2]) / 2 for box in boxes) for k in (0, 1))
     near = [box for box in boxes if abs(box[0] - x) <= FARTHEST and abs(box[1] - y) <= FARTHEST]
     return (-min(box[0] for box in near), -min(box[1] for box in near)) if near else None
+
+
+def has_place(curve: Curve) -> bool:
+    """Return False for a curve with a coordinate that is no number, or so large that none beside it can be told from it."""
+    return all(abs(v) < _COUNTABLE for v in _numbers(curve))
 
 
 def _numbers(curve: Curve) -> Iterator[float]:

@@ -27,10 +27,12 @@ from app.files.drawing_account import (
 )
 from app.files.dxf_affine import scaled
 from app.files.dxf_blocks import Sheet, Walker
-from app.files.dxf_findings import about_commas, about_hidden, about_negative
+from app.files.dxf_drawn import all_drawn
+from app.files.dxf_findings import about_commas, about_hatches, about_hidden, about_letterings, about_negative
 from app.files.dxf_layouts import PAPER, layout_named, paper
 from app.files.dxf_load import load
 from app.files.reading_question import Contents, Question, UndecidedError, about_far, about_frozen, about_layouts, about_units
+from app.model.curves import Curve
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity, Layer, Part, Units
 from app.model.read_options import AS_DRAWN, Reading, ReadOptions
@@ -50,9 +52,10 @@ def read_dxf(
 ) -> Drawing:  # fmt: skip
     """Return the curves of a DXF's model space, or of one layout, in mm, and what was left out.
 
-    Curves of inserted blocks are put in place, but for those inserted on frozen layers, which no CAD program shows. Text,
-    dimensions, hatches, points, solids and paper space are counted, not read. Units come from $INSUNITS alone ($MEASUREMENT
-    only chooses hatch patterns); a drawing that names none is in `units`, or in mm.
+    Curves of inserted blocks are put in place, but for those inserted on frozen layers, which no CAD program shows. Texts are the
+    outlines of their letters, or strokes where their font is not here; boundaries of hatches are outlines, unless they lie on
+    curves that are drawn anyway. Dimensions, points, solids and paper space are counted, not read. Units come from $INSUNITS
+    alone ($MEASUREMENT only chooses hatch patterns); a drawing that names none is in `units`, or in mm.
 
     Args:
         data: the whole file, ASCII or binary DXF, R12 or later.
@@ -69,12 +72,12 @@ def read_dxf(
     unit = _unit(document, data, units, how.overrule)
     walker = Walker(document, name, layers, how.without_types)
     sheet = walker.sheet(layout_named(document, how.layout, name))
-    spelling, to_mm = _spelling(document), scaled(unit.size)
-    curves = [(curve, spelling.get(layer.casefold(), layer)) for curve, layer in sheet.curves]
-    anchors = _anchors(document, layers)
+    to_mm, machined = scaled(unit.size), _machined(document, layers, how.without_layers)
+    drawn = all_drawn(sheet, machined, unit.size)
+    curves = _spelled(document, drawn.curves)
 
     def placed(to_zero: bool) -> Taken:
-        return taken(curves, to_mm if unit.size != 1.0 else None, anchors if to_zero else None)
+        return taken(curves, to_mm if unit.size != 1.0 else None, machined if to_zero else None, drawn.strokes)
 
     found, papers = placed(how.to_zero), paper(document)
     others = Counter() if how.layout else papers
@@ -87,6 +90,7 @@ def read_dxf(
     nothing = [None if p is None else to_mm.point(p) for p in sheet.without_length] + found.nothing
     findings = [*_unit_findings(units, unit), *about_commas(loaded.commas), *_damage(loaded.repaired), *about_place(found),
                 *about_negative(sheet, unit.size), *without_length(nothing), *_heights(sheet, unit.size), *about_hidden(sheet, unit.size),
+                *about_letterings([each for each in sheet.letterings if machined(each.layer)], unit.size), *about_hatches(drawn),
                 *switched_off(part, layers), *all_left_out(+left_out)]  # fmt: skip
     contents = Contents(names, tuple(papers.items()), tuple(sorted(walker.types)), unit.own)
     question = strays_or_none(found, reading, placed) or (None if unit.named or units else about_units(unit.shown, size_of(part), reading))
@@ -135,11 +139,11 @@ def _unit(document: Any, data: bytes, given: Units | None, overrule: bool) -> _U
     return _Unit(unit.value, unit, False)
 
 
-def _anchors(document: Any, layers: tuple[str, ...]) -> Callable[[str], bool]:
+def _machined(document: Any, layers: tuple[str, ...], without: tuple[str, ...]) -> Callable[[str], bool]:
     """Return what tells whether a layer is machined, and so counts for where the drawing lies."""
-    wanted = {layer.casefold() for layer in layers}
+    wanted, gone = ({layer.casefold() for layer in names} for names in (layers, without))
     hidden = {layer.dxf.name.casefold() for layer in document.layers if layer.is_off() or layer.is_frozen()}
-    return lambda layer: layer.casefold() in wanted if wanted else layer.casefold() not in hidden
+    return lambda layer: layer.casefold() not in gone and (layer.casefold() in wanted if wanted else layer.casefold() not in hidden)
 
 
 def _nothing(sheet: Sheet, found: Taken, others: Counter[str]) -> str:
@@ -156,9 +160,10 @@ def _nothing(sheet: Sheet, found: Taken, others: Counter[str]) -> str:
     return f"the drawing has no lines, arcs or curves to machine{said}."
 
 
-def _spelling(document: Any) -> dict[str, str]:
-    """Return each layer name as the table spells it, by its name in lower case; DXF tells no difference."""
-    return {layer.dxf.name.casefold(): layer.dxf.name for layer in document.layers}
+def _spelled(document: Any, curves: Iterable[tuple[Curve, str]]) -> list[tuple[Curve, str]]:
+    """Return curves with layers as the table spells them; DXF tells no difference between capitals and small letters."""
+    spelling = {layer.dxf.name.casefold(): layer.dxf.name for layer in document.layers}
+    return [(curve, spelling.get(layer.casefold(), layer)) for curve, layer in curves]
 
 
 def _layers(document: Any, entities: tuple[Entity, ...]) -> tuple[Layer, ...]:

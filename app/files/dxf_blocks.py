@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from math import cos, isfinite, radians, sin
 from typing import Any
@@ -12,8 +12,14 @@ from app.errors import HitofudeError, InputError
 from app.files.drawing_account import MOST_CURVES
 from app.files.dxf_affine import Affine, transformed
 from app.files.dxf_curves import NegativeRadiusError, NoLengthError, curves_of, heights_of, plane_of
+from app.files.dxf_fonts import Fonts
+from app.files.dxf_hatch import Hatch, hatch_of
+from app.files.dxf_letters import LeftOutError, Lettering
+from app.files.dxf_mtext import mtext_lettering
+from app.files.dxf_text import text_lettering
 from app.model.curves import Curve, Point
 
+_TEXTS = ("TEXT", "MTEXT", "ATTRIB")
 DEEPEST = 64
 """Blocks nested deeper than this are refused."""
 
@@ -48,6 +54,7 @@ class Sheet:
 
     Attributes:
         curves: (curve, layer) in the sheet's own coordinates, drawing units.
+        letterings: what its texts draw. hatches: boundaries of its hatches.
         left_out: entities that are no curves, by type.
         without_length: places of entities that draw nothing, None where there is no place.
         hidden: blocks inserted on frozen layers.
@@ -56,12 +63,46 @@ class Sheet:
     """
 
     curves: list[tuple[Curve, str]] = field(default_factory=list)
+    letterings: list[Lettering] = field(default_factory=list)
+    hatches: list[Hatch] = field(default_factory=list)
     left_out: Counter[str] = field(default_factory=Counter)
     without_length: list[Point | None] = field(default_factory=list)
     hidden: list[Hidden] = field(default_factory=list)
     negative: list[Negative] = field(default_factory=list)
     heights: tuple[float, float] = (0.0, 0.0)
     any_height: bool = False
+    _more: int = 0
+
+    @property
+    def size(self) -> int:
+        """How many curves there are, with those of texts and hatches."""
+        return len(self.curves) + self._more
+
+    @property
+    def is_empty(self) -> bool:
+        """True where nothing is drawn, and nothing is to be said of a place."""
+        return not (self.size or self.letterings or self.without_length or self.hidden or self.negative)
+
+    def more(self) -> Iterator[Lettering | Hatch]:
+        """Yield its texts and hatches."""
+        yield from self.letterings
+        yield from self.hatches
+
+    def layers(self) -> Iterator[str]:
+        """Yield the layer of every curve."""
+        yield from (layer for _, layer in self.curves)
+        for each in self.more():
+            yield from (each.layer for _ in range(each.size))
+
+    def add(self, made: Lettering | Hatch) -> None:
+        """Note what a text or a hatch draws, if it does; one of which letters are missing alone counts as a curve."""
+        if not made.size and not (isinstance(made, Lettering) and made.lacking):
+            return
+        if isinstance(made, Hatch):
+            self.hatches.append(made)
+        else:
+            self.letterings.append(made)
+        self._more += max(made.size, 1)
 
     def see(self, heights: Iterable[float]) -> None:
         """Note some Z."""
@@ -85,10 +126,12 @@ class Walker:
         wanted = {layer.casefold() for layer in asked}
         self._frozen = {layer.dxf.name.casefold() for layer in document.layers if layer.is_frozen()} - wanted
         self._without = {kind.upper() for kind in without}
+        self._fonts = Fonts(document.styles)
         self._blocks: dict[str, Sheet] = {}
         self._open: list[str] = []
         self.types: set[str] = set()
         """Types of the entities that were met, also of those that were left out."""
+        self._read: dict[str, None] = {}  # types of texts that are
 
     def sheet(self, entities: Iterable[Any]) -> Sheet:
         """Return what some entities draw.
@@ -106,7 +149,7 @@ class Walker:
                 raise
             except Exception:  # whatever an entity of a damaged file lacks: it is one that draws nothing
                 sheet.left_out[f"{kind} (damaged)"] += 1
-            self._bounded(len(sheet.curves))
+            self._bounded(sheet.size)
         return sheet
 
     def _one(self, entity: Any, kind: str, sheet: Sheet) -> None:
@@ -121,9 +164,13 @@ class Walker:
 
     def _draw(self, entity: Any, kind: str, sheet: Sheet) -> None:
         try:
-            curves = curves_of(entity)
+            made = self._lettering(entity, kind) if kind in _TEXTS else hatch_of(entity) if kind == "HATCH" else None
+            curves = [] if made is not None else curves_of(entity)
         except NoLengthError as nothing:
             sheet.without_length.append(nothing.args[0])
+            return
+        except LeftOutError as left:
+            sheet.left_out[left.args[0]] += 1
             return
         except NegativeRadiusError as negative:
             at, radius = negative.args
@@ -134,30 +181,52 @@ class Walker:
             return
         sheet.see(heights_of(entity))
         sheet.curves += [(curve, entity.dxf.layer) for curve in curves]
+        if made is not None:
+            sheet.add(made)
+
+    def _lettering(self, entity: Any, kind: str) -> Lettering:
+        self._read[kind] = None
+        if kind == "MTEXT":
+            return mtext_lettering(entity, self._fonts)
+        if kind == "ATTRIB" and entity.has_embedded_mtext_entity:
+            return replace(mtext_lettering(entity.virtual_mtext_entity(), self._fonts), kind=kind)
+        return text_lettering(entity, self._fonts)
 
     def _insert(self, insert: Any, sheet: Sheet) -> None:
         """Add every copy of a block; what is on its layer 0 takes the layer of the insert."""
-        if insert.attribs:
-            sheet.left_out["ATTRIB"] += len(insert.attribs)
         if insert.block() is None:
             sheet.left_out["INSERT of a missing block"] += 1
+            sheet.left_out["ATTRIB"] += len(insert.attribs)
             return
         inner = self._block(insert.dxf.name, insert)
         places = max(insert.dxf.row_count, 1) * max(insert.dxf.column_count, 1)
-        self._bounded(len(sheet.curves) + len(inner.curves) * places, insert)
+        self._bounded(sheet.size + inner.size * places, insert)
         self._bounded(places, insert)
         if self._is_hidden(insert):
-            layers = tuple(insert.dxf.layer if layer == "0" else layer for _, layer in inner.curves)
+            layers = tuple(insert.dxf.layer if layer == "0" else layer for layer in inner.layers())
             sheet.hidden.append(Hidden(insert.dxf.layer, insert.dxf.name, next(iter(_origins(insert)), None), layers * places))
             return
         for kind, count in inner.left_out.items():
             sheet.left_out[kind] += count * places
         if inner.any_height:
             sheet.see(z + insert.dxf.insert.z for z in inner.heights)
-        if not (inner.curves or inner.without_length or inner.hidden or inner.negative):
+        if inner.is_empty and not insert.attribs:
             return
-        for place in _places(insert):
+        copies = _places(insert)
+        for place in copies:
             self._copy(inner, place, insert.dxf.layer, sheet)
+        self._attributes(insert, copies, sheet)
+
+    def _attributes(self, insert: Any, copies: list[Affine], sheet: Sheet) -> None:
+        """Add the attributes of a block, which lie where the block is inserted first, with every copy of it."""
+        own = self.sheet(attribute for attribute in insert.attribs if not attribute.is_invisible)
+        own.left_out["ATTRIB (invisible)"] += sum(bool(attribute.is_invisible) for attribute in insert.attribs)
+        self._bounded(sheet.size + own.size * len(copies), insert)
+        for place in copies:
+            self._copy(own, Affine(x0=place.x0 - copies[0].x0, y0=place.y0 - copies[0].y0), insert.dxf.layer, sheet)
+        sheet.left_out += Counter({kind: count * len(copies) for kind, count in own.left_out.items()})
+        if own.any_height:
+            sheet.see(own.heights)
 
     def _is_hidden(self, insert: Any) -> bool:
         """True on a frozen layer; in a block, layer 0 is that on which the block itself is inserted."""
@@ -170,13 +239,15 @@ class Walker:
         sheet.hidden += [replace(each, at=each.at and place.point(each.at)) for each in inner.hidden]
         sheet.negative += [replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
                            for each in inner.negative]
+        for each in inner.more():
+            sheet.add(each.moved(place, outer))
         for curve, layer in inner.curves:
             moved = transformed(curve, place)
             if moved is None:
                 sheet.without_length.append(place.point(curve.start))
             else:
                 sheet.curves.append((moved, outer if layer == "0" else layer))
-        self._bounded(max(len(sheet.hidden), len(sheet.negative)))
+        self._bounded(max(len(sheet.hidden), len(sheet.negative), sheet.size))
 
     def _block(self, name: str, insert: Any) -> Sheet:
         key = name.casefold()
@@ -193,8 +264,9 @@ class Walker:
     def _bounded(self, count: int, insert: Any = None) -> None:
         if count > MOST_CURVES:
             where = f" at block {insert.dxf.name}" if insert is not None else ""
+            texts = f", or leave its texts out: {' '.join(f'--skip-type {kind}' for kind in self._read)}" if self._read else ""
             raise InputError(f"{self._name}: the drawing unfolds to more than {MOST_CURVES} curves{where}; "
-                             "reduce the rows and columns of its inserted blocks.")
+                             f"reduce the rows and columns of its inserted blocks{texts}.")
 
 
 def _origins(insert: Any) -> list[Point]:

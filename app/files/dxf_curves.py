@@ -47,6 +47,10 @@ def heights_of(entity: Any) -> Iterable[float]:
         return [v.dxf.location.z for v in entity.vertices] if entity.is_3d_polyline else (entity.dxf.elevation.z,)
     if kind == "SPLINE":
         return [p[2] for p in (entity.control_points or entity.fit_points)]
+    if kind == "HATCH":
+        return (entity.dxf.elevation.z * entity.dxf.extrusion.z,)
+    if kind in ("TEXT", "ATTRIB", "MTEXT"):
+        return (entity.dxf.insert.z * (1.0 if kind == "MTEXT" else entity.dxf.extrusion.z),)
     return (entity.dxf.center.z * entity.dxf.extrusion.z,) if kind in ("ARC", "CIRCLE") else (entity.dxf.center.z,)
 
 
@@ -65,7 +69,7 @@ def _line(entity: Any) -> list[Curve]:
 
 def _circle(entity: Any) -> list[Curve]:
     centre, radius = entity.dxf.center, _radius(entity)
-    return _placed(entity, centre.z, [Circle(_flat(centre), radius)])
+    return placed_in(entity, centre.z, [Circle(_flat(centre), radius)])
 
 
 def _radius(entity: Any) -> float:
@@ -79,11 +83,15 @@ def _radius(entity: Any) -> float:
 
 def _arc(entity: Any) -> list[Curve]:
     centre, radius = entity.dxf.center, _radius(entity)
-    sweep = (entity.dxf.end_angle - entity.dxf.start_angle) % 360.0
+    return placed_in(entity, centre.z, [arc_of(_flat(centre), radius, entity.dxf.start_angle, entity.dxf.end_angle)])
+
+
+def arc_of(centre: Point, radius: float, first: float, last: float) -> Arc | Circle:
+    """Return the arc counter-clockwise from one angle to another, degrees; a circle where it is a full turn."""
+    sweep = (last - first) % 360.0
     if sweep < 1e-9 or sweep > 360.0 - 1e-9:
-        return _placed(entity, centre.z, [Circle(_flat(centre), radius)])
-    start, end = (polar(_flat(centre), radius, angle) for angle in (entity.dxf.start_angle, entity.dxf.end_angle))
-    return _placed(entity, centre.z, [Arc(start, end, _flat(centre))])
+        return Circle(centre, radius)
+    return Arc(polar(centre, radius, first), polar(centre, radius, last), centre)
 
 
 def _ellipse(entity: Any) -> list[Curve]:
@@ -101,7 +109,7 @@ def _ellipse(entity: Any) -> list[Curve]:
 
 def _lwpolyline(entity: Any) -> list[Curve]:
     vertices = [((float(x), float(y)), float(bulge)) for x, y, bulge in entity.get_points("xyb")]
-    return _placed(entity, entity.dxf.elevation, _segments(vertices, entity.closed))
+    return placed_in(entity, entity.dxf.elevation, segments_of(vertices, entity.closed))
 
 
 def _polyline(entity: Any) -> list[Curve] | None:
@@ -110,8 +118,8 @@ def _polyline(entity: Any) -> list[Curve] | None:
     shown = [v.dxf for v in entity.vertices if not v.dxf.flags & _SPLINE_FRAME]
     flat = entity.is_2d_polyline
     vertices = [(_flat(v.location), float(v.bulge) if flat else 0.0) for v in shown]
-    segments = _segments(vertices, entity.is_closed)
-    return _placed(entity, entity.dxf.elevation.z, segments) if flat else segments
+    segments = segments_of(vertices, entity.is_closed)
+    return placed_in(entity, entity.dxf.elevation.z, segments) if flat else segments
 
 
 def _spline(entity: Any) -> list[Curve]:
@@ -122,7 +130,7 @@ def _spline(entity: Any) -> list[Curve]:
     return [made]
 
 
-def _segments(vertices: list[tuple[Point, float]], closed: bool) -> list[Curve]:
+def segments_of(vertices: list[tuple[Point, float]], closed: bool) -> list[Curve]:
     """Return lines and arcs between vertices; repeated vertices are passed over."""
     if not vertices:
         raise NoLengthError(None)
@@ -142,7 +150,8 @@ def _bulged(a: Point, b: Point, bulge: float) -> Curve:
     return Arc(a, b, centre, bulge > 0)
 
 
-def _placed(entity: Any, height: float, curves: list[Curve]) -> list[Curve]:
+def placed_in(entity: Any, height: float, curves: list[Curve]) -> list[Curve]:
+    """Return curves that are drawn in the plane of an entity, at some height, as they are seen from above."""
     plane = plane_of(entity, height)
     return curves if plane is IDENTITY else list(_seen(curves, plane))
 

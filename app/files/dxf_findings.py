@@ -1,16 +1,19 @@
-"""Sentences about what reading a DXF met: decimal commas, radii below 0, blocks that no CAD program shows."""
+"""Sentences about what reading a DXF met: decimal commas, radii below 0, blocks that no CAD program shows, texts and hatches."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Sequence
 
 from app.files.drawing_account import remark
 from app.files.dxf_blocks import Hidden, Sheet
+from app.files.dxf_drawn import AllDrawn
+from app.files.dxf_letters import Lettering
 from app.files.dxf_numbers import Commas
 from app.model.finding import Finding, FindingKind
 
-_NAMED = 3
-"""So many blocks or layers are named in one sentence."""
+_NAMED, _LETTERS = 3, 10
+"""So many blocks, layers or fonts, and so many letters, are named in one sentence."""
 
 
 def about_commas(commas: Commas) -> Iterator[Finding]:
@@ -50,3 +53,48 @@ def _hidden(inserts: list[Hidden], size: float) -> Finding:
     lost = "1 curve is" if len(curves) == 1 else f"{len(curves)} curves are"
     return remark(f"{what} inserted{where} on layer {layer}, which is frozen; {lost} not shown and not machined. "
                   f"Say {wanted} to machine them; in the window they are chosen in File, Reading options.", float(len(curves)))
+
+
+def about_letterings(texts: Sequence[Lettering], size: float) -> Iterator[Finding]:
+    """Say that texts are read, in which fonts, and how to leave them out; and which letters are missing from them.
+
+    Args:
+        texts: on layers that are machined. size: of the drawing's unit, mm.
+    """
+    if not texts:
+        return
+    out = "leave them out with " + " ".join(f"--skip-type {kind}" for kind in dict.fromkeys(each.kind for each in texts))
+    counts = Counter(pair for each in texts for pair in each.fonts)
+    fonts = ", ".join(f"{count} {_in_font(*pair)}" for pair, count in counts.most_common(_NAMED))
+    more = f" and {len(counts) - _NAMED} more fonts" if len(counts) > _NAMED else ""
+    what = "1 text is" if len(texts) == 1 else f"{len(texts)} texts are"
+    yield Finding(FindingKind.ASSUMED, f"{what} read as curves to machine: {fonts}{more}; {out}.", counts=False, amount=float(len(texts)))
+    short = [each for each in texts if each.lacking]
+    if short:
+        letters = list(dict.fromkeys(letter for each in short for letter in each.lacking))
+        named = " ".join(letter if letter.isprintable() else f"U+{ord(letter):04X}" for letter in letters[:_LETTERS])
+        rest = f" and {len(letters) - _LETTERS} more" if len(letters) > _LETTERS else ""
+        x, y = short[0].at[0] * size, short[0].at[1] * size
+        where = f"the text at ({x:.3f}, {y:.3f})" if len(short) == 1 else f"{len(short)} texts, the first at ({x:.3f}, {y:.3f})"
+        yield Finding(FindingKind.LEFT_OUT, f"No font here has {named}{rest}, missing from {where} on layer {short[0].layer}; "
+                      f"install the drawing's font, or {out}.", x, y, amount=float(len(short)))
+
+
+def _in_font(asked: str, drawn: str) -> str:
+    if drawn:
+        return f"in {drawn}"
+    return f"in the engraving face, for font {asked} is not installed here" if asked else "in the engraving face, for no font is named"
+
+
+def about_hatches(drawn: AllDrawn) -> Iterator[Finding]:
+    """Say that boundaries of hatches are read, how many lie on drawn curves, and how to leave them out."""
+    if drawn.boundaries:
+        what = "1 boundary of a hatch is" if drawn.boundaries == 1 else f"{drawn.boundaries} boundaries of hatches are"
+        new = drawn.boundaries - drawn.repeated
+        if not drawn.repeated:
+            how = f"{what} read as outlines to machine"
+        elif not new:
+            how = f"{what} drawn as curves too, and not taken twice"
+        else:
+            how = f"{what} read as outlines to machine, but for {drawn.repeated} drawn as curves too"
+        yield remark(f"{how}; leave them out with --skip-type HATCH.", float(new))

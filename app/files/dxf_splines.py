@@ -24,13 +24,39 @@ def spline_curve(entity: Any) -> Spline | None:
     Raises:
         InputError: it has more than MOST_POINTS points.
     """
-    count = max(len(entity.control_points), len(entity.fit_points))
-    if count > MOST_POINTS:
-        raise InputError(f"On layer {entity.dxf.layer} {too_many(count)}")
+    _ensure_few(entity, entity.dxf.layer)
     try:
-        tool = entity.construction_tool()
+        return _clamped(entity.construction_tool())
     except (ValueError, IndexError, ZeroDivisionError, ArithmeticError):
         return None
+
+
+def spline_of_edge(edge: Any, layer: str) -> Spline | None:
+    """Return an edge of a hatch's boundary that is a spline, in drawing units; None when it is not a curve at all.
+
+    Raises:
+        InputError: it has more than MOST_POINTS points.
+    """
+    from ezdxf.math import BSpline, fit_points_to_cad_cv
+
+    _ensure_few(edge, layer)
+    try:
+        if edge.control_points:
+            return _clamped(BSpline(edge.control_points, edge.degree + 1, edge.knot_values, edge.weights or None))
+        tangents = (edge.start_tangent, edge.end_tangent)
+        return _clamped(fit_points_to_cad_cv(edge.fit_points, tangents if all(tangents) else None))
+    except (ValueError, IndexError, ZeroDivisionError, ArithmeticError):
+        return None
+
+
+def _ensure_few(entity: Any, layer: str) -> None:
+    count = max(len(entity.control_points), len(entity.fit_points))
+    if count > MOST_POINTS:
+        raise InputError(f"On layer {layer} {too_many(count)}")
+
+
+def _clamped(tool: Any) -> Spline | None:
+    """Return a spline of the library as one that begins and ends on its control points."""
     points = [(float(p.x), float(p.y)) for p in tool.control_points]
     knots, degree = [float(k) for k in tool.knots()], tool.order - 1
     weights = [float(w) for w in tool.weights()] or [1.0] * len(points)

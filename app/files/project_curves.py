@@ -1,8 +1,8 @@
 """Curves and notes of a project file, one a line: in the words of the shape language, and exact to the last digit.
 
 A line `#17` gives the next one its number; without it a line's number is one more than that of the line before. A line
-`layer "name"` puts what follows on a layer. An ellipse is written by its ratio and a part of it by radians, because the
-language's own form would round them.
+`layer "name"` puts what follows on a layer, and `layer "name" letters` says that it is strokes of letters, which bound nothing. An
+ellipse is written by its ratio and a part of it by radians, because the language's own form would round them.
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ FARTHEST = 1e15
 _HIGHEST, _MOST_TURN = 10**12, 100.0
 
 Made = TypeVar("Made")
-_LAYER = "layer "
+_LAYER, _LETTERS = "layer ", " letters"
 
 
 def curve_lines(entities: Iterable[Entity]) -> Iterator[str]:
     """Yield the lines of curves."""
-    return _lines((entity.id, entity.layer, _curve_text(entity.curve)) for entity in entities)
+    return _lines((entity.id, _sheet(entity.layer, entity.lettering), _curve_text(entity.curve)) for entity in entities)
 
 
 def note_lines(notes: Iterable[Note]) -> Iterator[str]:
     """Yield the lines of notes."""
-    return _lines((note.id, note.layer, _note_text(note.shape)) for note in notes)
+    return _lines((note.id, _sheet(note.layer), _note_text(note.shape)) for note in notes)
 
 
 def read_curves(text: str, place: tuple[str, int]) -> tuple[Entity, ...]:
@@ -55,19 +55,23 @@ def read_curves(text: str, place: tuple[str, int]) -> tuple[Entity, ...]:
 
 def read_notes(text: str, place: tuple[str, int]) -> tuple[Note, ...]:
     """Return the notes of lines that `note_lines` has written; arguments and errors as for `read_curves`."""
-    return tuple(Note(*found) for found in _read(text, place, _NOTES))
+    return tuple(Note(number, shape, layer) for number, shape, layer, _ in _read(text, place, _NOTES))
 
 
 def _lines(things: Iterable[tuple[int, str, str]]) -> Iterator[str]:
     before, current = 0, None
-    for number, layer, text in things:
-        if layer != current:
-            current = layer
-            yield _LAYER + _quoted(layer)
+    for number, sheet, text in things:
+        if sheet != current:
+            current = sheet
+            yield sheet
         if number != before + 1:
             yield f"#{number}"
         before = number
         yield text
+
+
+def _sheet(layer: str, lettering: bool = False) -> str:
+    return _LAYER + _quoted(layer) + _LETTERS * lettering
 
 
 def _quoted(name: str) -> str:
@@ -113,16 +117,16 @@ def _note_text(shape: Shape) -> str:
             return " ".join(["dimension", shape.measure.value, *map(_point, shape.points), "place", _point(shape.place)])
 
 
-def _read(text: str, place: tuple[str, int], readers: Mapping[str, Callable[[list[str]], Made]]) -> Iterator[tuple[int, Made, str]]:
-    """Yield number, shape and layer of every line."""
+def _read(text: str, place: tuple[str, int], readers: Mapping[str, Callable[[list[str]], Made]]) -> Iterator[tuple[int, Made, str, bool]]:
+    """Yield number, shape and layer of every line, and whether it is a stroke of a letter."""
     name, first = place
-    number, layer, used = 0, "0", set[int]()
+    number, layer, lettering, used = 0, "0", False, set[int]()
     for row, line in enumerate(text.split("\n"), first):
         try:
             if line.startswith("#"):
                 number = int(line[1:]) - 1
             elif line.startswith(_LAYER):
-                layer = _layer(line)
+                layer, lettering = _layer(line)
             elif line:
                 word, *rest = line.removesuffix("\r").split(" ")
                 number += 1
@@ -132,7 +136,7 @@ def _read(text: str, place: tuple[str, int], readers: Mapping[str, Callable[[lis
                 used.add(number)
                 if len(used) > MOST_THINGS:
                     raise InputError(f"{name}:{row}: the drawing has more than {MOST_THINGS} curves; part it.")
-                yield number, made, layer
+                yield number, made, layer, lettering
         except (KeyError, ValueError, IndexError, TypeError) as error:
             raise InputError(f"{name}:{row}: '{line[:60]}' cannot be read ({_why(error)}); {REMEDY}") from error
 
@@ -145,11 +149,13 @@ def _why(error: Exception) -> str:
         else str(error)
 
 
-def _layer(line: str) -> str:
-    name = json.loads(line[len(_LAYER):])
+def _layer(line: str) -> tuple[str, bool]:
+    name, end = json.JSONDecoder().raw_decode(line, len(_LAYER))
+    rest = line[end:].rstrip()
     if not isinstance(name, str):
         raise ValueError("a layer's name stands in quotes")
-    return name
+    _expect(rest in ("", _LETTERS), f"{rest.strip()} is too much")
+    return name, rest == _LETTERS
 
 
 def _value(text: str) -> float:

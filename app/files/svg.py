@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePath
 
 from app.errors import InputError
@@ -91,7 +91,7 @@ def read_svg(
     sheet, reading = Walker(root, name).sheet(page.to, page.view), Reading(units, layers, how)
 
     def placed(to_zero: bool) -> Taken:
-        return taken(sheet.curves, None, _anchors(sheet, layers) if to_zero else None)
+        return taken(sheet.curves, None, _anchors(sheet, layers, how.without_layers) if to_zero else None)
 
     found = placed(how.to_zero)
     left_out = sheet.left_out + found.missing
@@ -102,7 +102,8 @@ def read_svg(
                              about_far(found.far[0][0], reading, page.shown) if far else None)
     shown = tuple(note.layer(layer) for layer, note in sheet.layers.items())
     part = Part(name=PurePath(name).stem, units=page.shown, layers=shown or (Layer(),)).with_entities(found.entities)
-    part = on_layers(part, layers, name)
+    assumed = not page.named and units is None  # told, so that whoever reads the drawing again takes the same
+    part = replace(on_layers(part, layers, name), reading=replace(how, pixels_per_inch=density.per_inch) if assumed else how)
     findings = [*_units(units, page, density, how), *about_place(found), *_faults(sheet), *without_length(sheet.nothing + found.nothing),
                 *_clipped(sheet), *switched_off(part, layers), *all_left_out(sheet.left_out)]  # fmt: skip
     own = density_of(root)
@@ -126,11 +127,11 @@ def _about_pixels(root: Node, density: Density, now: tuple[Size, Affine], readin
     return about_pixels((density.per_inch, density.editor), KNOWN_PER_INCH, size_in, reading)
 
 
-def _anchors(sheet: Sheet, layers: tuple[str, ...]) -> Callable[[str], bool]:
+def _anchors(sheet: Sheet, layers: tuple[str, ...], without: tuple[str, ...]) -> Callable[[str], bool]:
     """Return what tells whether a layer is machined, and so counts for where the drawing lies."""
-    wanted = {layer.casefold() for layer in layers}
+    wanted, gone = ({layer.casefold() for layer in names} for names in (layers, without))
     hidden = {layer for layer, note in sheet.layers.items() if not note.visible}
-    return lambda layer: layer.casefold() in wanted if wanted else layer not in hidden
+    return lambda layer: layer.casefold() not in gone and (layer.casefold() in wanted if wanted else layer not in hidden)
 
 
 def _page(root: Node, units: Units | None, pixel: float, overrule: bool = False) -> _Page:

@@ -8,6 +8,7 @@ from enum import Enum
 
 from app.model.curves import Curve, Primitive
 from app.model.notes import Note, Shape
+from app.model.read_options import AS_DRAWN, ReadOptions
 
 
 class Units(Enum):
@@ -43,11 +44,13 @@ class Entity:
         id: unique in its part, never used again, > 0.
         curve: the curve, mm.
         layer: name of its layer.
+        lettering: True for a stroke of a letter: a tool may follow it, and it never bounds anything.
     """
 
     id: int
     curve: Curve
     layer: str = "0"
+    lettering: bool = False
 
 
 @dataclass(frozen=True)
@@ -61,6 +64,7 @@ class Part:
         name: shown in titles and NC headers.
         used_id: the highest entity id that was ever given, where it is known; 0: the highest there is.
         notes: points, construction lines and dimensions, in the order of drawing; their ids are of the same count.
+        reading: how it was read from a file of others, so that it can be read so again.
     """
 
     entities: tuple[Entity, ...] = ()
@@ -69,6 +73,7 @@ class Part:
     name: str = "untitled"
     used_id: int = field(default=0, compare=False)
     notes: tuple[Note, ...] = ()
+    reading: ReadOptions = field(default=AS_DRAWN, compare=False)
 
     def next_id(self) -> int:
         """Return an entity id that was never given."""

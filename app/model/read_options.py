@@ -14,6 +14,19 @@ LEAST_PER_INCH, MOST_PER_INCH = 1.0, 1e5
 
 
 @dataclass(frozen=True, slots=True)
+class _Limited:
+    """An option that is for some kinds of files alone."""
+
+    field: str
+    option: str
+    kinds: tuple[str, ...]
+
+
+_LIMITED = (_Limited("layout", "--layout", (".dxf",)), _Limited("without_types", "--skip-type", (".dxf",)),
+            _Limited("to_zero", "--to-zero", (".dxf", ".svg")), _Limited("pixels_per_inch", "--px-per-inch", (".svg",)))  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
 class ReadOptions:
     """How a drawing is to be read; the default leaves everything as the file has it.
 
@@ -24,6 +37,7 @@ class ReadOptions:
         pixels_per_inch: SVG: user units to the inch where the file has no real size, 1 to 100,000; None = as its generator has it.
         without_layers: names of layers (in any case) whose curves are left out.
         without_types: DXF: types of entities (in any case), such as TEXT or HATCH, that are left out.
+        lenient: layers to leave out that the drawing does not have are passed over.
     """
 
     overrule: bool = False
@@ -32,6 +46,7 @@ class ReadOptions:
     pixels_per_inch: float | None = None
     without_layers: tuple[str, ...] = ()
     without_types: tuple[str, ...] = ()
+    lenient: bool = False
 
     def __post_init__(self) -> None:
         given = self.pixels_per_inch
@@ -47,11 +62,13 @@ class ReadOptions:
         Raises:
             InputError: an option has no effect on such a file.
         """
-        given = {"--layout": (self.layout, ".dxf"), "--skip-type": (self.without_types, ".dxf"),
-                 "--to-zero": (self.to_zero, ".dxf .svg"), "--px-per-inch": (self.pixels_per_inch, ".svg")}  # fmt: skip
-        for option, (value, kinds) in given.items():
-            if value and suffix not in kinds.split():
-                raise InputError(f"{option} is for {' and '.join(kinds.split())} drawings and says nothing of {name}; take it away.")
+        for each in _LIMITED:
+            if getattr(self, each.field) and suffix not in each.kinds:
+                raise InputError(f"{each.option} is for {' and '.join(each.kinds)} drawings and says nothing of {name}; take it away.")
+
+    def fit_for(self, suffix: str) -> ReadOptions:
+        """Return the options without those that say nothing of a kind of file, by its suffix in lower case, with its dot."""
+        return replace(self, **{each.field: getattr(AS_DRAWN, each.field) for each in _LIMITED if suffix not in each.kinds})
 
 
 AS_DRAWN = ReadOptions()

@@ -7,6 +7,11 @@ Comments that begin with `hitofude:` hold one `key=value` each, in this order an
                                                     controls obey comments that begin with MSG or PRINT
     drawing_units=mm|inch|cm|m|foot|micron          of the drawing that the part came from
     layer=NAME                                      one a layer, where layers were chosen; see `spelled_name`
+    skip_layer=NAME, skip_type=NAME                 one a layer, one a type of entities, of which nothing was read
+    layout=NAME                                     of paper space that was read in place of model space
+    to_zero=1                                       where the drawing was moved to zero
+    px_per_inch=N                                   units to the inch of a drawing without a real size, as said or assumed
+    overrule_units=1                                where drawing_units hold though the drawing names others
     join_tolerance_mm=T                             at which loose ends of the drawing were joined
     copies=COLUMNS,ROWS,DX,DY                       where the part was cut more than once
     keep_out=NAME                                   one a layer of clamps
@@ -44,6 +49,7 @@ from collections.abc import Iterator
 from app.model.job import Copies, Job
 from app.model.moves import Program
 from app.model.operation import ContourOperation, DrillOperation, Operation, Side, kind_word
+from app.model.read_options import ReadOptions
 from app.model.stock_box import work_origin
 from app.model.tool import Tool
 from app.nc.header import Heading, operations_of, path_tolerance, plain_numbers, safe_name, spelled_name, tools_of, unit_sign
@@ -61,6 +67,7 @@ def _notes(heading: Heading) -> Iterator[str]:
     yield f"part={safe_name(job.part.name)}"
     yield f"drawing_units={job.part.units.name.lower()}"
     yield from (f"layer={spelled_name(name)}" for name in job.layer_names)
+    yield from _reading(job.part.reading)
     yield f"join_tolerance_mm={plain_numbers(job.join_tolerance)}"
     yield from _copies_and_clamps(job)
     yield f"units={unit_sign(job.out_units)}"
@@ -76,6 +83,20 @@ def _notes(heading: Heading) -> Iterator[str]:
     if heading.program.allowance_mm:
         yield f"allowance_mm={plain_numbers(heading.program.allowance_mm)}"
     yield f"blend_mm={plain_numbers(heading.blend_mm)}"
+
+
+def _reading(how: ReadOptions) -> Iterator[str]:
+    """Yield how the drawing was read, where that is not as it is drawn."""
+    yield from (f"skip_layer={spelled_name(name)}" for name in how.without_layers)
+    yield from (f"skip_type={spelled_name(name)}" for name in how.without_types)
+    if how.layout:
+        yield f"layout={spelled_name(how.layout)}"
+    if how.to_zero:
+        yield "to_zero=1"
+    if how.pixels_per_inch is not None:
+        yield f"px_per_inch={plain_numbers(how.pixels_per_inch, decimals=9)}"
+    if how.overrule:
+        yield "overrule_units=1"
 
 
 def _copies_and_clamps(job: Job) -> Iterator[str]:

@@ -103,7 +103,7 @@ def contours_of(part: Part, layer: str, name: str) -> tuple[Contour, ...]:
     Raises:
         GeometryError: there is none.
     """
-    found = chain([each for each in part.entities if layer in ("", each.layer)]).contours
+    found = chain([each for each in part.entities if layer in ("", each.layer) and not each.lettering]).contours
     if not found:
         known = ", ".join(dict.fromkeys(each.layer for each in part.entities)) or "no layer"
         raise GeometryError(f"{name} has no contour on layer {layer}; curves are on {known}." if layer else f"{name} has no contour.")

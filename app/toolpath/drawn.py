@@ -22,6 +22,7 @@ from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.part import Contour, Region
 from app.model.stock_box import extent
+from app.toolpath.lettering import strokes_of
 from app.toolpath.witness import about_chaining
 
 _CHORD = 1e-3
@@ -34,7 +35,7 @@ class Drawn:
 
     Attributes:
         closed: contours of the wanted layers.
-        open: lines that are not closed.
+        open: lines that are not closed, and all strokes of letters.
         crossing: True where closed ones may cross, themselves or one another.
         clamps: what closed outlines of keep-out layers hold, one region an outline, without islands; they may overlap. Not copied.
         findings: about the drawing.
@@ -72,8 +73,9 @@ def drawn(job: Job) -> Drawn:
         ParameterError: it names a layer that the drawing does not have.
     """
     layers = layers_of(job)
-    entities = [e for e in job.part.entities if e.layer in layers]
+    entities = [e for e in job.part.entities if e.layer in layers and not e.lettering]
     chaining = chain(entities, job.join_tolerance)
+    strokes, about_strokes = strokes_of([e for e in job.part.entities if e.layer in layers and e.lettering], job.join_tolerance)
     closed = [contour for contour in chaining.contours if contour.closed]
     lines = [contour for contour in chaining.contours if not contour.closed]
     doubts = about_chaining(entities, chaining, job.join_tolerance)
@@ -82,8 +84,8 @@ def drawn(job: Job) -> Drawn:
     crossing = bool(meet) or _crosses(chaining.findings)
     shifts = job.copies.shifts
     copies = _copied(closed, shifts)
-    findings = (*chaining.findings, *doubts, *about, *meet, *_under_clamps(copies, clamps))
-    return Drawn(copies, _copied(lines, shifts), crossing, clamps, findings)
+    findings = (*chaining.findings, *doubts, *about, *meet, *_under_clamps(copies, clamps), *about_strokes)
+    return Drawn(copies, _copied([*lines, *strokes], shifts), crossing, clamps, findings)
 
 
 def _crosses(findings: Sequence[Finding]) -> bool:
@@ -99,7 +101,7 @@ def clamps_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
     wanted = set(job.keep_out_layers)
     if not wanted:
         return (), []
-    entities = [e for e in job.part.entities if e.layer in wanted]
+    entities = [e for e in job.part.entities if e.layer in wanted and not e.lettering]
     chaining = chain(entities, job.join_tolerance)
     closed = [contour for contour in chaining.contours if contour.closed]
     findings = [Finding(FindingKind.OPEN_CONTOUR, f"An outline of keep-out layer '{contour.layer}' is open at ({x:.3f}, {y:.3f}), "

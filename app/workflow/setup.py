@@ -34,6 +34,7 @@ from app.workflow.parts import TOLERANCE, FlatPart, Part, SolidPart
 from app.workflow.plausible import read_plausible
 from app.workflow.setup_stock import KnownStock, told_stock
 from app.workflow.setup_tools import Held, KnownTool, ToolsTold, other_tools, with_holders, with_tools
+from app.workflow.told_reading import other_length, other_names, other_units, told_reading
 
 
 @dataclass(frozen=True, eq=False)
@@ -238,10 +239,11 @@ def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
 
     assert wishes.against is not None
     header, (name, data) = _header(programs), wishes.against
-    units = wishes.units or (wishes.job.units if wishes.job else None) or header.drawing_units
     asked = _job(DrawnPart(), programs, tools, wishes)
     diameters = [each.tool.diameter for each in tools.values()]
-    drawing = read_plausible(name, data, Reading(units, layers_to_read(asked), wishes.reading), lambda _: diameters)
+    reading = told_reading(wishes.reading, header.reading, name, wishes.units)
+    units = wishes.units or (wishes.job.units if wishes.job else None) or (None if reading.how.pixels_per_inch else header.drawing_units)
+    drawing = read_plausible(name, data, Reading(units, layers_to_read(asked), reading.how), lambda _: diameters)
     job = with_layers_spelled(replace(asked, part=drawing.part))
     parts = drawn(job)
     made, lines = machined(parts), followed_lines(job, parts)
@@ -257,8 +259,16 @@ def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
     areas = sheets.areas()
     part = FlatPart(job, regions, _origin(job, (regions, lines), wishes, header), tolerance if proven is None else proven, tolerance,
                     header.allowance or 0.0, areas, lines, clamps=parts.clamps, tabs=tabs, dog_bones=dog_bones)
-    return part, (*drawing.findings, *about_drawing(job, parts, lines), *made.findings, *sheets.findings, *about_floors(areas, CHORD),
-                  *missed(sheets, regions))
+    told = (*reading.findings, *_differing(wishes, header, drawing.part.units))
+    return part, (*told, *drawing.findings, *about_drawing(job, parts, lines), *made.findings, *sheets.findings,
+                  *about_floors(areas, CHORD), *missed(sheets, regions))
+
+
+def _differing(wishes: Wishes, header: HeaderNote, units: Units) -> Iterator[Finding]:
+    """Yield where what was asked about the drawing is not what the program tells of how it was made."""
+    yield from other_units(wishes.units, header.drawing_units, units)
+    yield from other_names("--layer", wishes.layers, header.layers)
+    yield from other_length("--join-tolerance", wishes.join_tolerance, header.join_tolerance)
 
 
 def _on_purpose(programs: tuple[Examined, ...]) -> tuple[tuple[Tab, ...], tuple[DogBone, ...]]:

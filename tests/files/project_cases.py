@@ -53,7 +53,7 @@ def parts(draw: st.DrawFn) -> Part:
     on = st.sampled_from([layer.name for layer in layers])
     ids = draw(st.lists(st.integers(1, 300), unique=True, max_size=12))
     cut = draw(st.integers(0, len(ids)))
-    entities = tuple(Entity(number, draw(CURVES), draw(on)) for number in ids[:cut])
+    entities = tuple(Entity(number, draw(CURVES), draw(on), draw(st.booleans())) for number in ids[:cut])
     notes = tuple(Note(number, draw(SHAPES), draw(on)) for number in ids[cut:])
     return Part(entities, layers, draw(st.sampled_from(Units)), draw(TEXT), draw(st.sampled_from([0, 300, 1000])), notes)
 

@@ -129,10 +129,10 @@ def test_what_blocks_leave_out_is_counted_for_each_copy() -> None:
     document = new()
     block = document.blocks.new("B")
     block.add_line((0, 0), (1, 0))
-    block.add_text("x")
+    block.add_point((0, 0))
     for k in range(3):
-        document.modelspace().add_blockref("B", (0, k)).add_attrib("TAG", "value")
-    assert dict(read(document).left_out) == {"TEXT": 3, "ATTRIB": 3}
+        document.modelspace().add_blockref("B", (0, k)).add_attrib("TAG", "value").is_invisible = True
+    assert dict(read(document).left_out) == {"POINT": 3, "ATTRIB (invisible)": 3}
 
 
 def test_missing_block_is_named() -> None:
@@ -162,6 +162,15 @@ def test_huge_array_is_refused_at_once() -> None:
     assert time.process_time() - started < 5
 
 
+def test_too_many_letters_are_refused_with_the_way_to_leave_them_out() -> None:
+    document = new()
+    document.blocks.new("B").add_text("x")
+    grid = {"row_count": 3000, "column_count": 3000, "row_spacing": 1, "column_spacing": 1}
+    document.modelspace().add_blockref("B", (0, 0), dxfattribs=grid)
+    with pytest.raises(InputError, match="its inserted blocks, or leave its texts out: --skip-type TEXT"):
+        read(document)
+
+
 @pytest.mark.exhaustive
 def test_doubling_blocks_are_refused_within_bounds() -> None:
     document = new()
@@ -179,14 +188,15 @@ def test_doubling_blocks_are_refused_within_bounds() -> None:
 
 def test_empty_doubling_blocks_take_no_time() -> None:
     document = new()
-    document.blocks.new("B0").add_text("x")
+    document.blocks.new("B0").add_point((0, 0))
+    document.blocks.get("B0").add_text(" ")
     for k in range(60):
         block = document.blocks.new(f"B{k + 1}")
         block.add_blockref(f"B{k}", (0, 0))
         block.add_blockref(f"B{k}", (0, 1))
     document.modelspace().add_blockref("B60", (0, 0))
     document.modelspace().add_line((0, 0), (1, 0))
-    assert dict(read(document).left_out) == {"TEXT": 2**60}
+    assert dict(read(document).left_out) == {"POINT": 2**60}
 
 
 def test_nesting_has_a_limit() -> None:

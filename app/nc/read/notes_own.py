@@ -13,6 +13,7 @@ from app.model.job import Copies
 from app.model.moves import DogBone, Tab
 from app.model.operation import OPERATION_KINDS, Side
 from app.model.part import Units
+from app.model.read_options import LEAST_PER_INCH, MOST_PER_INCH, ReadOptions
 from app.nc.read.notes_stock import Box
 from app.nc.read.notes_words import Comments
 from app.nc.read.program import HeaderNote, OperationNote, StockNote, ToolNote
@@ -49,9 +50,19 @@ def own_notes(comments: Comments) -> Notes:
         _first(told.get("allowance_mm", [])), _copies(told.get("copies", [])),
         (tuple(_name(values) for _, values in told.get("keep_out", [])), _first(told.get("keep_out_height_mm", [])) or 0.0),
         tuple(Tab(*numbers) for numbers in _fives(told.get("tab", []))),
-        tuple(DogBone(*numbers) for numbers in _fives(told.get("dog_bone", []))),
+        tuple(DogBone(*numbers) for numbers in _fives(told.get("dog_bone", []))), _reading(told),
     )  # fmt: skip
     return Notes(tuple(_tools(told.get("tool", []))), _stock(told.get("stock_mm", []), origin or (0.0, 0.0, 0.0)), header)
+
+
+def _reading(told: dict[str, list[Values]]) -> ReadOptions:
+    """Return how the drawing was read."""
+    without_layers, without_types, layouts = (tuple(_name(values) for _, values in told.get(key, []))
+                                              for key in ("skip_layer", "skip_type", "layout"))  # fmt: skip
+    density = _first(told.get("px_per_inch", []))
+    in_range = density is not None and LEAST_PER_INCH <= density <= MOST_PER_INCH
+    return ReadOptions(_first(told.get("overrule_units", [])) == 1, layouts[0] if layouts else "", _first(told.get("to_zero", [])) == 1,
+                       density if in_range else None, without_layers, without_types)  # fmt: skip
 
 
 def _told(comments: Comments) -> Iterator[tuple[str, Values]]:

@@ -10,6 +10,7 @@ from app.model.motion import Motions, Plane
 from app.model.moves import DogBone, Tab
 from app.model.operation import Side
 from app.model.part import Units
+from app.model.read_options import AS_DRAWN, ReadOptions
 
 
 class FeedMode(Enum):
@@ -191,6 +192,7 @@ class HeaderNote:
         operations: in their order.
         drawing_units: of the drawing.
         layers: that were machined; empty = all visible ones. Controls that write capitals alone write these so too.
+        reading: what else was said about reading the drawing.
         join_tolerance: within which loose ends were joined, mm.
         path_tolerance: by how much the written path may be too near to the walls, mm.
         allowance: so thick a skin may paths made from pixels leave along the walls, mm.
@@ -210,6 +212,7 @@ class HeaderNote:
     keep_out: tuple[tuple[str, ...], float] = ((), 0.0)
     tabs: tuple[Tab, ...] = ()
     dog_bones: tuple[DogBone, ...] = ()
+    reading: ReadOptions = AS_DRAWN
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,6 +10,8 @@ from app.model.job import Copies, Job, OriginXY, OriginZ
 from app.model.moves import DogBone, Tab
 from app.model.operation import ContourOperation, Cut, DrillOperation, PocketOperation, RestOperation, Side
 from app.model.part import Units
+from app.model.read_options import AS_DRAWN
+from app.model.read_options import ReadOptions as Reading
 from app.model.tool import Tool, ToolKind
 from app.nc.posts import load_post, post_names
 from app.nc.read.notes import notes
@@ -84,6 +86,31 @@ def test_what_a_part_depends_on_is_read_again(name: str) -> None:
 NO_HOLES = (0.0, 0.0, 0.0)
 
 
+@pytest.mark.parametrize("name", post_names())
+@pytest.mark.parametrize("how", [
+    AS_DRAWN, Reading(True, "Blatt (1)", True, 90.5, LAYERS, ("TEXT", "a)\nM3")),
+    Reading(layout="+2B+", without_types=("x" * 90,))])  # fmt: skip
+def test_how_the_drawing_was_read_is_read_again(name: str, how: Reading) -> None:
+    """Names do not leave their comments; controls that know capitals alone write these so."""
+    post = load_post(name)
+    made = job(tools=(BULL, TAPER))
+    files = write_files(two_tools().program(), replace(made, part=replace(made.part, reading=how)), post)
+    for file in files:
+        header = read_program(file.nc.text.encode(), ReadOptions(post.dialect)).header
+        assert header is not None and plain(header.reading) == plain(how)
+        assert not any(line.startswith("M3") for line in file.nc.text.splitlines() if ")" in line)
+
+
+def plain(how: Reading) -> Reading:
+    without_layers, without_types = (tuple(each.casefold() for each in names) for names in (how.without_layers, how.without_types))
+    return replace(how, layout=how.layout.casefold(), without_layers=without_layers, without_types=without_types)
+
+
+def test_a_drawing_that_is_read_as_it_is_drawn_has_no_word_of_it() -> None:
+    (file,) = write_files(two_tools().program(), shaped(), load_post("linuxcnc"))
+    assert not any(key in file.nc.text for key in ("skip_", "layout", "to_zero", "px_per_inch", "overrule"))
+
+
 def test_a_header_with_thousands_of_tabs_is_read_whole() -> None:
     text = "".join(f"(hitofude: tab={k},0,5,-1,3)\n" for k in range(5000))
     header = notes(text.encode()).header
@@ -104,7 +131,7 @@ def test_a_tool_with_its_shape(text: str) -> None:
     "operation=saw,1,2,0", "operation=contour,1,2,0,beside", "operation=contour,1,2,0,on,on", "operation=pocket,1,2", "operation_layer=1,a",
     "operation_layer=x,a", "floor_to_leave_mm=1,2", "leads_mm=1,2", "holes_mm=1,2", "copies=2,2,0,0",
     "copies=2", "tab=1,2,3", "dog_bone=1,2,3,4,x", "operation=pocket", "origin_mm=1,2", "origin_mm=1,2,x", "drawing_units=yards",
-    "join_tolerance_mm=", "path_tolerance_mm=1,2", "nonsense=1", "",
+    "to_zero=2", "px_per_inch=0", "px_per_inch=many", "overrule_units=x", "join_tolerance_mm=", "path_tolerance_mm=1,2", "nonsense=1", "",
 ])  # fmt: skip
 def test_what_is_not_as_it_is_written_is_passed_over(text: str) -> None:
     assert notes(f"(hitofude: {text})\n".encode()) == ((), None, HeaderNote())
