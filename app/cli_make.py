@@ -13,8 +13,8 @@ from app.cli_files import check_outputs, identity, read_input, shown_progress
 from app.cli_options import make_options, make_parser, read_arguments
 from app.cli_output import finding_lines, helped, tell
 from app.cli_signals import undisturbed
+from app.cli_timings import StageTimes
 from app.errors import InputError
-from app.stage_times import StageTimes
 from app.workflow.make import Made, make
 from app.workflow.options import MakeOptions
 

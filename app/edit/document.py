@@ -20,7 +20,7 @@ from app.edit.values import Curves, wrong
 from app.errors import InputError
 from app.model.job import Job
 from app.model.part import Part
-from app.model.read_options import Source
+from app.model.reading import Source
 from app.progress import NO_PROGRESS, Progress
 
 

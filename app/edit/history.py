@@ -14,7 +14,7 @@ from app.edit.values import Value
 from app.model.curves import Curve, Point, Spline
 from app.model.job import Job
 from app.model.part import Entity, Part
-from app.model.read_options import Source
+from app.model.reading import Source
 
 MOST_BYTES = 256 * 2**20
 """What steps may hold together; beyond that the oldest go."""

@@ -17,7 +17,7 @@ from app.geometry.chain_pieces import FARTHEST, straightened, within_reach
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity, Part, Units
-from app.model.read_options import Reading
+from app.model.reading import Reading
 
 MOST_CURVES = 500_000
 """A drawing that unfolds to more curves than this is refused before it fills the memory."""

@@ -35,7 +35,8 @@ from app.files.reading_question import Contents, Question, UndecidedError, about
 from app.model.curves import Curve
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity, Layer, Part, Units
-from app.model.read_options import AS_DRAWN, Reading, ReadOptions
+from app.model.read_options import AS_DRAWN, ReadOptions
+from app.model.reading import Reading
 
 _NAMED_UNITS: dict[int, tuple[float, Units]] = {
     1: (25.4, Units.INCH), 2: (304.8, Units.FOOT), 3: (1609344.0, Units.FOOT), 4: (1.0, Units.MM), 5: (10.0, Units.CM),

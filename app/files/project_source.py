@@ -9,7 +9,8 @@ from app.errors import InputError
 from app.files.job_tables import JobText, Table, read_flag, read_number, read_text, read_texts, word
 from app.files.job_toml import UNITS
 from app.files.job_write import word_of
-from app.model.read_options import Reading, ReadOptions, Source
+from app.model.read_options import ReadOptions
+from app.model.reading import Reading, Source
 from app.toml_tables import spelled
 
 _HOW = {"overrule": read_flag, "layout": read_text, "to_zero": read_flag, "pixels_per_inch": read_number, "without_layers": read_texts,

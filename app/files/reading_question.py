@@ -13,7 +13,7 @@ from app.errors import InputError
 from app.geometry.chain_pieces import FARTHEST
 from app.model.curves import Point
 from app.model.part import Units
-from app.model.read_options import Reading
+from app.model.reading import Reading
 
 UNIT_WORDS = {Units.MM: "mm", Units.INCH: "inch", Units.CM: "cm", Units.M: "m", Units.FOOT: "foot", Units.MICRON: "µm"}
 _OFFERED = (Units.MM, Units.INCH, Units.M)

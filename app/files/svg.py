@@ -32,7 +32,8 @@ from app.files.svg_walk import Sheet, Walker
 from app.files.svg_xml import Node, read_xml
 from app.model.finding import Finding, FindingKind
 from app.model.part import Layer, Part, Units
-from app.model.read_options import AS_DRAWN, Reading, ReadOptions
+from app.model.read_options import AS_DRAWN, ReadOptions
+from app.model.reading import Reading
 
 HITOFUDE = "urn:hitofude:svg"
 """Namespace of what only this program writes: the attribute `zero`, the part's zero in user units of the page."""

@@ -14,7 +14,7 @@ from app.edit.document import Change
 from app.files.drawing import SUFFIXES
 from app.files.project import Look, Project
 from app.model.part import Part
-from app.model.read_options import AS_THE_FILE_SAYS, Reading
+from app.model.reading import AS_THE_FILE_SAYS, Reading
 from app.ui import opening as opening_files
 from app.ui.canvas.view import View as CanvasView
 from app.ui.exporting import FILTER, Exporting

@@ -14,7 +14,7 @@ from app.edit.sample import bounds, union
 from app.errors import InputError
 from app.model.job import Job
 from app.model.part import Part
-from app.model.read_options import AS_THE_FILE_SAYS, Reading, Source
+from app.model.reading import AS_THE_FILE_SAYS, Reading, Source
 from app.progress import Progress
 from app.resources import resource
 from app.ui.worker import Answer, Worker

@@ -10,7 +10,7 @@ from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from app.files.reading_question import Choice, Question
-from app.model.read_options import Reading
+from app.model.reading import Reading
 from app.ui.icons import IconButton
 from app.ui.labels import Elided, muted
 from app.ui.theme import HEADING_PX, text_font

@@ -13,7 +13,7 @@ from app.edit.document import Change
 from app.errors import InputError
 from app.model.finding import Finding
 from app.model.part import Part
-from app.model.read_options import Reading, Source
+from app.model.reading import Reading, Source
 from app.progress import Progress
 from app.ui.figures import counted, grouped
 from app.ui.log import Log

@@ -9,7 +9,8 @@ from app.errors import GeometryError
 from app.model.finding import Finding
 from app.model.job import Job
 from app.model.part import Units
-from app.model.read_options import AS_DRAWN, Reading, ReadOptions
+from app.model.read_options import AS_DRAWN, ReadOptions
+from app.model.reading import Reading
 from app.model.tool import Tool
 from app.progress import NO_PROGRESS, Progress
 from app.toolpath.advise import Advice, Choice, RegionAdvice, advise, standard_tools

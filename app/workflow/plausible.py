@@ -15,7 +15,7 @@ from app.files.drawing_account import size_of
 from app.files.reading_question import UNIT_WORDS, Choice, Question, Size, UndecidedError, about_size, size_words
 from app.model.job import Job
 from app.model.part import Part, Units
-from app.model.read_options import Reading
+from app.model.reading import Reading
 from app.workflow.options import MakeOptions, job_with_options, layers_of_drawing
 
 _WIDEST, _LEAST_WIDE = 2000.0, 5000.0

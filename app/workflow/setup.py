@@ -21,7 +21,8 @@ from app.model.moves import DogBone, Tab
 from app.model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, RestOperation
 from app.model.part import Contour, Region, Units
 from app.model.part import Part as DrawnPart
-from app.model.read_options import AS_DRAWN, Reading, ReadOptions
+from app.model.read_options import AS_DRAWN, ReadOptions
+from app.model.reading import Reading
 from app.model.scene import Scene
 from app.model.stock_box import stock_box, work_origin
 from app.nc.read.codes import ROTARY

@@ -12,7 +12,7 @@ from app.errors import InputError
 from app.model.curves import Circle, Line
 from app.model.job import Job, Stock
 from app.model.part import Entity, Layer, Part, Units
-from app.model.read_options import Reading, Source
+from app.model.reading import Reading, Source
 from tests.examples import examples
 
 

@@ -16,7 +16,8 @@ from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
 from app.model.notes import Dimension, Guide, Mark, Measure, Note
 from app.model.operation import ContourOperation, Cut, Direction, DrillOperation, Order, PocketOperation, RestOperation, Side
 from app.model.part import Entity, Layer, Part, Units
-from app.model.read_options import Reading, ReadOptions, Source
+from app.model.read_options import ReadOptions
+from app.model.reading import Reading, Source
 from app.model.tool import FeedRow, Tool, ToolKind, shape_keys
 from app.model.underlay import Underlay
 

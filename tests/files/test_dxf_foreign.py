@@ -13,7 +13,8 @@ from app.files.reading_question import UndecidedError, size_words
 from app.model.curves import Circle, Line
 from app.model.finding import Finding, FindingKind
 from app.model.part import Units
-from app.model.read_options import Reading, ReadOptions
+from app.model.read_options import ReadOptions
+from app.model.reading import Reading
 from app.workflow.plausible import read_plausible
 
 

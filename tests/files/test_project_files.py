@@ -16,7 +16,8 @@ from app.files.project_beside import Beside
 from app.files.project_files import ChangedElsewhere, load_project, save_project, stamp_of
 from app.model.job import Job
 from app.model.part import Part, Units
-from app.model.read_options import Reading, ReadOptions, Source
+from app.model.read_options import ReadOptions
+from app.model.reading import Reading, Source
 from app.model.underlay import Underlay
 from tests.files.project_cases import plate
 

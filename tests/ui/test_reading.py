@@ -14,7 +14,8 @@ from PySide6.QtWidgets import QLabel, QPushButton
 
 from app.files.project_files import load_project
 from app.model.part import Units
-from app.model.read_options import Reading, ReadOptions, Source
+from app.model.read_options import ReadOptions
+from app.model.reading import Reading, Source
 from app.ui.translation import translate_all
 from app.ui.wiring import Wiring
 from tests.ui.conftest import WAIT_MS

@@ -12,7 +12,8 @@ from PySide6.QtWidgets import QHBoxLayout, QMenu, QPushButton, QSizePolicy, QWid
 from app.edit.document import Document
 from app.files.reading_question import NO_CHOICE, UNIT_WORDS, Contents
 from app.model.part import Units
-from app.model.read_options import AS_THE_FILE_SAYS, LEAST_PER_INCH, MOST_PER_INCH, Reading
+from app.model.read_options import LEAST_PER_INCH, MOST_PER_INCH
+from app.model.reading import AS_THE_FILE_SAYS, Reading
 from app.ui.labels import Elided, muted
 from app.ui.panels.fields import LABEL_WIDTH, ROW_HEIGHT, ListField, NumberField, Spec, reason_label
 from app.ui.panels.form import SwitchField

@@ -12,15 +12,15 @@ import pytest
 
 from app import cli_files
 from app.cli import main
+from app.cli_timings import StageTimes
 from app.progress import Progress
-from app.stage_times import StageTimes
 
 FIG2 = Path(__file__).parents[1] / "resources" / "samples" / "fig2.dxf"
 
 
 def test_time_goes_to_the_stage_that_was_told_last(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = iter([0.0, 1.0, 3.0, 6.0, 10.0, 15.0])
-    monkeypatch.setattr("app.stage_times.time.perf_counter", lambda: next(clock))
+    monkeypatch.setattr("app.cli_timings.time.perf_counter", lambda: next(clock))
     told: list[tuple[float, str]] = []
     times = StageTimes()
     progress = times.watch(Progress(lambda fraction, text: told.append((fraction, text))))
