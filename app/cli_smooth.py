@@ -17,7 +17,6 @@ from app.cli_signals import undisturbed
 from app.nc.post import Post
 from app.nc.posts import load_post
 from app.nc.read.dialect import HABITS, Dialect
-from app.workflow.examine import CONTROLS
 from app.workflow.smooth import Form, Smoothed, SmoothOptions, smooth
 from app.workflow.smooth_report import certificate, findings, report_text
 
@@ -73,7 +72,7 @@ def _parser() -> OptionParser:
                         help="bends above it are kept, degrees (default 30)")
     parser.add_argument("--post", metavar="NAME", type=typed(load_post),
                         help="the control that all of it is written for, and read back as (default: the program's own)")
-    parser.add_argument("--dialect", choices=list(CONTROLS), help="the control that the program is for (default: as the text looks)")
+    parser.add_argument("--dialect", choices=[dialect.value for dialect in Dialect], help="the control that the program is for (default: as the text looks)")
     add_effective_options(parser)
     parser.add_argument("--report", metavar="R.json", type=Path, help="the certificate and every stretch, as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")

@@ -14,7 +14,7 @@ from app.progress import NO_PROGRESS, Progress
 Flags = NDArray[np.bool_]
 Places = NDArray[np.complex128]
 
-_STARTS = (1.0, 0.9, 0.8, 0.7)
+_STARTS = (1.0, 0.9)
 """Pieces are first as long as they are within so much of the limit; what needs the fewest in the end is taken."""
 _SURE = 0.985
 """Joints are moved within so much of the limit: they are held to samples, and then looked at whole."""

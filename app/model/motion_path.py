@@ -63,9 +63,10 @@ class ArcPaths:
         return np.hypot(np.hypot(mean * self.sweep, self.end_radius - self.start_radius), self.rise)
 
 
-def arc_paths(motions: Motions) -> ArcPaths:
-    """Return the arcs among motions."""
-    rows = np.flatnonzero((motions.kind == MotionKind.ARC_CW) | (motions.kind == MotionKind.ARC_CCW))
+def arc_paths(motions: Motions, first: int = 0, stop: int | None = None) -> ArcPaths:
+    """Return the arcs among motions `first` to `stop`, `stop` excluded; None: to the last."""
+    kind = motions.kind[first:stop]
+    rows = first + np.flatnonzero((kind == MotionKind.ARC_CW) | (kind == MotionKind.ARC_CCW))
     axes = AXES[motions.plane[rows]]
     start, end, centre = (points[rows[:, None], axes] for points in (motions.start, motions.end, motions.centre))
     first, last = start[:, :2] - centre[:, :2], end[:, :2] - centre[:, :2]

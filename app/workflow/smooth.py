@@ -18,11 +18,12 @@ from app.fit.arc_fit import ArcOptions, fit_arcs
 from app.fit.corners import LEAST_LEG, bends, corners
 from app.fit.effective_method import EffectiveMethod, PointClasses, without_repeats
 from app.fit.fitted import FittedPath
+from app.fit.near import near
 from app.fit.proven_curve import SplineOptions, fit_splines
 from app.fit.smoothness import Smoothness, of_curve, of_points
 from app.fit.space_curve import SpaceCurve, curve_of_motions, joined
 from app.fit.tube import Answer, Judgement, Tube, judge
-from app.model.motion import Floats, Motions, Nurbs
+from app.model.motion import Floats, MotionKind, Motions, Nurbs
 from app.nc.blocks import Blocks
 from app.nc.curve_blocks import Spelling, curve_blocks
 from app.nc.linuxcnc_biarcs import driven
@@ -294,19 +295,20 @@ class _Work:
 
     def judged(self, after: NcProgram, new: Rewritten, progress: Progress) -> dict[int, _Judged]:
         """Return what each stretch that was written anew has become, and the judge's answer."""
-        lines, answers = after.motions.line, {}
+        order = np.argsort(after.motions.line, kind="stable")
+        lines, answers = after.motions.line[order], {}
         for n, (k, (first, last)) in enumerate(new.lines.items()):
             progress.step(n / len(new.lines), "Proving what was written")
-            rows = np.flatnonzero((lines >= first) & (lines <= last))
-            curve = self._driven(after.motions, int(rows[0]), int(rows[-1]) + 1)
-            ends = after.motions.end[rows[0] : rows[-1] + 1]
+            rows = order[np.searchsorted(lines, first) : np.searchsorted(lines, last, side="right")]
+            row, stop = int(rows.min()), int(rows.max()) + 1
+            curve, ends = self._driven(after.motions, row, stop), after.motions.end[row:stop]
             answers[k] = _Judged(curve, judge(curve, self._points[k], self._tube), *self._lost(self._points[k], ends))
         return answers
 
     def _lost(self, points: Floats, ends: Floats) -> tuple[bool, int]:
         """Return whether a corner is kept no more, and how many bends beside shorter legs are not: no written motion ends there."""
         sharp, legs = bends(points, self._options.corner)
-        away = np.array([np.linalg.norm(ends - points[k], axis=1).min() for k in sharp.tolist()]) > self._step
+        away = ~near(points[sharp], ends, self._step)
         corner = legs >= self._options.least_leg * (1 - 1e-9)
         return bool(np.any(away & corner)), int(np.sum(away & ~corner))
 
@@ -317,18 +319,18 @@ class _Work:
             HitofudeError: they are not.
         """
         before = self._program.motions
-        old, made = np.ones(len(before), np.bool_), np.ones(len(after.motions), np.bool_)
+        old, written = np.ones(len(before), np.bool_), np.zeros(int(after.motions.line.max(initial=0)) + 1, np.bool_)
         for k, (first, last) in new.lines.items():
             old[self._found.stretches[k].first : self._found.stretches[k].stop] = False
-            made &= ~((after.motions.line >= first) & (after.motions.line <= last))
-        rows, others = np.flatnonzero(old), np.flatnonzero(made)
+            written[first : last + 1] = True
+        rows, others = np.flatnonzero(old), np.flatnonzero(~written[after.motions.line])
         if len(rows) == len(others):
             same = before.kind[rows] == after.motions.kind[others]
             ends = np.abs(before.end[rows] - after.motions.end[others]).max(axis=1, initial=0.0) <= self._step
             feeds = np.isclose(before.feed[rows], after.motions.feed[others], rtol=1e-9, atol=0.0, equal_nan=True)
-            states = [self._program.states[a] == after.states[b]
-                      for a, b in zip(before.state[rows].tolist(), after.motions.state[others].tolist(), strict=True)]  # fmt: skip
-            wrong = np.flatnonzero(~(same & ends & feeds & np.array(states, np.bool_)))
+            pairs, which = np.unique(np.column_stack([before.state[rows], after.motions.state[others]]), axis=0, return_inverse=True)
+            states = np.array([self._program.states[a] == after.states[b] for a, b in pairs.tolist()], np.bool_)[which.ravel()]
+            wrong = np.flatnonzero(~(same & ends & feeds & states))
             if not len(wrong):
                 return
             rows = rows[wrong]
@@ -346,7 +348,7 @@ class _Work:
         """Return what the control drives along in some motions of the written text."""
         if self._post.nurbs.form is not NurbsForm.BEZIER or not motions.splines:
             return curve_of_motions(motions, first, stop)
-        rows = sorted(row for row in motions.splines if first <= row < stop)
+        rows = (first + np.flatnonzero(motions.kind[first:stop] == MotionKind.SPLINE)).tolist()
         parts, at = [], first
         for row in rows:
             parts += [curve_of_motions(motions, at, row)] if row > at else []
