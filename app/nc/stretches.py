@@ -16,12 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.model.motion import Floats, MotionKind, Motions
+from app.nc.read.fault import Fault
 from app.nc.read.program import FeedMode, NcProgram
-from app.nc.read.text import Text
+from app.nc.read.text import Text, code_of
 from app.progress import NO_PROGRESS, Progress
 
 Flags = NDArray[np.bool_]
 
+_PLAIN = re.compile(r"(?:[a-z][-+]?(?:\d+\.?\d*|\.\d+))+")
+_MOTION = re.compile(r"g0?[0-3](?![\d.])")
 _JUMPS = re.compile(r"\bGOTO\b|\bM9[789]\b", re.IGNORECASE)
 
 
@@ -45,6 +48,7 @@ class Stretch:
         first_line, last_line: 1-based lines of the text; between them there are no others but empty ones.
         feed: text of the F word that one of its lines has, or "".
         coded: whether its first line says G1 itself.
+        resumed: whether the next line that says anything says G0 to G3 itself, so that G1 need not be in force behind the stretch.
     """
 
     first: int
@@ -54,6 +58,7 @@ class Stretch:
     last_line: int
     feed: str
     coded: bool
+    resumed: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +103,19 @@ def _stretch(motions: Motions, text: Text, spoken: _Spoken, first: int, stop: in
     begin, end = spoken.feeds[first].tolist()
     feed = text.data[begin:end].decode() if begin >= 0 else ""
     lines = motions.line[[first, stop - 1]].tolist()
-    return Stretch(first, stop, points, lines[0], lines[1], feed, bool(spoken.coded[first]))
+    return Stretch(first, stop, points, lines[0], lines[1], feed, bool(spoken.coded[first]), _resumed(text, spoken.begins, lines[1]))
+
+
+def _resumed(text: Text, begins: NDArray[np.int64], behind: int) -> bool:
+    """Tell whether the first line behind some lines that is more than a comment is plain words, G0 to G3 among them."""
+    for begin in begins[behind:-1].tolist():
+        try:
+            code = code_of(text.line(begin), nested=False)
+        except Fault:
+            return False
+        if code:
+            return _PLAIN.fullmatch(code) is not None and _MOTION.search(code) is not None
+    return False
 
 
 def _goes_on(motions: Motions, filled: NDArray[np.int64]) -> Flags:
@@ -116,12 +133,14 @@ class _Spoken:
     """What the lines of n motions say.
 
     Attributes:
+        begins: (m + 1,) of each line its first byte, and the text's end.
         filled: (m + 1,) lines with something in them, up to and with each line.
         plain, coded, numbered: (n,) see the kernels; False of what is no straight feed move.
         feeds: (n, 2) where the F word's number begins and ends in the text, -1: there is none.
         jumps: whether the text may jump.
     """
 
+    begins: NDArray[np.int64]
     filled: NDArray[np.int64]
     plain: Flags
     coded: Flags
@@ -148,7 +167,7 @@ def _spoken(program: NcProgram, text: Text) -> _Spoken:
     kernels.read_moves(data, begins, lines, np.ascontiguousarray(motions.end[rows]), at, shifts, units, *told, numbers)
     plain[rows], coded[rows], numbered[rows] = told
     feeds[rows] = numbers
-    return _Spoken(filled, plain, coded, numbered, feeds, _may_jump(text))
+    return _Spoken(begins, filled, plain, coded, numbered, feeds, _may_jump(text))
 
 
 def _may_jump(text: Text) -> bool:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.errors import HitofudeError, InputError, ParameterError
-from app.fit.arc_fit import ArcOptions, fit_arcs
+from app.fit.arc_fit import BEND, ArcOptions, fit_arcs
 from app.fit.corners import LEAST_LEG, bends, corners
 from app.fit.effective_method import EffectiveMethod, PointClasses, without_repeats
 from app.fit.fitted import FittedPath
@@ -72,6 +72,7 @@ class SmoothOptions:
         post: in whose words all of the program is written; None = those of the control that it is for.
         dialect: how the program is read; None = as the text looks, whatever the post.
         effective: method D; None: the curve goes by all points.
+        bend: lines and arcs may turn by so much where they meet, where that saves blocks, radians; or as much as the moves do there.
     """
 
     tolerance: float = 0.01
@@ -82,6 +83,7 @@ class SmoothOptions:
     post: Post | None = None
     dialect: Dialect | None = None
     effective: EffectiveMethod | None = None
+    bend: float = BEND
 
     @property
     def least_leg(self) -> float:
@@ -95,6 +97,8 @@ class SmoothOptions:
             raise ParameterError(f"a spline of degree {self.degree}; use 3 or 5.")
         if not 0 < self.corner <= math.pi:
             raise ParameterError(f"a corner of {math.degrees(self.corner):g} degrees; use more than 0 and not more than 180.")
+        if not 0 < self.bend <= math.pi:
+            raise ParameterError(f"a bend of {math.degrees(self.bend):g} degrees; use more than 0 and not more than 180.")
 
 
 @dataclass(frozen=True, eq=False)
@@ -253,7 +257,7 @@ class _Work:
                 continue
             path = self._fitted(k, progress.part(k / count, (k + 1) / count))
             state = self._program.states[self._program.motions.state[stretch.first]]
-            made = curve_blocks(path.motions, Spelling(self._post, state, stretch.feed))
+            made = curve_blocks(path.motions, Spelling(self._post, state, stretch.feed, stretch.resumed))
             if len(made) >= stretch.stop - stretch.first:
                 kept[k] = "it would not take fewer blocks"
             else:
@@ -281,7 +285,7 @@ class _Work:
         tube = self._tube.narrower(slack)
         form, nurbs = self._options.form, self._post.nurbs.form
         largest = min(self._post.arcs.largest_radius_mm, LARGEST_RADIUS)
-        arcs = ArcOptions(tube.radius, self._options.corner, largest, form is not Form.LINES, tube.middle)
+        arcs = ArcOptions(tube.radius, self._options.corner, largest, form is not Form.LINES, tube.middle, self._options.bend)
         if form is not Form.NURBS or nurbs is NurbsForm.NONE:
             return fit_arcs(points, arcs, progress)
         level = nurbs is NurbsForm.BEZIER
