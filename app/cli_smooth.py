@@ -76,7 +76,8 @@ def _parser() -> OptionParser:
                         "blocks (default 0.5)")
     parser.add_argument("--post", metavar="NAME", type=typed(load_post),
                         help="the control that all of it is written for, and read back as (default: the program's own)")
-    parser.add_argument("--dialect", choices=[dialect.value for dialect in Dialect], help="the control that the program is for (default: as the text looks)")
+    parser.add_argument("--dialect", choices=[dialect.value for dialect in Dialect],
+                        help="the control that the program is for (default: as the text looks)")
     add_effective_options(parser)
     parser.add_argument("--report", metavar="R.json", type=Path, help="the certificate and every stretch, as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
@@ -104,8 +105,9 @@ def _options(arguments: argparse.Namespace) -> SmoothOptions:
     dialect = Dialect(arguments.dialect) if arguments.dialect else None
     effective = effective_method(arguments)
     return SmoothOptions(
-        arguments.tolerance, Form(arguments.form), arguments.region, arguments.degree, arguments.corner, post, dialect, effective, arguments.bend
-    )
+        arguments.tolerance, Form(arguments.form), arguments.region, arguments.degree, arguments.corner, post, dialect, effective,
+        arguments.bend,
+    )  # fmt: skip
 
 
 def _lines(done: Smoothed) -> list[str]:

@@ -70,7 +70,8 @@ class FewestPieces:
         """Return pieces over some of the longest ones, that set out as what came before arrives, give or take the bend there."""
         from app.fit import fewest_kernels as kernels
 
-        points = np.unique(np.concatenate([np.linspace(a, b, _STATES + 1) for a, b in zip(rough[:-1], rough[1:], strict=True)]).astype(np.int64))
+        shares = np.linspace(0.0, 1.0, _STATES + 1)
+        points = np.unique((rough[:-1, None] + np.diff(rough)[:, None] * shares).astype(np.int64))
         samples, at = self._samples(rough, points)
         states, total = self._states(points), len(points) * len(_ASIDE)
         counts = np.tile([len(self.line.xy), 0], (total, 1))

@@ -1,10 +1,11 @@
 """Compiled: the fewest lines and arcs along a polyline, by a shortest path over places where they may meet.
 
-States are points of the polyline, each with a few places beside it where a joint may be, its own the first: of paths that are as good
-the first one stays. A piece runs from a place of one to a place of another. All circles through two places are one family, told by the tangent t of a quarter of the sweep, left of the
-chord positive: t is also the height of the arc over its chord in halves of the chord. What a polyline allows of it is an
-interval, so the directions in which a piece may leave and arrive are intervals, too, and so is what a chain of pieces may
-arrive in: carried along, they hold every choice that is left open, and a bend limit costs no search of its own.
+States are points of the polyline, each with a few places beside it where a joint may be, its own the first: of paths that are as
+good the first one stays. A piece runs from a place of one to a place of another. All circles through two places are one family, told
+by the tangent t of a quarter of the sweep, left of the chord positive: t is also the height of the arc over its chord in halves of
+the chord. What a polyline allows of it is an interval, so the directions in which a piece may leave and arrive are intervals, too,
+and so is what a chain of pieces may arrive in: carried along, they hold every choice that is left open, and a bend limit costs no
+search of its own.
 
 Paths are kept as entries of their last place, all of the same number of pieces, the fewest: the lowest and the highest direction
 of arrival, and the entry that it goes on from. Paths of one piece more that arrive in other directions are dropped; keeping them took
@@ -162,7 +163,8 @@ def _extend(counts, directions, before, source, at, chord, least, most, bend):  
             _keep(counts, directions, before, at, counts[source, PIECES] + 1, chord + low, chord + high, source * MOST + e)
 
 
-@kernel(f"boolean({_SAMPLES}, int64[::1], {_STATES}, float64[::1], int64, int64, float64, float64, {_COUNTS}, {_DIRECTIONS}, {_ENTRIES}, int64[::1])")
+@kernel(f"boolean({_SAMPLES}, int64[::1], {_STATES}, float64[::1], int64, int64, float64, float64, {_COUNTS}, {_DIRECTIONS}, {_ENTRIES}, "
+        "int64[::1])")  # fmt: skip
 def _reach(samples, at, states, aside, i, j, longest, limit, counts, directions, before, hardest):  # type: ignore[no-untyped-def]
     """Extend all paths to state i by a piece to state j, an arc where no chord is too long; tell whether the points allow about one."""
     first, last = at[i] + 1, at[j] - 1

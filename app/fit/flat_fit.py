@@ -116,7 +116,8 @@ class FlatFit:
         turns = self.line.turns
         beside = np.concatenate([turns[:1], turns, turns[-1:]])
         there = np.maximum(np.maximum(beside[:-2], beside[2:]), turns)
-        return np.maximum(bend, np.minimum(_AS_SHARP * there, turns.max()))
+        allowed: Floats = np.maximum(bend, np.minimum(_AS_SHARP * there, turns.max()))
+        return allowed
 
     def _turns(self, chain: Chain) -> Floats:
         """Return by how much a chain turns at each joint (m + 1,), radians."""

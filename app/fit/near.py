@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from app.model.motion import Floats
 
 _CELL = 2.5
-"""Reaches that a cell is wide; with no more than two rounding might put the ends of a reach two cells apart, and what lies between in neither."""
+"""Reaches that a cell is wide; with two alone rounding might put the ends of a reach two cells apart, and what is between in neither."""
 
 
 def near(places: Floats, others: Floats, reach: float) -> NDArray[np.bool_]:

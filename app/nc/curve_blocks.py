@@ -39,7 +39,7 @@ class Spelling:
 
 
 def curve_blocks(path: Motions, spelling: Spelling) -> tuple[str, ...]:
-    """Return the blocks that drive along a path from its start, where the tool stands; the last one is G1, or says it, unless what follows does.
+    """Return the blocks that drive along a path from its start, where the tool stands; G1 is in force behind them, unless it is said there.
 
     Every end is rounded once to the post's digits; what a form cannot carry is the caller's to avoid: see `carries`.
 

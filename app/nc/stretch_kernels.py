@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from app.jit import kernel
 
 _BYTES, _INTS, _FLAGS = "Array(uint8, 1, 'C', True)", "int64[::1]", "boolean[::1]"
@@ -106,7 +104,8 @@ def _says(text, at, stop, end, shift, unit, feed):  # type: ignore[no-untyped-de
     return places > 0
 
 
-@kernel(f"void({_BYTES}, {_INTS}, {_INTS}, float64[:, ::1], int64[::1], float64[:, ::1], float64[::1], {_FLAGS}, {_FLAGS}, {_FLAGS}, int64[:, ::1])")
+@kernel(f"void({_BYTES}, {_INTS}, {_INTS}, float64[:, ::1], {_INTS}, float64[:, ::1], float64[::1], {_FLAGS}, {_FLAGS}, {_FLAGS}, "
+        "int64[:, ::1])")  # fmt: skip
 def read_moves(text, begins, lines, ends, states, shifts, units, plain, coded, numbered, feeds):  # type: ignore[no-untyped-def]
     """Read the lines of n straight moves.
 

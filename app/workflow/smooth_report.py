@@ -34,8 +34,8 @@ def certificate(done: Smoothed) -> tuple[str, ...]:
         f"tolerance {done.options.tolerance:g} mm; proven both ways, as written: {done.bound:.6f} mm; found: curve to moves "
         f"{max(piece.judgement.from_curve for piece in changed if piece.judgement):.6f} mm, moves to curve "
         f"{max(piece.judgement.from_points for piece in changed if piece.judgement):.6f} mm",
-        f"largest bend {math.degrees(bend[0]):.3f} deg before, {math.degrees(bend[1]):.3f} after{_bend_words(done)}; curvature step {step[0]:.4g} per mm "
-        f"before, {step[1]:.4g} after",
+        f"largest bend {math.degrees(bend[0]):.3f} deg before, {math.degrees(bend[1]):.3f} after{_bend_words(done)}; "
+        f"curvature step {step[0]:.4g} per mm before, {step[1]:.4g} after",
         _corner_words(done),
         *(f"effective points: {told['effective']} of {told['all']}, {told['corrected']} corrected" for told in _points(done)),
         "the control may add what its own blending allows",

@@ -55,7 +55,8 @@ class CurvesPanel(QScrollArea):
                                        tip="How far the curve may be away half way between two points"))
         self.degree = ChoiceField("Degree", [(3, "3"), (5, "5")])
         self.corner = NumberField(Spec("Corner", "°", 0.1, 180.0, 1, False, "Bends of more than this are kept exactly"))
-        self.bend = NumberField(Spec("Bend", "°", 0.01, 180.0, 2, False, "By how much neighbouring blocks may bend where that saves blocks"))
+        self.bend = NumberField(Spec("Bend", "°", 0.01, 180.0, 2, False,
+                                     "By how much neighbouring blocks may bend where that saves blocks"))
         self.points = PointsForm()
         self.post = ListField("Control", [(None, "As the program looks")])
         self.smooth, self.save, self.nc = QPushButton("Smooth"), QPushButton("Save as…"), QPushButton("Open in NC")
@@ -75,7 +76,8 @@ class CurvesPanel(QScrollArea):
         column.setSpacing(4)
         self.program.setWordWrap(True)
         self.title.setWordWrap(True)
-        fields = (self.preset, self.tolerance, self.form, self.degree, self.region, self.middle, self.corner, self.bend, self.points, self.post)
+        fields = (self.preset, self.tolerance, self.form, self.degree, self.region, self.middle, self.corner, self.bend, self.points,
+                  self.post)  # fmt: skip
         for widget in (heading("Proven curves"), self.program, *fields):
             column.addWidget(widget)
         column.addSpacing(6)
@@ -147,8 +149,8 @@ class CurvesPanel(QScrollArea):
         name = self.post.value
         return replace(
             base, tolerance=self.tolerance.number, form=Form(self.form.value), degree=5 if self.degree.value == 5 else 3,
-            middle=self.middle.number if self.barrel else None, corner=math.radians(self.corner.number), bend=math.radians(self.bend.number),
-            post=load_post(str(name)) if name is not None else None, effective=self.points.method(),
+            middle=self.middle.number if self.barrel else None, corner=math.radians(self.corner.number),
+            bend=math.radians(self.bend.number), post=load_post(str(name)) if name is not None else None, effective=self.points.method(),
         )  # fmt: skip
 
     @property
