@@ -1,4 +1,4 @@
-"""The fewest lines and arcs: closed forms, all choices tried on small inputs, bends within what is allowed, dense samples within the tolerance."""
+"""The fewest lines and arcs: closed forms, all choices on small inputs, bends within what is allowed, samples within the tolerance."""
 
 import math
 from functools import cache

@@ -11,7 +11,8 @@ def test_as_by_all_distances(reach: float) -> None:
     rng = np.random.default_rng(1)
     for _ in range(50):
         others = np.round(rng.uniform(-1, 1, (30, 3)), 2)
-        places = np.concatenate([others[rng.integers(0, 30, 10)] + rng.uniform(-reach, reach, (10, 3)), rng.uniform(-1, 1, (20, 3)), others[:3]])
+        beside = others[rng.integers(0, 30, 10)] + rng.uniform(-reach, reach, (10, 3))
+        places = np.concatenate([beside, rng.uniform(-1, 1, (20, 3)), others[:3]])
         expected = np.linalg.norm(places[:, None] - others[None], axis=2).min(axis=1) <= reach
         assert np.array_equal(near(places, others, reach), expected)
 
