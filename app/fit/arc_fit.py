@@ -21,6 +21,10 @@ _REACH = 4.0
 """Corners are looked for over so many tolerances of the path."""
 BEND = math.radians(0.5)
 """A joint may turn by so much, or as much as the points do there, where nothing else is asked for."""
+_MANY = 150
+"""Joints of more pieces than the search has found are not moved: that takes longer than the search, and with so many it has saved none
+yet.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,7 +165,9 @@ def _flat(points: Floats, options: ArcOptions, plane: Plane, progress: Progress)
     flat, strict = FlatFit(points, plane, options.tube, _REACH * options.tube.widest, options.largest_radius), min(options.bend, BEND)
     best = flat.fewest(strict, len(points) - 1)
     count = len(best) if best is not None else len(points) - 1
-    moved = flat.moved(strict, count + 1 if best is not None and best.bend > strict else count, progress)
+    moved = None
+    if best is None or len(best) <= _MANY:
+        moved = flat.moved(strict, count + 1 if best is not None and best.bend > strict else count, progress)
     best = moved.better(best) if moved is not None else best
     if options.bend > strict:
         bent = flat.fewest(options.bend, len(best) if best is not None else count)

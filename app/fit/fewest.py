@@ -23,6 +23,8 @@ _FINE = 16
 _SAGITTA = 0.16
 """Else between two samples an arc leaves the chord by no more than an eighth of this, in limits, on its inner side."""
 _MOST = 16
+_DENSE = 16
+"""Of more samples than twice so many from state to state only the outermost ones of so many stretches are looked at."""
 _SLIGHT = 0.1
 """An arc that is no higher over its chord than so much of the limit is a line if it may."""
 _ANY = 10.0
@@ -107,11 +109,34 @@ class FewestPieces:
         share = (np.arange(len(owner)) - begin[owner]) / parts[owner]
         places = line.xy[first + owner] + share * steps[owner]
         limits = self.limit * np.sqrt(1.0 + 4.0 * self.swell * share * (1.0 - share))
-        samples = np.column_stack([np.append(places, line.xy[last]).view(np.float64).reshape(-1, 2), np.append(limits, self.limit)])
-        return np.ascontiguousarray(samples), begin[points - first]
+        places, limits, at = np.append(places, line.xy[last]), np.append(limits, self.limit), begin[points - first]
+        if len(places) > 2 * _DENSE * len(points):
+            kept = _outermost(places, at)
+            places, limits, at = places[kept], limits[kept], np.searchsorted(kept, at)
+        return np.column_stack([places.real, places.imag, limits]), at
 
     def _arrival(self, chain: Chain) -> float:
         """Return the direction in which the last piece arrives, radians."""
         z = self.line.joints(chain)[-2:]
         return float(np.angle(z[1] - z[0]) + chain.half[-1])
 
+
+def _outermost(places: NDArray[np.complex128], at: Ints) -> Ints:
+    """Return the numbers of the samples that do for all: those farthest to either side in each short stretch between two states.
+
+    Over so short a stretch a piece is straight but for next to nothing; what is between the outermost samples is within the limit with
+    them. It is their places that are looked at from then on, so the search takes no longer the denser the points are.
+
+    Args:
+        places: (m,) samples. at: (n,) of each state its sample, rising.
+    """
+    number = np.arange(at[0], at[-1])
+    gap = np.searchsorted(at, number, side="right") - 1
+    begin, size = at[gap], at[gap + 1] - at[gap]
+    chord = places[at[gap + 1]] - places[begin]
+    aside = ((places[number] - places[begin]) * chord.conjugate()).imag
+    stretch = gap * _DENSE + (number - begin) * _DENSE // size
+    order = np.lexsort((aside, stretch))
+    ends = np.flatnonzero(np.diff(stretch[order]))
+    outer = number[order[np.concatenate([[0], ends, ends + 1, [len(order) - 1]])]]
+    return np.unique(np.concatenate([outer, at]))
