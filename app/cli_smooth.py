@@ -14,10 +14,10 @@ from app.cli_files import check_outputs, read_input, shown_progress
 from app.cli_output import REMARKS, finding_lines, helped, tell
 from app.cli_parser import OptionParser, number, typed
 from app.cli_signals import undisturbed
+from app.fit.arc_fit import BEND
 from app.nc.post import Post
 from app.nc.posts import load_post
 from app.nc.read.dialect import HABITS, Dialect
-from app.workflow.examine import CONTROLS
 from app.workflow.smooth import Form, Smoothed, SmoothOptions, smooth
 from app.workflow.smooth_report import certificate, findings, report_text
 
@@ -71,9 +71,13 @@ def _parser() -> OptionParser:
                         help="of splines (default 3); 5, which no control knows, goes out as cubics near it")
     parser.add_argument("--corner", metavar="ANGLE", type=_angle, default=math.radians(30),
                         help="bends above it are kept, degrees (default 30)")
+    parser.add_argument("--bend", metavar="DEG", type=_angle, default=BEND,
+                        help="by how much neighbouring lines and arcs may bend, or as the moves do there; more only where that saves "
+                        "blocks (default 0.5)")
     parser.add_argument("--post", metavar="NAME", type=typed(load_post),
                         help="the control that all of it is written for, and read back as (default: the program's own)")
-    parser.add_argument("--dialect", choices=list(CONTROLS), help="the control that the program is for (default: as the text looks)")
+    parser.add_argument("--dialect", choices=[dialect.value for dialect in Dialect],
+                        help="the control that the program is for (default: as the text looks)")
     add_effective_options(parser)
     parser.add_argument("--report", metavar="R.json", type=Path, help="the certificate and every stretch, as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
@@ -101,8 +105,9 @@ def _options(arguments: argparse.Namespace) -> SmoothOptions:
     dialect = Dialect(arguments.dialect) if arguments.dialect else None
     effective = effective_method(arguments)
     return SmoothOptions(
-        arguments.tolerance, Form(arguments.form), arguments.region, arguments.degree, arguments.corner, post, dialect, effective
-    )
+        arguments.tolerance, Form(arguments.form), arguments.region, arguments.degree, arguments.corner, post, dialect, effective,
+        arguments.bend,
+    )  # fmt: skip
 
 
 def _lines(done: Smoothed) -> list[str]:

@@ -77,6 +77,16 @@ def test_a_real_engraving_takes_fewer_blocks_and_is_proven(tmp_path: Path, data:
         assert_paths_near(read_program(source.encode()), read_program(text.encode()), 0.05)
 
 
+@pytest.mark.parametrize(("bend", "most"), [("5", 61), ("15", 60)])
+def test_a_real_engraving_takes_as_few_arcs_as_neighbours_may_bend(tmp_path: Path, data: Path, bend: str, most: int) -> None:
+    """Five stretches of 2,355 moves; ten blocks are plunges that nothing can be made of."""
+    text, report = smoothed(tmp_path, (data / "nc" / "jsdc.gcode").read_text(), "--tolerance", "0.05", "--bend", bend)
+    assert report["blocks"]["after"] <= most + 10  # type: ignore[index]
+    assert report["tolerance"]["proven_mm"] <= 0.05  # type: ignore[index]
+    assert report["largest_bend_deg"]["after"] <= float(bend) + 0.1  # type: ignore[index]
+    assert f"where up to {bend} deg" in text
+
+
 @pytest.mark.parametrize("post", ["linuxcnc", "fanuc"])
 def test_splines_of_degree_5_go_out_as_cubics_that_are_proven(tmp_path: Path, post: str) -> None:
     t = np.linspace(0, 4 * math.pi, 1500)
@@ -146,7 +156,8 @@ def test_bad_input_is_told_in_a_line_and_nothing_is_written(tmp_path: Path, caps
         ([], "in.ngc:7"), (["--tolerance", "0"], "tolerance"), (["--tolerance", "1e-4"], "too near to the last decimal"),
         (["--epsilon", "0.01"], "--method"), (["--method", "effective-points"], "--epsilon"),
         (["--method", "effective-points", "--epsilon", "0.01", "--before", "2"], "--embodiment 2"),
-        (["--region", "cone"], "no region"), (["--corner", "200"], "180"), (["--degree", "4"], "degree"),
+        (["--region", "cone"], "no region"), (["--corner", "200"], "180"), (["--bend", "200"], "180"),
+        (["--bend", "0"], "bend"), (["--degree", "4"], "degree"),
     ):  # fmt: skip
         if options == ["--tolerance", "1e-4"]:
             source.write_text(HEAD + ring() + TAIL)

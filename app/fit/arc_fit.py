@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from app.fit.corners import corners
 from app.fit.fitted import FittedPath, arcs_between, chained
-from app.fit.space_curve import curve_of_motions
-from app.fit.tube import Answer, Tube, judge
+from app.fit.flat_fit import FlatFit
+from app.fit.tube import Tube
 from app.model.motion import Floats, Plane
 from app.progress import NO_PROGRESS, Progress
 
@@ -19,10 +19,12 @@ Ints = NDArray[np.int64]
 
 _REACH = 4.0
 """Corners are looked for over so many tolerances of the path."""
-_BEND = math.radians(0.5)
-"""A joint may turn by so much, or as much as the points do there."""
-_SHARES = (0.999, 0.9)
-"""Of the tolerance, that joints are moved in: between the samples that they are held to a little more is used."""
+BEND = math.radians(0.5)
+"""A joint may turn by so much, or as much as the points do there, where nothing else is asked for."""
+_MANY = 150
+"""Joints of more pieces than the search has found are not moved: that takes longer than the search, and with so many it has saved none
+yet.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +37,7 @@ class ArcOptions:
         largest_radius: mm; what is flatter is a line.
         arcs: whether there may be any.
         middle: half way between two points, mm, >= tolerance; None: the same.
+        bend: pieces of one plane may turn by so much where they meet, radians, in (0, pi], where that saves pieces.
     """
 
     tolerance: float
@@ -42,6 +45,7 @@ class ArcOptions:
     largest_radius: float = 1e5
     arcs: bool = True
     middle: float | None = None
+    bend: float = BEND
 
     @property
     def tube(self) -> Tube:
@@ -50,11 +54,12 @@ class ArcOptions:
 
 
 def fit_arcs(points: Floats, options: ArcOptions, progress: Progress = NO_PROGRESS) -> FittedPath:
-    """Return lines and arcs that stand for points, few of them, and tangent where the points do not bend.
+    """Return lines and arcs that stand for points, few of them, and nearly tangent where the points do not bend.
 
     Each is the longest that keeps within the tolerance from the point where it begins. What lies in one plane, X Y, Z X or
-    Y Z, is then made tangent by moving its joints within the tolerance, with as many more pieces as that takes: no joint turns
-    by more than the points do. Other arcs are helices: along the plane's normal they rise in step with the angle. No arc
+    Y Z, then has its joints moved within the tolerance: by a shortest path over places for them, the fewest pieces that bend
+    by no more than is allowed, and by moving those of the longest pieces until they meet without a bend, with as many more as
+    that takes; whichever has fewer. Other arcs are helices: along the plane's normal they rise in step with the angle. No arc
     turns by more than 230 degrees.
 
     Args:
@@ -83,7 +88,7 @@ def _between_corners(points: Floats, options: ArcOptions, progress: Progress) ->
         share = progress.part(first / len(greedy), stop / len(greedy))
         part = greedy.part(first, stop)
         a, b = part.at[0], part.at[-1]
-        smooth = _tangent(points[a : b + 1], options, plane, share) if plane is not None and len(part) > 1 else None
+        smooth = _flat(points[a : b + 1], options, plane, share) if plane is not None and len(part) > 1 else None
         parts.append(smooth or part.path(points))
     return chained(parts)
 
@@ -152,21 +157,19 @@ def _runs(points: Floats, greedy: _Greedy) -> list[tuple[int, int, Plane | None]
     return runs
 
 
-def _tangent(points: Floats, options: ArcOptions, plane: Plane, progress: Progress) -> FittedPath | None:
-    """Return tangent pieces in a plane, proven to keep to the tolerance; None where they are not."""
-    from app.fit.tangent import Polyline, TangentFit
+def _flat(points: Floats, options: ArcOptions, plane: Plane, progress: Progress) -> FittedPath | None:
+    """Return few pieces in a plane, proven to keep to the tolerance; None where they are not, or would not be fewer than chords.
 
-    axes = list(plane.axes)
-    line = Polyline(points[:, axes[:2]], _REACH * options.tube.widest)
-    for share in _SHARES:
-        chain = TangentFit(line, share * options.tolerance, _BEND, options.largest_radius, options.tube.swell).chain(progress)
-        if chain is None or len(chain) >= len(points):
-            return None
-        z = line.joints(chain)
-        places = np.empty((len(z), 3))
-        places[:, axes[0]], places[:, axes[1]], places[:, axes[2]] = z.real, z.imag, points[0, axes[2]]
-        places[0], places[-1] = points[0], points[-1]
-        motions = arcs_between(places, chain.half, np.full(len(chain), plane, np.uint8))
-        if judge(curve_of_motions(motions), points, options.tube).answer is Answer.INSIDE:
-            return FittedPath(motions, line.nearest(chain.s[1:]))
-    return None
+    What bends more is taken only where it takes fewer pieces.
+    """
+    flat, strict = FlatFit(points, plane, options.tube, _REACH * options.tube.widest, options.largest_radius), min(options.bend, BEND)
+    best = flat.fewest(strict, len(points) - 1)
+    count = len(best) if best is not None else len(points) - 1
+    moved = None
+    if best is None or len(best) <= _MANY:
+        moved = flat.moved(strict, count + 1 if best is not None and best.bend > strict else count, progress)
+    best = moved.better(best) if moved is not None else best
+    if options.bend > strict:
+        bent = flat.fewest(options.bend, len(best) if best is not None else count)
+        best = bent or best
+    return best.path if best is not None else None

@@ -43,7 +43,7 @@ class Pieces:
         return points
 
     @cached_property
-    def _still(self) -> float:
+    def still(self) -> float:
         """A chord no longer than this, mm, has no direction."""
         return max(1e-9 * float(np.ptp(self.polygon)), 1e-12)
 
@@ -59,23 +59,6 @@ class Pieces:
         points = here[:, :2] / here[:, 2:]
         return points, along[:, :2] - points * along[:, 2:]
 
-    def direction(self, u: float, forward: bool) -> tuple[float, float]:
-        """Return the unit tangent just after (forward) or just before u; (0, 0) where the curve stands still."""
-        k = int(u)
-        if u == k:
-            polygon = self.polygon[min(k, len(self) - 1)] if forward else self.polygon[max(k - 1, 0)][::-1]
-            chords = (polygon[1:] - polygon[0]) * (1.0 if forward else -1.0)
-        else:
-            point, along = self.at(np.array([u]))
-            near, _ = self.at(np.array([u + (1e-5 if forward else -1e-5)]))
-            chords = np.vstack([along, (near - point) * (1.0 if forward else -1.0)])
-        lengths = np.hypot(chords[:, 0], chords[:, 1])
-        enough = np.flatnonzero(lengths > self._still)
-        if len(enough) == 0:
-            return 0.0, 0.0
-        first = chords[enough[0]] / lengths[enough[0]]
-        return float(first[0]), float(first[1])
-
     def corners(self) -> list[float]:
         """Return 0, the parameters of corners, and n."""
         ends, starts = self._directions(self.polygon[:-1, ::-1]), -self._directions(self.polygon[1:])
@@ -86,9 +69,9 @@ class Pieces:
         """Return (n, 2) unit vectors towards the first of polygons (n, k, 2) from what follows it; (0, 0) where nothing does."""
         chords = polygons[:, :1] - polygons[:, 1:]
         lengths = np.hypot(chords[..., 0], chords[..., 1])
-        rows, first = np.arange(len(chords)), np.argmax(lengths > self._still, axis=1)
+        rows, first = np.arange(len(chords)), np.argmax(lengths > self.still, axis=1)
         length = lengths[rows, first]
-        there = (length > self._still)[:, None]
+        there = (length > self.still)[:, None]
         return np.where(there, chords[rows, first] / np.where(there, length[:, None], 1.0), 0.0)
 
     def cut(self, first: Floats, last: Floats) -> Pieces:
@@ -104,19 +87,6 @@ class Pieces:
             columns.append(b[:, 0])
         return Pieces(np.stack(columns, axis=1))
 
-    def off_lines(self, start: Floats, end: Floats) -> Floats:
-        """Return for each piece a bound (n,) of its distance from the line from start to end (n, 2)."""
-        chord = end - start
-        length = np.maximum(np.hypot(chord[:, 0], chord[:, 1]), 1e-300)
-        unit = chord / length[:, None]
-        arms = self.polygon - start[:, None]
-        aside = np.abs(arms[..., 1] * unit[:, :1] - arms[..., 0] * unit[:, 1:]).max(axis=1)
-        along = np.einsum("nkd,nd->nk", arms, unit)
-        beyond = np.maximum(np.maximum(-along.min(axis=1), along.max(axis=1) - length), 0.0)
-        still = np.hypot(arms[..., 0], arms[..., 1]).max(axis=1)
-        bound: Floats = np.where((chord == 0.0).all(axis=1), still, np.hypot(aside, beyond))
-        return bound
-
     def off_circles(self, on: Floats, centre: Floats) -> Floats:
         """Return for each piece a bound (n,) of its distance from the circle round centre (n, 2) through `on` (n, 2).
 
@@ -126,7 +96,7 @@ class Pieces:
         w = self.control[..., 2]
         z = self.control[..., :2] - w[..., None] * on[:, None]
         towards = np.einsum("nkd,nd->nk", z, on - centre)
-        table = _products(self.degree)
+        table = products(self.degree)
         gap = np.einsum("ni,nj,ijk->nk", z[..., 0], z[..., 0], table) + np.einsum("ni,nj,ijk->nk", z[..., 1], z[..., 1], table)
         gap += 2 * np.einsum("ni,nj,ijk->nk", w, towards, table)
         gap /= (w.min(axis=1) ** 2)[:, None]
@@ -136,7 +106,7 @@ class Pieces:
 
 
 @cache
-def _products(degree: int) -> Floats:
+def products(degree: int) -> Floats:
     """Return the (p + 1, p + 1, 2 p + 1) table that multiplies two polynomials in Bernstein form."""
     table = np.zeros((degree + 1, degree + 1, 2 * degree + 1))
     for i in range(degree + 1):

@@ -6,8 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.fit.near import near
 from app.fit.space_curve import DEGREE, SpaceCurve
 from app.model.motion import Floats
+
+_CORNER = 1e-3
+"""A place so near to a corner, mm, is it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +38,7 @@ def of_points(points: Floats, corners: Floats) -> Smoothness:
     sizes = np.linalg.norm(steps, axis=1)
     bends = _angles(steps[:-1], steps[1:])
     curvature = bends / ((sizes[:-1] + sizes[1:]) / 2) if len(bends) else bends
-    smooth = ~_among(points[1:-1], corners)
+    smooth = ~near(points[1:-1], corners, _CORNER)
     both = smooth[:-1] & smooth[1:]
     return Smoothness(_most(bends[smooth]), _most(np.abs(np.diff(curvature))[both]))
 
@@ -49,7 +53,7 @@ def of_curve(curve: SpaceCurve, corners: Floats) -> Smoothness:
     control = curve.control
     out, into = _ends(control), _ends(control[:, ::-1])
     bends = _angles(-into[0][:-1], out[0][1:])
-    smooth = ~_among(control[1:, 0], corners)
+    smooth = ~near(control[1:, 0], corners, _CORNER)
     return Smoothness(_most(bends[smooth]), _most(np.abs(into[1][:-1] - out[1][1:])[smooth]))
 
 
@@ -65,15 +69,6 @@ def _angles(one: Floats, other: Floats) -> Floats:
     cross = np.linalg.norm(np.cross(one, other), axis=1)
     angles: Floats = np.arctan2(cross, np.einsum("ij,ij->i", one, other))
     return angles
-
-
-def _among(places: Floats, corners: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Tell which places are corners."""
-    if not len(corners) or not len(places):
-        return np.zeros(len(places), bool)
-    from scipy.spatial import cKDTree
-
-    return np.asarray(cKDTree(corners).query(places)[0] <= 1e-3)
 
 
 def _most(values: Floats) -> float:

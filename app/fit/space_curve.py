@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -104,15 +103,12 @@ def _parts(motions: Motions, first: int, stop: int) -> Iterator[tuple[NDArray[np
     rows = np.arange(first, stop)
     straight = rows[motions.kind[first:stop] <= MotionKind.LINE]
     yield straight, _straight(motions.start[straight], motions.end[straight]), 0.0
-    arcs = arc_paths(motions)
-    low, high = np.searchsorted(arcs.rows, (first, stop))
-    for k in range(low, high):
-        control = _arc(arcs, k, motions.start[arcs.rows[k]], motions.end[arcs.rows[k]])
-        yield np.full(len(control), arcs.rows[k]), control, ARC_SLACK
-    for row, spline in motions.splines.items():
-        if first <= row < stop:
-            curve = curve_of_nurbs(spline)
-            yield np.full(len(curve), row), curve.control, curve.slack
+    arcs = arc_paths(motions, first, stop)
+    if len(arcs):
+        yield *_arcs(arcs, motions.start[arcs.rows], motions.end[arcs.rows]), ARC_SLACK
+    for row in (first + np.flatnonzero(motions.kind[first:stop] == MotionKind.SPLINE)).tolist():
+        curve = curve_of_nurbs(motions.splines[row])
+        yield np.full(len(curve), row), curve.control, curve.slack
 
 
 def _straight(start: Floats, end: Floats) -> Floats:
@@ -121,29 +117,44 @@ def _straight(start: Floats, end: Floats) -> Floats:
     return control
 
 
-def _arc(arcs: ArcPaths, k: int, start: Floats, end: Floats) -> Floats:
-    """Return an arc, helix or spiral as quintics that share place, speed and acceleration with it where they meet."""
-    sweep, grow = arcs.sweep[k], arcs.end_radius[k] - arcs.start_radius[k]
-    most = abs(sweep) ** 6 * max(arcs.start_radius[k], arcs.end_radius[k]) + 6 * abs(grow) * abs(sweep) ** 5
-    count = max(math.ceil((most / (_SIXTH * ARC_SLACK)) ** (1 / 6)), math.ceil(abs(sweep)))
-    at = np.linspace(0.0, 1.0, count + 1)
-    angle, radius = arcs.angle[k] + sweep * at, arcs.start_radius[k] + grow * at
-    cos, sin, zero = np.cos(angle), np.sin(angle), np.zeros(count + 1)
+def _arcs(arcs: ArcPaths, start: Floats, end: Floats) -> tuple[NDArray[np.int64], Floats]:
+    """Return arcs, helices and spirals as quintics that share place, speed and acceleration with them where they meet.
+
+    Args:
+        arcs: m of them. start, end: (m, 3) mm.
+
+    Returns:
+        Of each piece the row that it is of, and its control points.
+    """
+    turn, grow = np.abs(arcs.sweep), arcs.end_radius - arcs.start_radius
+    most = turn**6 * np.maximum(arcs.start_radius, arcs.end_radius) + 6 * np.abs(grow) * turn**5
+    count = np.maximum(np.ceil((most / (_SIXTH * ARC_SLACK)) ** (1 / 6)), np.ceil(turn)).astype(np.int64)
+    of = np.repeat(np.arange(len(arcs)), count + 1)  # of each place: an arc of k pieces has k + 1
+    behind = np.cumsum(count + 1)
+    at = (np.arange(len(of)) - (behind - count - 1)[of]) / count[of]
+    place, speed, accel = (along_xyz(own, arcs.axes[of]) for own in _moving(arcs, grow, of, at))
+    place[behind - count - 1], place[behind - 1] = start, end
+    before, after = np.delete(np.arange(len(of)), behind - 1), np.delete(np.arange(len(of)), behind - count - 1)
+    step = count[of][:, None]
+    speed, accel = speed / step, accel / step**2
+    b1, b4 = place[before] + speed[before] / 5, place[after] - speed[after] / 5
+    b2 = 2 * b1 - place[before] + accel[before] / 20
+    b3 = 2 * b4 - place[after] + accel[after] / 20
+    return arcs.rows[of[before]], np.stack([place[before], b1, b2, b3, b4, place[after]], axis=1)
+
+
+def _moving(arcs: ArcPaths, grow: Floats, of: NDArray[np.int64], at: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return place, speed and acceleration (n, 3) along arcs `of`, each at a part `at` of it, in the axes of its plane."""
+    sweep, grows, zero = arcs.sweep[of][:, None], grow[of][:, None], np.zeros(len(of))
+    angle, radius = arcs.angle[of] + arcs.sweep[of] * at, (arcs.start_radius[of] + grow[of] * at)[:, None]
+    cos, sin = np.cos(angle), np.sin(angle)
     out, side = np.stack([cos, sin, zero], axis=1), np.stack([-sin, cos, zero], axis=1)
-    place = radius[:, None] * out
-    place[:, :2] += arcs.centre[k]
-    place[:, 2] = arcs.height[k] + arcs.rise[k] * at
-    speed = grow * out + (radius * sweep)[:, None] * side
-    speed[:, 2] = arcs.rise[k]
-    accel = 2 * grow * sweep * side - (radius * sweep**2)[:, None] * out
-    axes = np.broadcast_to(arcs.axes[k], place.shape)
-    place, speed, accel = (along_xyz(own, axes) for own in (place, speed / count, accel / count**2))
-    place[0], place[-1] = start, end
-    b1 = place[:-1] + speed[:-1] / 5
-    b4 = place[1:] - speed[1:] / 5
-    b2 = 2 * b1 - place[:-1] + accel[:-1] / 20
-    b3 = 2 * b4 - place[1:] + accel[1:] / 20
-    return np.stack([place[:-1], b1, b2, b3, b4, place[1:]], axis=1)
+    place = radius * out
+    place[:, :2] += arcs.centre[of]
+    place[:, 2] = arcs.height[of] + arcs.rise[of] * at
+    speed = grows * out + radius * sweep * side
+    speed[:, 2] = arcs.rise[of]
+    return place, speed, 2 * grows * sweep * side - radius * sweep**2 * out
 
 
 def raised(control: Floats) -> Floats:

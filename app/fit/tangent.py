@@ -14,7 +14,7 @@ from app.progress import NO_PROGRESS, Progress
 Flags = NDArray[np.bool_]
 Places = NDArray[np.complex128]
 
-_STARTS = (1.0, 0.9, 0.8, 0.7)
+_STARTS = (1.0, 0.9)
 """Pieces are first as long as they are within so much of the limit; what needs the fewest in the end is taken."""
 _SURE = 0.985
 """Joints are moved within so much of the limit: they are held to samples, and then looked at whole."""
@@ -109,10 +109,11 @@ class TangentFit:
     largest: float
     swell: float = 0.0
 
-    def chain(self, progress: Progress = NO_PROGRESS) -> Chain | None:
+    def chain(self, fewer_than: int, progress: Progress = NO_PROGRESS) -> Chain | None:
         """Return the pieces; None where it does not come about.
 
         Args:
+            fewer_than: so many or more are of no use.
             progress: told of how much is done.
 
         Raises:
@@ -120,14 +121,18 @@ class TangentFit:
         """
         best: Chain | None = None
         for k, start in enumerate(_STARTS):
-            plain = self._greedy(self.line, start * self.limit)
-            if best is None or len(plain) < len(best):
-                made = self._repaired(plain, progress.part(k / len(_STARTS), (k + 1) / len(_STARTS)))
-                best = made if best is None or (made is not None and len(made) < len(best)) else best
+            plain = self.longest(start)
+            if len(plain) < fewer_than:
+                made = self._repaired(plain, fewer_than, progress.part(k / len(_STARTS), (k + 1) / len(_STARTS)))
+                best, fewer_than = (made, len(made)) if made is not None else (best, fewer_than)
         return best
 
-    def _repaired(self, chain: Chain, progress: Progress) -> Chain | None:
-        """Return pieces whose joints were moved; where they cannot be moved well enough there is one more."""
+    def longest(self, share: float = 1.0) -> Chain:
+        """Return the longest pieces from point to point that keep to a share of the limit, with bends where they meet."""
+        return self._greedy(self.line, share * self.limit)
+
+    def _repaired(self, chain: Chain, fewer_than: int, progress: Progress) -> Chain | None:
+        """Return pieces whose joints were moved; where they cannot be moved well enough there is one more, until there are too many."""
         chain.bent[self._round(chain)] = True
         dirty, off = np.ones(len(chain), bool), np.zeros(len(chain))
         for n in range(_ROUNDS):
@@ -140,6 +145,8 @@ class TangentFit:
                 too_flat = chain.bent & (np.abs(np.sin(chain.half)) * 2 * self.largest < self._sizes(chain))
                 return self._straighter(chain, off, too_flat, share) if too_flat.any() else chain
             chain, dirty, off = self._anew(chain, bad, off, more=n > 0)
+            if len(chain) >= fewer_than:
+                break
         return None
 
     def _straighter(self, chain: Chain, off: Floats, flat: Flags, progress: Progress) -> Chain | None:
@@ -211,7 +218,7 @@ class TangentFit:
             news += [may[at:first], np.ones(len(parts[-1]) if stop > first else 0, bool)]
             offs += [off[at:first], np.zeros(len(news[-1]))]
             at = stop
-        return _joined(parts), np.concatenate(news), np.concatenate(offs)
+        return joined(parts), np.concatenate(news), np.concatenate(offs)
 
     def _evenly(self, old: Chain, count: int) -> Chain:
         """Return no more pieces than a count between the ends of others, all within as little as can be."""
@@ -261,7 +268,7 @@ def _bends(points: Floats, reach: float) -> Floats:
     return np.minimum(wide, np.maximum(2 * near - wide, 0.0))
 
 
-def _joined(parts: list[Chain]) -> Chain:
+def joined(parts: list[Chain]) -> Chain:
     """Return chains one after the other as one; where one ends the next begins."""
     s, left, half, bent = (
         np.concatenate([getattr(part, name)[: len(part)] for part in parts]) for name in ("s", "left", "half", "bent")

@@ -74,10 +74,10 @@ def guess(control, points, slack, feet):  # type: ignore[no-untyped-def]
         if k > 0:
             along[k] = along[k - 1] + math.sqrt(squared_off_chord(samples[k], samples[k - 1], samples[k - 1]))
     feet[0], feet[-1] = 0.0, float(len(control))
-    k = 0
+    k, share = 0, 0.0
     for i in range(1, len(points) - 1):
         chord = math.sqrt(squared_off_chord(points[i], points[i - 1], points[i - 1]))
-        reach = along[k] + 1.2 * chord + slack
+        reach = along[k] + share * (along[min(k + 1, count)] - along[k]) + 1.2 * chord + slack  # samples may be farther apart than that
         best, nearest = k, squared_off_chord(points[i], samples[k], samples[min(k + 1, count)])
         j = k + 1
         while j < count and along[j] <= reach:
@@ -85,8 +85,8 @@ def guess(control, points, slack, feet):  # type: ignore[no-untyped-def]
             if off < nearest:
                 best, nearest = j, off
             j += 1
-        k = best
-        feet[i] = max(feet[i - 1], (k + _share(points[i], samples[k], samples[min(k + 1, count)])) / per)
+        k, share = best, _share(points[i], samples[best], samples[min(best + 1, count)])
+        feet[i] = max(feet[i - 1], (k + share) / per)
 
 
 @kernel("void(float64[:, :, ::1], float64[:, ::1], float64[::1])")

@@ -63,20 +63,21 @@ class ArcPaths:
         return np.hypot(np.hypot(mean * self.sweep, self.end_radius - self.start_radius), self.rise)
 
 
-def arc_paths(motions: Motions) -> ArcPaths:
-    """Return the arcs among motions."""
-    rows = np.flatnonzero((motions.kind == MotionKind.ARC_CW) | (motions.kind == MotionKind.ARC_CCW))
+def arc_paths(motions: Motions, first: int = 0, stop: int | None = None) -> ArcPaths:
+    """Return the arcs among motions `first` to `stop`, `stop` excluded; None: to the last."""
+    kind: NDArray[np.uint8] = motions.kind[first:stop]
+    rows = np.flatnonzero((kind == MotionKind.ARC_CW) | (kind == MotionKind.ARC_CCW)) + first
     axes = AXES[motions.plane[rows]]
     start, end, centre = (points[rows[:, None], axes] for points in (motions.start, motions.end, motions.centre))
-    first, last = start[:, :2] - centre[:, :2], end[:, :2] - centre[:, :2]
-    angle = np.arctan2(first[:, 1], first[:, 0])
+    out, back = start[:, :2] - centre[:, :2], end[:, :2] - centre[:, :2]
+    angle = np.arctan2(out[:, 1], out[:, 0])
     sense = np.where(motions.kind[rows] == MotionKind.ARC_CCW, 1.0, -1.0)
-    turn = (np.arctan2(last[:, 1], last[:, 0]) - angle) * sense % (2 * np.pi)
+    turn = (np.arctan2(back[:, 1], back[:, 0]) - angle) * sense % (2 * np.pi)
     whole = (start[:, 0] == end[:, 0]) & (start[:, 1] == end[:, 1])
     turn = np.where(whole, 2 * np.pi, turn) + 2 * np.pi * (np.maximum(motions.turns[rows], 1) - 1)
     return ArcPaths(
         rows=rows, axes=axes, centre=centre[:, :2], angle=angle, sweep=turn * sense,
-        start_radius=_sizes(first), end_radius=_sizes(last), height=start[:, 2], rise=end[:, 2] - start[:, 2],
+        start_radius=_sizes(out), end_radius=_sizes(back), height=start[:, 2], rise=end[:, 2] - start[:, 2],
     )  # fmt: skip
 
 

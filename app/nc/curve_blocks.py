@@ -29,15 +29,17 @@ class Spelling:
         post: the control's words and digits.
         state: what is in force before, and has to be behind, the blocks.
         feed: text of the F word of the first block, or "".
+        resumed: whether what follows says itself how to move.
     """
 
     post: Post
     state: ModalState
     feed: str = ""
+    resumed: bool = False
 
 
 def curve_blocks(path: Motions, spelling: Spelling) -> tuple[str, ...]:
-    """Return the blocks that drive along a path from its start, where the tool stands; the last one is G1, or says it.
+    """Return the blocks that drive along a path from its start, where the tool stands; G1 is in force behind them, unless it is said there.
 
     Every end is rounded once to the post's digits; what a form cannot carry is the caller's to avoid: see `carries`.
 
@@ -64,6 +66,7 @@ class _Writer:
         self._arcs = arc_paths(path)
         self._feed, self._motion, self._plane = spelling.feed, "", spelling.state.plane
         self._at: Position = self._rounded(path.start[0]) if len(path) else (0, 0, 0)
+        self._resumed = spelling.resumed
         self._out: list[str] = []
 
     def lines(self) -> list[str]:
@@ -77,7 +80,7 @@ class _Writer:
             else:
                 self._arc(int(np.searchsorted(self._arcs.rows, row)))
         self._into(self._state.plane)
-        if self._motion != self._post.words.motion[MotionKind.LINE]:
+        if not self._resumed and self._motion != self._post.words.motion[MotionKind.LINE]:
             self._out.append(self._post.words.motion[MotionKind.LINE])
         return self._out
 

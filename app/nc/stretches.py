@@ -16,17 +16,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.model.motion import Floats, MotionKind, Motions
+from app.nc.read.fault import Fault
 from app.nc.read.program import FeedMode, NcProgram
-from app.nc.read.text import Text
+from app.nc.read.text import Text, code_of
 from app.progress import NO_PROGRESS, Progress
 
-_MOVE = re.compile(r"\s*(?:N\d+\s*)?(?P<code>G0?1(?![\d.])\s*)?(?P<words>(?:[XYZF]\s*[-+]?(?:\d+\.?\d*|\.\d+)\s*)+)$", re.IGNORECASE)
-_WORD = re.compile(r"([XYZF])\s*([-+]?(?:\d+\.?\d*|\.\d+))", re.IGNORECASE)
+Flags = NDArray[np.bool_]
+
+_PLAIN = re.compile(r"(?:[a-z][-+]?(?:\d+\.?\d*|\.\d+))+")
+_MOTION = re.compile(r"g0?[0-3](?![\d.])")
 _JUMPS = re.compile(r"\bGOTO\b|\bM9[789]\b", re.IGNORECASE)
-_NUMBERED = re.compile(r"\s*N\d", re.IGNORECASE)
-_SAME = 1e-7
-"""mm; a place that words say is that of the motion where they are no farther apart."""
-_PORTION = 20_000
 
 
 class Left(Enum):
@@ -49,6 +48,7 @@ class Stretch:
         first_line, last_line: 1-based lines of the text; between them there are no others but empty ones.
         feed: text of the F word that one of its lines has, or "".
         coded: whether its first line says G1 itself.
+        resumed: whether the next line that says anything says G0 to G3 itself, so that G1 need not be in force behind the stretch.
     """
 
     first: int
@@ -58,6 +58,7 @@ class Stretch:
     last_line: int
     feed: str
     coded: bool
+    resumed: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,86 +80,124 @@ def find_stretches(program: NcProgram, text: Text, progress: Progress = NO_PROGR
     Raises:
         Cancelled: the job was asked to stop.
     """
+    progress.step(0.0, "Looking for what can be smoothed")
     motions = program.motions
-    why, feeds, coded = _lines(program, text.data.decode(text.encoding).split("\n"), progress)
-    lines = motions.line.astype(np.int64)
-    empty = np.array([not line.strip() for line in text.data.split(b"\n")])
-    gaps = np.concatenate([[0], np.cumsum(~empty)])  # lines with something in them, up to and with each
-    stretches, left = [], dict.fromkeys(Left, 0)
-    row = 0
-    while row < len(motions):
-        reason = why[row]
-        if reason is not None:
-            if isinstance(reason, Left):
-                left[reason] += 1
-            row += 1
-            continue
-        stop = row + 1
-        while stop < len(motions) and why[stop] is None and not feeds[stop] and _goes_on(motions, row, stop, gaps):
-            stop += 1
-        if stop - row >= 2:
-            points = np.vstack([motions.start[row : row + 1], motions.end[row:stop]])
-            feed = next((feeds[k] for k in range(row, stop) if feeds[k]), "")
-            stretches.append(Stretch(row, stop, points, int(lines[row]), int(lines[stop - 1]), feed, coded[row]))
-        else:
-            left[Left.ALONE] += 1
-        row = stop
-    return Found(tuple(stretches), left)
+    spoken = _spoken(program, text)
+    reasons = _reasons(program, spoken)
+    left = {reason: int(np.sum(reasons == k)) for k, reason in enumerate(Left)}
+    free = reasons == _FREE
+    on = np.zeros(len(motions), np.bool_)
+    on[1:] = free[1:] & free[:-1] & ~(spoken.feeds[1:, 0] >= 0) & _goes_on(motions, spoken.filled)
+    first = np.flatnonzero(free & ~on)
+    stop = np.append(first[1:], len(motions))
+    behind = np.concatenate([[0], np.cumsum(free)])
+    count = behind[stop] - behind[first]  # free moves up to the next first one all go on from it
+    left[Left.ALONE] += int(np.sum(count == 1))
+    progress.step(0.5)
+    rows = zip(first[count > 1].tolist(), (first + count)[count > 1].tolist(), strict=True)
+    return Found(tuple(_stretch(motions, text, spoken, row, end) for row, end in rows), left)
 
 
-def _goes_on(motions: Motions, row: int, stop: int, gaps: NDArray[np.int64]) -> bool:
-    """Tell whether a motion may be in the stretch of the one before it that began at `row`."""
-    line, before = motions.line[stop], motions.line[stop - 1]
-    return bool(
-        motions.state[stop] == motions.state[row]
-        and motions.feed[stop] == motions.feed[row]
-        and line > before
-        and gaps[line - 1] == gaps[before]
-        and np.array_equal(motions.start[stop], motions.end[stop - 1])
+def _stretch(motions: Motions, text: Text, spoken: _Spoken, first: int, stop: int) -> Stretch:
+    points = np.vstack([motions.start[first : first + 1], motions.end[first:stop]])
+    begin, end = spoken.feeds[first].tolist()
+    feed = text.data[begin:end].decode() if begin >= 0 else ""
+    lines = motions.line[[first, stop - 1]].tolist()
+    return Stretch(first, stop, points, lines[0], lines[1], feed, bool(spoken.coded[first]), _resumed(text, spoken.begins, lines[1]))
+
+
+def _resumed(text: Text, begins: NDArray[np.int64], behind: int) -> bool:
+    """Tell whether the first line behind some lines that is more than a comment is plain words, G0 to G3 among them."""
+    for begin in begins[behind:-1].tolist():
+        try:
+            code = code_of(text.line(begin), nested=False)
+        except Fault:
+            return False
+        if code:
+            return _PLAIN.fullmatch(code) is not None and _MOTION.search(code) is not None
+    return False
+
+
+def _goes_on(motions: Motions, filled: NDArray[np.int64]) -> Flags:
+    """Tell of all motions but the first (n - 1,) whether each may be in the stretch of the one before it."""
+    state, feed, line = motions.state, motions.feed, motions.line
+    met = np.all(motions.start[1:] == motions.end[:-1], axis=1)
+    goes_on: Flags = (
+        (state[1:] == state[:-1]) & (feed[1:] == feed[:-1]) & (line[1:] > line[:-1]) & (filled[line[1:] - 1] == filled[line[:-1]]) & met
     )
+    return goes_on
 
 
-def _lines(program: NcProgram, lines: list[str], progress: Progress) -> tuple[list[Left | bool | None], list[str], list[bool]]:
-    """Return for each motion: why it can be in no stretch (True: it is no straight feed move), its F word, whether it says G1."""
+@dataclass(frozen=True, eq=False)
+class _Spoken:
+    """What the lines of n motions say.
+
+    Attributes:
+        begins: (m + 1,) of each line its first byte, and the text's end.
+        filled: (m + 1,) lines with something in them, up to and with each line.
+        plain, coded, numbered: (n,) see the kernels; False of what is no straight feed move.
+        feeds: (n, 2) where the F word's number begins and ends in the text, -1: there is none.
+        jumps: whether the text may jump.
+    """
+
+    begins: NDArray[np.int64]
+    filled: NDArray[np.int64]
+    plain: Flags
+    coded: Flags
+    numbered: Flags
+    feeds: NDArray[np.int64]
+    jumps: bool
+
+
+def _spoken(program: NcProgram, text: Text) -> _Spoken:
+    from app.nc import stretch_kernels as kernels
+
     motions, states = program.motions, program.states
-    count = len(motions)
-    numbers = motions.line.tolist()
-    times = np.bincount(motions.line, minlength=len(lines) + 2)
-    jumps = any(_JUMPS.search(line) for line in lines)
-    highest = np.maximum.accumulate(motions.line) if count else motions.line
-    known = max(program.motions.known_from)
-    homeward = set(program.homeward)
-    why: list[Left | bool | None] = [True] * count
-    feeds, coded = [""] * count, [False] * count
-    for row in np.flatnonzero(motions.kind == MotionKind.LINE).tolist():
-        if row % _PORTION == 0:
-            progress.step(row / count, "Looking for what can be smoothed")
-        line, state = lines[numbers[row] - 1], states[motions.state[row]]
-        match = _MOVE.match(line)
-        if times[numbers[row]] > 1 or highest[row] > numbers[row] or (jumps and _NUMBERED.match(line)):
-            why[row] = Left.REPEATED
-        elif row < known or row in homeward or row - 1 in homeward:
-            why[row] = Left.UNKNOWN
-        elif state.feed_mode is not FeedMode.PER_MINUTE or not motions.feed[row] > 0:
-            why[row] = Left.FEED
-        elif match is None or not state.absolute or state.rotation != 0.0:
-            why[row] = Left.WORDS
-        else:
-            words = _WORD.findall(match["words"])
-            feeds[row] = next((value for letter, value in words if letter in "Ff"), "")
-            coded[row] = match["code"] is not None
-            said = _said(words, motions.end[row].tolist(), state.shift, state.units.value)
-            why[row] = None if said else Left.WORDS
-    return why, feeds, coded
+    data, count = np.frombuffer(text.data, np.uint8), text.line_count + 1
+    begins, filled = np.empty(count, np.int64), np.empty(count, np.int64)
+    kernels.read_lines(data, begins, filled)
+    rows = np.flatnonzero(motions.kind == MotionKind.LINE)
+    plain, coded, numbered = (np.zeros(len(motions), np.bool_) for _ in range(3))
+    feeds = np.full((len(motions), 2), -1, np.int64)
+    told = tuple(np.empty(len(rows), np.bool_) for _ in range(3))
+    numbers = np.empty((len(rows), 2), np.int64)
+    shifts = np.array([state.shift for state in states], np.float64).reshape(-1, 3)
+    units = np.array([state.units.value for state in states], np.float64)
+    lines, at = motions.line[rows].astype(np.int64) - 1, motions.state[rows].astype(np.int64)
+    kernels.read_moves(data, begins, lines, np.ascontiguousarray(motions.end[rows]), at, shifts, units, *told, numbers)
+    plain[rows], coded[rows], numbered[rows] = told
+    feeds[rows] = numbers
+    return _Spoken(begins, filled, plain, coded, numbered, feeds, _may_jump(text))
 
 
-def _said(words: list[tuple[str, str]], end: list[float], shift: tuple[float, float, float], unit: float) -> bool:
-    """Tell whether the words are where the motion ends, each letter once."""
-    letters = [letter.upper() for letter, _ in words]
-    if len(set(letters)) < len(letters) or letters == ["F"]:
+def _may_jump(text: Text) -> bool:
+    """Tell whether the text has words that jump; the whole text is searched for them only where it has their letters."""
+    upper = text.data.upper()
+    if not any(word in upper for word in (b"GOTO", b"M97", b"M98", b"M99")):
         return False
-    at = {"X": 0, "Y": 1, "Z": 2}
-    return all(
-        letter == "F" or abs(float(value) * unit + shift[at[letter]] - end[at[letter]]) <= _SAME
-        for letter, (_, value) in zip(letters, words, strict=True)
-    )
+    return _JUMPS.search(text.data.decode(text.encoding)) is not None
+
+
+_FREE, _OTHER = -1, -2
+"""Of a motion: nothing speaks against it; it is no straight feed move."""
+
+
+def _reasons(program: NcProgram, spoken: _Spoken) -> NDArray[np.int64]:
+    """Return for each motion the number of the reason why it can be in no stretch, or _FREE, or _OTHER."""
+    motions, states = program.motions, program.states
+    count, number = len(motions), {reason: k for k, reason in enumerate(Left)}
+    line = motions.kind == MotionKind.LINE
+    highest = np.maximum.accumulate(motions.line) if count else motions.line
+    again = (np.bincount(motions.line)[motions.line] > 1) if count else np.zeros(0, np.bool_)
+    unknown = np.arange(count) < max(motions.known_from)
+    homeward = np.array([row for row in program.homeward if row < count], np.int64)
+    unknown[homeward] = True
+    unknown[homeward[homeward < count - 1] + 1] = True
+    timed = np.array([state.feed_mode is FeedMode.PER_MINUTE for state in states], np.bool_)
+    straight = np.array([state.absolute and state.rotation == 0.0 for state in states], np.bool_)
+    reasons = np.select(
+        [~line, again | (highest > motions.line) | (spoken.jumps & spoken.numbered), unknown,
+         ~(timed[motions.state] & (motions.feed > 0)), ~(straight[motions.state] & spoken.plain)],
+        [_OTHER, number[Left.REPEATED], number[Left.UNKNOWN], number[Left.FEED], number[Left.WORDS]], _FREE,
+    )  # fmt: skip
+    return reasons.astype(np.int64)

@@ -14,15 +14,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.errors import HitofudeError, InputError, ParameterError
-from app.fit.arc_fit import ArcOptions, fit_arcs
+from app.fit.arc_fit import BEND, ArcOptions, fit_arcs
 from app.fit.corners import LEAST_LEG, bends, corners
 from app.fit.effective_method import EffectiveMethod, PointClasses, without_repeats
 from app.fit.fitted import FittedPath
+from app.fit.near import near
 from app.fit.proven_curve import SplineOptions, fit_splines
 from app.fit.smoothness import Smoothness, of_curve, of_points
 from app.fit.space_curve import SpaceCurve, curve_of_motions, joined
 from app.fit.tube import Answer, Judgement, Tube, judge
-from app.model.motion import Floats, Motions, Nurbs
+from app.model.motion import Floats, MotionKind, Motions, Nurbs
 from app.nc.blocks import Blocks
 from app.nc.curve_blocks import Spelling, curve_blocks
 from app.nc.linuxcnc_biarcs import driven
@@ -71,6 +72,7 @@ class SmoothOptions:
         post: in whose words all of the program is written; None = those of the control that it is for.
         dialect: how the program is read; None = as the text looks, whatever the post.
         effective: method D; None: the curve goes by all points.
+        bend: lines and arcs may turn by so much where they meet, where that saves blocks, radians; or as much as the moves do there.
     """
 
     tolerance: float = 0.01
@@ -81,6 +83,7 @@ class SmoothOptions:
     post: Post | None = None
     dialect: Dialect | None = None
     effective: EffectiveMethod | None = None
+    bend: float = BEND
 
     @property
     def least_leg(self) -> float:
@@ -94,6 +97,8 @@ class SmoothOptions:
             raise ParameterError(f"a spline of degree {self.degree}; use 3 or 5.")
         if not 0 < self.corner <= math.pi:
             raise ParameterError(f"a corner of {math.degrees(self.corner):g} degrees; use more than 0 and not more than 180.")
+        if not 0 < self.bend <= math.pi:
+            raise ParameterError(f"a bend of {math.degrees(self.bend):g} degrees; use more than 0 and not more than 180.")
 
 
 @dataclass(frozen=True, eq=False)
@@ -252,7 +257,7 @@ class _Work:
                 continue
             path = self._fitted(k, progress.part(k / count, (k + 1) / count))
             state = self._program.states[self._program.motions.state[stretch.first]]
-            made = curve_blocks(path.motions, Spelling(self._post, state, stretch.feed))
+            made = curve_blocks(path.motions, Spelling(self._post, state, stretch.feed, stretch.resumed))
             if len(made) >= stretch.stop - stretch.first:
                 kept[k] = "it would not take fewer blocks"
             else:
@@ -280,7 +285,7 @@ class _Work:
         tube = self._tube.narrower(slack)
         form, nurbs = self._options.form, self._post.nurbs.form
         largest = min(self._post.arcs.largest_radius_mm, LARGEST_RADIUS)
-        arcs = ArcOptions(tube.radius, self._options.corner, largest, form is not Form.LINES, tube.middle)
+        arcs = ArcOptions(tube.radius, self._options.corner, largest, form is not Form.LINES, tube.middle, self._options.bend)
         if form is not Form.NURBS or nurbs is NurbsForm.NONE:
             return fit_arcs(points, arcs, progress)
         level = nurbs is NurbsForm.BEZIER
@@ -294,19 +299,20 @@ class _Work:
 
     def judged(self, after: NcProgram, new: Rewritten, progress: Progress) -> dict[int, _Judged]:
         """Return what each stretch that was written anew has become, and the judge's answer."""
-        lines, answers = after.motions.line, {}
+        order = np.argsort(after.motions.line, kind="stable")
+        lines, answers = after.motions.line[order], {}
         for n, (k, (first, last)) in enumerate(new.lines.items()):
             progress.step(n / len(new.lines), "Proving what was written")
-            rows = np.flatnonzero((lines >= first) & (lines <= last))
-            curve = self._driven(after.motions, int(rows[0]), int(rows[-1]) + 1)
-            ends = after.motions.end[rows[0] : rows[-1] + 1]
+            rows = order[np.searchsorted(lines, first) : np.searchsorted(lines, last, side="right")]
+            row, stop = int(rows.min()), int(rows.max()) + 1
+            curve, ends = self._driven(after.motions, row, stop), after.motions.end[row:stop]
             answers[k] = _Judged(curve, judge(curve, self._points[k], self._tube), *self._lost(self._points[k], ends))
         return answers
 
     def _lost(self, points: Floats, ends: Floats) -> tuple[bool, int]:
         """Return whether a corner is kept no more, and how many bends beside shorter legs are not: no written motion ends there."""
         sharp, legs = bends(points, self._options.corner)
-        away = np.array([np.linalg.norm(ends - points[k], axis=1).min() for k in sharp.tolist()]) > self._step
+        away = ~near(points[sharp], ends, self._step)
         corner = legs >= self._options.least_leg * (1 - 1e-9)
         return bool(np.any(away & corner)), int(np.sum(away & ~corner))
 
@@ -317,18 +323,18 @@ class _Work:
             HitofudeError: they are not.
         """
         before = self._program.motions
-        old, made = np.ones(len(before), np.bool_), np.ones(len(after.motions), np.bool_)
+        old, written = np.ones(len(before), np.bool_), np.zeros(int(after.motions.line.max(initial=0)) + 1, np.bool_)
         for k, (first, last) in new.lines.items():
             old[self._found.stretches[k].first : self._found.stretches[k].stop] = False
-            made &= ~((after.motions.line >= first) & (after.motions.line <= last))
-        rows, others = np.flatnonzero(old), np.flatnonzero(made)
+            written[first : last + 1] = True
+        rows, others = np.flatnonzero(old), np.flatnonzero(~written[after.motions.line])
         if len(rows) == len(others):
             same = before.kind[rows] == after.motions.kind[others]
             ends = np.abs(before.end[rows] - after.motions.end[others]).max(axis=1, initial=0.0) <= self._step
             feeds = np.isclose(before.feed[rows], after.motions.feed[others], rtol=1e-9, atol=0.0, equal_nan=True)
-            states = [self._program.states[a] == after.states[b]
-                      for a, b in zip(before.state[rows].tolist(), after.motions.state[others].tolist(), strict=True)]  # fmt: skip
-            wrong = np.flatnonzero(~(same & ends & feeds & np.array(states, np.bool_)))
+            pairs, which = np.unique(np.column_stack([before.state[rows], after.motions.state[others]]), axis=0, return_inverse=True)
+            states = np.array([self._program.states[a] == after.states[b] for a, b in pairs.tolist()], np.bool_)[which.ravel()]
+            wrong = np.flatnonzero(~(same & ends & feeds & states))
             if not len(wrong):
                 return
             rows = rows[wrong]
@@ -346,7 +352,7 @@ class _Work:
         """Return what the control drives along in some motions of the written text."""
         if self._post.nurbs.form is not NurbsForm.BEZIER or not motions.splines:
             return curve_of_motions(motions, first, stop)
-        rows = sorted(row for row in motions.splines if first <= row < stop)
+        rows = (first + np.flatnonzero(motions.kind[first:stop] == MotionKind.SPLINE)).tolist()
         parts, at = [], first
         for row in rows:
             parts += [curve_of_motions(motions, at, row)] if row > at else []

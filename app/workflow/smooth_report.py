@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from app.fit.arc_fit import BEND
 from app.fit.effective_points import PointState
 from app.model.finding import Finding, FindingKind
 from app.nc.read.dialect import HABITS
@@ -33,13 +34,19 @@ def certificate(done: Smoothed) -> tuple[str, ...]:
         f"tolerance {done.options.tolerance:g} mm; proven both ways, as written: {done.bound:.6f} mm; found: curve to moves "
         f"{max(piece.judgement.from_curve for piece in changed if piece.judgement):.6f} mm, moves to curve "
         f"{max(piece.judgement.from_points for piece in changed if piece.judgement):.6f} mm",
-        f"largest bend {math.degrees(bend[0]):.3f} deg before, {math.degrees(bend[1]):.3f} after; curvature step {step[0]:.4g} per mm "
-        f"before, {step[1]:.4g} after",
+        f"largest bend {math.degrees(bend[0]):.3f} deg before, {math.degrees(bend[1]):.3f} after{_bend_words(done)}; "
+        f"curvature step {step[0]:.4g} per mm before, {step[1]:.4g} after",
         _corner_words(done),
         *(f"effective points: {told['effective']} of {told['all']}, {told['corrected']} corrected" for told in _points(done)),
         "the control may add what its own blending allows",
         *_other_control(done),
     )
+
+
+def _bend_words(done: Smoothed) -> str:
+    """Return by how much neighbours were allowed to bend, where it is not what they always may."""
+    asked = done.options.form.value == "arcs" and done.options.bend != BEND
+    return f", where up to {math.degrees(done.options.bend):g} deg or the moves' own bend was allowed" if asked else ""
 
 
 def _corner_words(done: Smoothed) -> str:
@@ -88,6 +95,7 @@ def report(done: Smoothed) -> Json:
         "largest_bend_deg": {"before": math.degrees(bend[0]), "after": math.degrees(bend[1])},
         "largest_curvature_step_per_mm": {"before": step[0], "after": step[1]},
         "points": next(iter(_points(done)), None),
+        "bend_deg": math.degrees(done.options.bend),
         "corner_deg": math.degrees(done.options.corner), "corner_least_leg_mm": done.options.least_leg,
         "bends_rounded": sum(piece.rounded for piece in done.pieces),
         "stretches": {"found": len(done.pieces), "changed": len(changed), "listed": [_listed(piece) for piece in listed]},

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from app.files.svg import read_svg
 from app.files.svg_write import svg_bytes
 from app.fit.bezier import pieces_of
-from app.fit.biarc import distances
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from app.model.part import Entity, Layer, Part
 from tests.examples import examples
 from tests.files.drawn_parts import apart, arc, arcs, circles, clamped, lines, parts, parts_of, splines, wholes
+from tests.primitive_distance import distances
 
 SAME = 1e-9
 exact = st.one_of(lines, arcs, circles, wholes, parts_of, splines((2, 3)))

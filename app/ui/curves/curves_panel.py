@@ -55,6 +55,8 @@ class CurvesPanel(QScrollArea):
                                        tip="How far the curve may be away half way between two points"))
         self.degree = ChoiceField("Degree", [(3, "3"), (5, "5")])
         self.corner = NumberField(Spec("Corner", "°", 0.1, 180.0, 1, False, "Bends of more than this are kept exactly"))
+        self.bend = NumberField(Spec("Bend", "°", 0.01, 180.0, 2, False,
+                                     "By how much neighbouring blocks may bend where that saves blocks"))
         self.points = PointsForm()
         self.post = ListField("Control", [(None, "As the program looks")])
         self.smooth, self.save, self.nc = QPushButton("Smooth"), QPushButton("Save as…"), QPushButton("Open in NC")
@@ -74,7 +76,8 @@ class CurvesPanel(QScrollArea):
         column.setSpacing(4)
         self.program.setWordWrap(True)
         self.title.setWordWrap(True)
-        fields = (self.preset, self.tolerance, self.form, self.degree, self.region, self.middle, self.corner, self.points, self.post)
+        fields = (self.preset, self.tolerance, self.form, self.degree, self.region, self.middle, self.corner, self.bend, self.points,
+                  self.post)  # fmt: skip
         for widget in (heading("Proven curves"), self.program, *fields):
             column.addWidget(widget)
         column.addSpacing(6)
@@ -111,8 +114,8 @@ class CurvesPanel(QScrollArea):
         self.preset.chosen.connect(self._take_preset)
         self.tolerance.committed.connect(lambda _: self._show_preset())
         self.region.chosen.connect(self._show_region)
-        self.form.chosen.connect(lambda form: self.degree.setVisible(form == "nurbs"))
-        for field in (self.tolerance, self.middle, self.corner):
+        self.form.chosen.connect(self._show_form)
+        for field in (self.tolerance, self.middle, self.corner, self.bend):
             field.edit.returnPressed.connect(self.smooth.setFocus)
 
     def show_options(self, options: SmoothOptions, posts: dict[str, str]) -> None:
@@ -126,7 +129,8 @@ class CurvesPanel(QScrollArea):
         self.tolerance.show_value(options.tolerance)
         self.form.show_value(options.form.value)
         self.degree.show_value(options.degree)
-        self.degree.setVisible(options.form.value == "nurbs")
+        self._show_form(options.form.value)
+        self.bend.show_value(math.degrees(options.bend))
         self.corner.show_value(math.degrees(options.corner))
         self.region.show_value("cylinder" if options.middle is None else "barrel")
         self.middle.show_value(options.middle or _BARREL * options.tolerance)
@@ -146,7 +150,7 @@ class CurvesPanel(QScrollArea):
         return replace(
             base, tolerance=self.tolerance.number, form=Form(self.form.value), degree=5 if self.degree.value == 5 else 3,
             middle=self.middle.number if self.barrel else None, corner=math.radians(self.corner.number),
-            post=load_post(str(name)) if name is not None else None, effective=self.points.method(),
+            bend=math.radians(self.bend.number), post=load_post(str(name)) if name is not None else None, effective=self.points.method(),
         )  # fmt: skip
 
     @property
@@ -212,6 +216,10 @@ class CurvesPanel(QScrollArea):
         for value, button in self.preset.buttons.items():
             button.setChecked(value == self.tolerance.number)
         group.setExclusive(True)
+
+    def _show_form(self, form: str) -> None:
+        self.degree.setVisible(form == "nurbs")
+        self.bend.setVisible(form == "arcs")
 
     def _show_region(self, region: str) -> None:
         self.middle.setVisible(region == "barrel")

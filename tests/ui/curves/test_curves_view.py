@@ -190,11 +190,12 @@ def test_every_choice_of_the_form_reaches_the_engine(qtbot, opened) -> None:
         QTest.mouseClick(button, Qt.MouseButton.LeftButton)
     assert panel.middle.isVisible() and panel.middle.value == pytest.approx(2 * panel.tolerance.number)
     panel.corner.show_value(45.0)
+    panel.bend.show_value(7.0)
     panel.post.show_value("fanuc")
     press_smooth(qtbot, opened)
     options = curves_of(opened).curves.done.options
     assert (options.form.value, options.middle, options.post.title) == ("nurbs", pytest.approx(0.02), "Fanuc")
-    assert options.corner == pytest.approx(math.radians(45.0))
+    assert (options.corner, options.bend) == (pytest.approx(math.radians(45.0)), pytest.approx(math.radians(7.0)))
     assert b"G6.2" in curves_of(opened).curves.done.data or b"G06.2" in curves_of(opened).curves.done.data
 
 
