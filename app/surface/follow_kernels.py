@@ -25,7 +25,6 @@ from app.surface.point_kernels import (
     DS,
     FACET,
     FINE,
-    GRID,
     LEAST,
     LEFT,
     LEFT_U,
@@ -59,6 +58,9 @@ _SLOW, _FEW = 16, 4
 """Most chords that are made with care before the quick way is tried again; it begins with a group of _FEW."""
 _CLOSE = 0.02
 """mm; a chord as short as this that is not proven suggests that something was missed at its ends."""
+_BESIDE = 20.0
+"""Times LEAST that a boundary point may lie beside two places between which the surface changes: where surfaces meet at a small
+angle, their heights are written as the same beside it."""
 _TAKEN, _JUMPS, _SPLIT, _AGAIN = 0, 1, 2, 3
 """What becomes of a chord: it is taken, by way of a corner, or it is split, or looked at again."""
 NO_PROOF, NO_ROOM = -2, -1
@@ -164,9 +166,9 @@ def _judge(tree, shape, line, rules, left, right, middle, rows, desk):  # type: 
         doubtful = jumps or not _clear(tree, shape, rules, left, right, desk)
         if doubtful and (_missed(tree, shape, rules, left, desk) or _missed(tree, shape, rules, right, desk)):
             return _AGAIN
-        changes = not jumps and right[NEW] == 0.0 and owner_of(tree, left, FACET) != owner_of(tree, right, LEFT)
-        if changes and meet(tree, shape, line, rules, left, right, rules[GRID], middle, rows, desk):
-            mark(middle, left, right, line[5])
+        changes = right[NEW] == 0.0 and owner_of(tree, left, FACET) != owner_of(tree, right, LEFT)
+        if changes and meet(tree, shape, line, rules, left, right, _BESIDE * least, middle, rows, desk):
+            mark(middle, right)
         return _JUMPS if jumps else _TAKEN
     length = math.sqrt(span * span + (right[Z] - left[Z]) ** 2)
     x, y, z = 0.5 * (left[X] + right[X]), 0.5 * (left[Y] + right[Y]), 0.5 * (left[Z] + right[Z])

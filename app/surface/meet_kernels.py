@@ -14,6 +14,7 @@ from app.surface.point_kernels import (
     LEFT,
     LEFT_U,
     LEFT_V,
+    MET,
     NEW,
     SLACK,
     TRUE_Z,
@@ -92,7 +93,7 @@ def meet(tree, shape, line, rules, left, right, beyond, middle, rows, desk):  # 
     if s != s or _tip(tree, shape, line, rules, s, ANY, rows[OTHER], desk) > max(a, b) + _MET:
         return False  # or a third one is above both
     x, y, z = line[0] + s * line[2], line[1] + s * line[3], max(a, b)
-    middle[S], middle[X], middle[Y], middle[Z], middle[NEW], middle[TRUE_Z] = s, x, y, z, BOUNDARY, z
+    middle[S], middle[X], middle[Y], middle[Z], middle[NEW], middle[TRUE_Z], middle[MET] = s, x, y, z, BOUNDARY, z, s
     middle[LEFT], middle[LEFT_U], middle[LEFT_V] = pair[0, 3], pair[0, 4], pair[0, 5]
     middle[FACET], middle[U], middle[V] = pair[1, 3], pair[1, 4], pair[1, 5]
     if rules[GRID] > 0.0:  # the path goes where it can be written
@@ -101,10 +102,8 @@ def meet(tree, shape, line, rules, left, right, beyond, middle, rows, desk):  # 
     return True
 
 
-@kernel(f"void({_R}, {_R}, {_R}, float64)", counts=False)
-def mark(middle, left, right, last):  # type: ignore[no-untyped-def]
-    """Make `right` the boundary point that is nearer to it than points may be; it is written where it was, and ends lines where it did."""
+@kernel(f"void({_R}, {_R})", counts=False)
+def mark(middle, right):  # type: ignore[no-untyped-def]
+    """Make `right` a boundary point so near to it that no other point is made for it; it is written where it was."""
     for c in range(FACET, COLUMNS):
         right[c] = middle[c]
-    if left[S] < middle[S] and right[S] < last:
-        right[S] = middle[S]

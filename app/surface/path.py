@@ -62,7 +62,7 @@ class FollowOptions:
 
     Attributes:
         leave: metal left on them on purpose, mm, >= 0.
-        tolerance: so far above where it could be the tip may go between two points, mm, > 0.
+        tolerance: so far above where it could be the tip may go, square to its way, mm, > 0.
         grid: places are rounded to it, tips up to it, mm, as they will be written; 0: not at all.
     """
 
@@ -299,9 +299,9 @@ def _boundaries(facets: Facets, planes: Planes, numbers: Sequence[int], parts: S
             found.append((plane, rows[n], rows[n], False))
         corners = np.flatnonzero(rows[:, k.NEW] == k.CORNER)
         for n in corners[(corners > 0) & (corners < len(rows) - 1)].tolist():
-            if facets.owner[right[n - 1]] != facets.owner[left[n + 1]]:
+            if not met[n + 1] and facets.owner[right[n - 1]] != facets.owner[left[n + 1]]:
                 found.append((plane, rows[n - 1], rows[n + 1], True))
-    found.sort(key=lambda each: (each[0], each[1][k.S]))
+    found.sort(key=lambda each: (each[0], each[1][k.MET]))
     if not found:
         return Boundaries.none()
     where = np.array([each[0] for each in found])
@@ -311,8 +311,8 @@ def _boundaries(facets: Facets, planes: Planes, numbers: Sequence[int], parts: S
     other = np.where(jump, there[:, k.LEFT], there[:, k.FACET]).astype(np.int64)
     at_one = np.where(jump[:, None], here[:, [k.U, k.V]], here[:, [k.LEFT_U, k.LEFT_V]])
     at_other = np.where(jump[:, None], there[:, [k.LEFT_U, k.LEFT_V]], there[:, [k.U, k.V]])
-    place = np.array([(*planes.place(p, s), z) for p, s, z in zip(where.tolist(), here[:, k.S], here[:, k.TRUE_Z], strict=True)])
-    end = np.array([(*planes.place(p, s), z) for p, s, z in zip(where.tolist(), there[:, k.S], there[:, k.TRUE_Z], strict=True)])
+    place = np.array([(*planes.place(p, s), z) for p, s, z in zip(where.tolist(), here[:, k.MET], here[:, k.TRUE_Z], strict=True)])
+    end = np.array([(*planes.place(p, s), z) for p, s, z in zip(where.tolist(), there[:, k.MET], there[:, k.TRUE_Z], strict=True)])
     sides = (surface_parameters(facets, one, at_one), surface_parameters(facets, other, at_other))
     kind = np.where(jump, BoundaryKind.JUMP, kinds_of(facets, (one, other), sides))
     return Boundaries(where, facets.owner[one], facets.owner[other], place, end, *sides, kind.astype(np.uint8))

@@ -9,10 +9,11 @@ from app.surface.desk_kernels import DESK, NONE, OWNER, TREE
 from app.surface.quick_kernels import quick_one
 
 _R = "float64[::1]"
-S, X, Y, Z, FACET, U, V, LEFT, LEFT_U, LEFT_V, NEW, TRUE_Z = range(12)
+S, X, Y, Z, FACET, U, V, LEFT, LEFT_U, LEFT_V, NEW, TRUE_Z, MET = range(13)
 """Columns of points: place along the line, x, y, tip, what is touched there and where; what is touched on the side that the line
-comes from, which differs at boundary points; what it is (see BEGINS); the tip before it was rounded."""
-COLUMNS = 12
+comes from, which differs at boundary points; what it is (see BEGINS); the tip before it was rounded; of a boundary point
+where along the line both surfaces are touched."""
+COLUMNS = 13
 BEGINS, CORNER, BOUNDARY = 1.0, 2.0, 3.0
 """NEW of a point where a run begins, of a jump's corner, of a boundary point; 0 of others."""
 DS, TOLERANCE, ALLOWED, LEAST, GRID, SLACK, FINE = range(7)
@@ -37,7 +38,7 @@ def place_on(line, rules, s):  # type: ignore[no-untyped-def]
 @kernel(f"void({_R}, {_R}, float64, float64, float64, float64, float64, float64, float64)", counts=False)
 def fill(row, rules, s, x, y, tip, facet, u, v):  # type: ignore[no-untyped-def]
     """Set a row to what is touched, on both sides."""
-    row[S], row[X], row[Y], row[Z], row[NEW], row[TRUE_Z] = s, x, y, written(tip, rules), 0.0, tip
+    row[S], row[X], row[Y], row[Z], row[NEW], row[TRUE_Z], row[MET] = s, x, y, written(tip, rules), 0.0, tip, s
     row[FACET], row[U], row[V] = facet, u, v
     row[LEFT], row[LEFT_U], row[LEFT_V] = facet, u, v
 

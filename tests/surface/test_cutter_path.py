@@ -297,3 +297,14 @@ def test_thinned_paths_are_nowhere_lower_than_what_was_followed() -> None:
     assert high.min() >= -1e-9
     marks = few[few[:, NEW] == BOUNDARY]
     assert len(marks) == 3 and {tuple(row) for row in marks.tolist()} <= {tuple(row) for row in rows.tolist()}
+
+
+def test_a_boundary_point_nearer_to_a_place_than_points_may_be_is_told_where_it_is() -> None:
+    """On the plane at Y 26 the path comes by halving to within a grid step of where both spheres are touched."""
+    spheres = facets_of(plane(0, 0, 100, 60), ball(38, 30, 0, 20), ball(64, 30, 0, 14))
+    x = 38 + ((20 + 3) ** 2 - (14 + 3) ** 2 + 26**2) / (2 * 26)  # of the plane on which both offset spheres meet
+    for tolerance in (0.01, 0.0097, 0.005):
+        follower = Follower(spheres, Tool(1, 6.0, ToolKind.BALL), FollowOptions(0.0, tolerance, 1e-4))
+        marks = cutter_path(follower, along_x(*np.arange(20.0, 41.0).tolist())).boundaries
+        both = (marks.before + marks.after == 3) & (marks.before * marks.after == 2)
+        assert marks.plane[both].tolist() == list(range(21)) and marks.place[both, 0] == pytest.approx(x, abs=1e-6)
