@@ -161,6 +161,10 @@ def _notes(computed: Computed) -> list[str]:
              f"stock_mm={plain_numbers(box.x0, box.y0, box.z0, box.x1, box.y1, box.z1)}"]  # fmt: skip
     for tool in tools.values():
         notes.append(f"tool={tool.number},{tool.kind.value},{plain_numbers(tool.diameter, *shape_numbers(tool))}")
+    fastest: dict[int, float] = {}
+    for family in computed.families:  # passes may feed one tool in different ways
+        fastest[family.tool.number] = max(family.tool.plunge_rate, fastest.get(family.tool.number, 0.0))
+    notes += [f"plunge_mm_min={plain_numbers(number, rate)}" for number, rate in fastest.items()]
     notes += [f"surface={number},{spelled_name(surface.name)}" for number, surface in enumerate(scene.surfaces, 1)]
     return [f"hitofude: {note}" for note in notes]
 

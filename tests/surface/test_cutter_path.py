@@ -136,7 +136,7 @@ def test_a_ball_over_a_torus_goes_along_the_offset_torus() -> None:
     points = np.concatenate([run.points for run in path.runs])
     high = points[:, 2] - torus_height(points[:, 0], points[:, 1], 0.25)
     well = np.abs(np.hypot(points[:, 0], points[:, 1]) - 1.0) < 0.6  # as steep as 4 in 3
-    assert -1e-6 <= high[well].min() and high[well].max() <= 0.005 * 5 / 3
+    assert high[well].min() >= -1e-6 and high[well].max() <= 0.005 * 5 / 3
 
 
 def test_a_ball_over_the_triangles_of_a_torus_is_as_near_as_they_are() -> None:
@@ -174,7 +174,7 @@ def test_where_surfaces_end_the_cutter_rolls_over_the_edge_and_jumps_down() -> N
     points = np.concatenate([run.points for run in path.runs])
     rolling = points[(points[:, 0] > 10) & (points[:, 0] < 11.9)]
     off = np.hypot(rolling[:, 0] - 10, rolling[:, 2] + BALL.radius - 6) - BALL.radius
-    assert -1e-6 <= off.min() and off.max() <= FollowOptions().tolerance
+    assert off.min() >= -1e-6 and off.max() <= FollowOptions().tolerance
     assert path.boundaries.kind.tolist() == [BoundaryKind.JUMP]
     assert path.boundaries.place[0, 0] == pytest.approx(12.0, abs=1e-3)
     ways = chords(path)
