@@ -22,6 +22,7 @@ kind = "ball"
 diameter = 6.0
 feed_rate = 900
 plunge_rate = 300
+{tool}
 [[surface]]
 name = "part"
 shape = {shape}
@@ -40,7 +41,7 @@ def told(folder: Path, triangles: np.ndarray | None = None, **given: object) -> 
     """Return the exit status and the report of `surface` on a scene."""
     if triangles is not None:
         (folder / "part.stl").write_bytes(stl(triangles))
-    words = {"stock": BLOCK, "shape": MESH, "place": "", "pitch": 4, "passes": ""} | given
+    words = {"stock": BLOCK, "shape": MESH, "place": "", "pitch": 4, "passes": "", "tool": ""} | given
     (folder / "s.toml").write_text(SCENE.format(**words))
     status = main(["surface", str(folder / "s.toml"), "-o", str(folder / "s.ngc"), "--report", str(folder / "r.json"), "--quiet"])
     return status, json.loads((folder / "r.json").read_text()) if (folder / "r.json").exists() else {}
@@ -104,6 +105,21 @@ def test_a_part_that_does_not_lie_in_its_stock_is_told(tmp_path: Path, move: lis
     assert [finding for finding in report["findings"] if finding["kind"] == kind and words in finding["text"]]
 
 
+@pytest.mark.parametrize(("top", "flutes", "counts"), [
+    (15.0, "", False), (15.0, "flute_length = 9", True), (8.0, "", None), (15.0, "flute_length = 20", None),
+])  # fmt: skip
+def test_passes_through_metal_that_nothing_has_roughed_are_told(tmp_path: Path, top: float, flutes: str, counts: bool | None) -> None:
+    """A ball of 6, 4 mm beside its last pass, takes 59.04 mm2 below a top at 15, a slot of its width and 9.84 mm, less at the ends."""
+    shape = '{ kind = "plane", corner = [0, 0, 0], along = [40, 0, 0], across = [0, 20, 0] }'
+    status, report = told(tmp_path, shape=shape, stock=f"box = [0, 0, -5, 40, 20, {top}]", tool=flutes)
+    found = [finding for finding in report["findings"] if finding["kind"] == "engagement"]
+    assert status == int(bool(counts)) and [finding["counts"] for finding in found] == ([] if counts is None else [counts])
+    for finding in found:
+        assert 9.2 < finding["amount"] <= 9.84 and 0 <= finding["x"] <= 40 and finding["y"] in (4.0, 8.0, 12.0, 16.0)
+        assert ("its flutes are 9 mm long" if flutes else "it is 6 mm wide") in finding["text"]
+        assert "rough the part first" in finding["text"]
+
+
 def test_passes_that_touch_no_metal_are_told(tmp_path: Path) -> None:
     shape = '{ kind = "plane", corner = [0, 0, 0], along = [20, 0, 0], across = [0, 20, 0] }'
     status, report = told(tmp_path, shape=shape, stock="box = [0, 0, -5, 20, 20, 0]")
@@ -154,7 +170,7 @@ def test_a_level_sheet_is_followed_as_far_as_it_goes(tmp_path: Path) -> None:
 
 def test_a_mesh_that_was_cut_off_is_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "part.stl").write_bytes(stl(np.tile(pocketed_block(), (10, 1, 1)))[:2000])
-    (tmp_path / "s.toml").write_text(SCENE.format(stock=BLOCK, shape=MESH, place="", pitch=4, passes=""))
+    (tmp_path / "s.toml").write_text(SCENE.format(stock=BLOCK, shape=MESH, place="", pitch=4, passes="", tool=""))
     assert main(["surface", str(tmp_path / "s.toml"), "-o", str(tmp_path / "s.ngc")]) == 2
     said = [line for line in capsys.readouterr().err.splitlines() if line.startswith("hitofude: ")]
     assert said == ["hitofude: part.stl: this STL file was cut off: it has 2,000 bytes of the 14,084 that its 280 triangles take; "
