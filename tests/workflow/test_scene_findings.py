@@ -190,3 +190,20 @@ def test_a_way_that_ends_where_the_path_is_as_steep_as_upright_ends() -> None:
     assert math.hypot(8.9998, 12.0) == pytest.approx(12 + 3, abs=2e-4)
     way = follower.between((-6.8512, -13.0), (-8.9998, -12.0))
     assert way is None or way[-1, 2] < -2.9
+
+
+@pytest.mark.parametrize(("pitch", "status", "words"), [
+    (0.3, 0, "0.000 mm2 left within reach"), (2.0, 1, "of metal within reach is left in"),
+])  # fmt: skip
+def test_what_the_chord_tolerance_leaves_is_no_metal_left_and_what_the_pitch_leaves_is(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], pitch: float, status: int, words: str
+) -> None:
+    """A wave that a ball of 6 reaches everywhere: chords lie up to 0.01 above it, square to it, ridges of a pitch of 2 are 0.17 high."""
+    x = np.linspace(0.0, 60.0, 161)
+    places = np.array([[(at, y, 6 * math.sin(2 * math.pi * at / 40) - 8) for y in (0.0, 20.0)] for at in x.tolist()])
+    a, b, c, d = places[:-1, 0], places[1:, 0], places[1:, 1], places[:-1, 1]
+    wave = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+    told(tmp_path, wave, stock="box = [0, 0, -20, 60, 20, 0]", pitch=pitch)
+    capsys.readouterr()
+    assert main(["cut", str(tmp_path / "s.ngc"), "--against", str(tmp_path / "s.toml"), "--grid", "512"]) == status
+    assert words in capsys.readouterr().out
