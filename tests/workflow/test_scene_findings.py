@@ -198,7 +198,10 @@ def test_a_way_that_ends_where_the_path_is_as_steep_as_upright_ends() -> None:
 def test_what_the_chord_tolerance_leaves_is_no_metal_left_and_what_the_pitch_leaves_is(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], pitch: float, status: int, words: str
 ) -> None:
-    """A wave that a ball of 6 reaches everywhere: chords lie up to 0.01 above it, square to it, ridges of a pitch of 2 are 0.17 high."""
+    """A wave that a ball of 6 reaches everywhere, as it bends by 1 / (6 (2 pi / 40)²) = 6.75 at most, and no place of it is out of reach.
+
+    Chords lie up to 0.01 above it, square to it, ridges of a pitch of 2 are 0.17 high.
+    """
     x = np.linspace(0.0, 60.0, 161)
     places = np.array([[(at, y, 6 * math.sin(2 * math.pi * at / 40) - 8) for y in (0.0, 20.0)] for at in x.tolist()])
     a, b, c, d = places[:-1, 0], places[1:, 0], places[1:, 1], places[:-1, 1]
@@ -206,4 +209,5 @@ def test_what_the_chord_tolerance_leaves_is_no_metal_left_and_what_the_pitch_lea
     told(tmp_path, wave, stock="box = [0, 0, -20, 60, 20, 0]", pitch=pitch)
     capsys.readouterr()
     assert main(["cut", str(tmp_path / "s.ngc"), "--against", str(tmp_path / "s.toml"), "--grid", "512"]) == status
-    assert words in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert words in said and "0.000 mm2 out of reach" in said
