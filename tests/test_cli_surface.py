@@ -68,7 +68,8 @@ def test_the_table_of_points_has_the_crossings_in_closed_form(tmp_path: Path) ->
 def test_the_report_tells_what_the_cutter_met_in_closed_form(tmp_path: Path) -> None:
     data = json.loads(written(tmp_path)["json"].read_text())
     assert data["gouge"]["count"] == 0 and data["gouge"]["max_mm"] <= 1e-4
-    assert data["rapids_in_material"] == [] and data["findings"] == []
+    assert data["rapids_in_material"] == []
+    assert [(finding["kind"], finding["counts"]) for finding in data["findings"]] == [("engagement", False)]  # the stock is not roughed
     (passes,) = data["passes"]
     middle = [mark for mark in passes["path"]["boundaries"] if mark["y"] == 10.0]
     reach = [np.sqrt((radius + 2) ** 2 - 4) for radius in (8, 6)]  # a ball of radius 2 on the table, touching a sphere

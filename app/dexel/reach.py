@@ -83,10 +83,16 @@ def _lowest(wanted: Heights, led: Cutter | None, cuts: Cutter, pitch: float, pro
 def reachable(left: NDArray[np.bool_], sure: NDArray[np.bool_], possible: NDArray[np.bool_], cells: int) -> NDArray[np.bool_]:
     """Return which of the cells that are left count as within reach: sure ones, and possible ones in places that are wide enough.
 
-    Beside inner corners possible reach is too wide by a part of a cell; what is no wider than so many cells is no finding.
+    Beside inner corners possible reach is too wide by a part of a cell; what is no wider than so many cells is no finding. What may be
+    reached and hangs together with what counts is the rim of that place: on slopes heights differ within a cell by more than a rim does.
     """
     import cv2
 
     maybe = (left & possible).astype(np.uint8)
     opened = cv2.morphologyEx(maybe, cv2.MORPH_OPEN, np.ones((cells, cells), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0)
-    return np.asarray((left & sure) | opened.astype(bool))
+    sure_ones = (left & sure) | opened.astype(bool)
+    count, labels = cv2.connectedComponents((maybe.astype(bool) | sure_ones).astype(np.uint8), connectivity=8)
+    found = np.zeros(count, np.bool_)
+    found[labels[sure_ones]] = True
+    found[0] = False
+    return np.asarray(found[labels])

@@ -2,8 +2,8 @@
 
 The corners of a triangle go counter-clockwise round its outward normal. Files do not always keep to that, and whoever asks a normal
 which side the metal is on believes them. So neighbours are made to agree across every edge that two triangles share, which
-settles each connected patch but for one sign; that comes from the volume that it encloses. A shell within another one keeps its
-turn to it: a hollow is wound against what it is in, and where the outer shell has to be turned over, all that is in it turns as well.
+settles each connected patch but for one sign; that comes from the volume that it encloses, and from how deep it is nested: what is
+wholly within one shell is a hollow, whichever way its file winds it, and what is within a hollow is metal again.
 """
 
 from __future__ import annotations
@@ -19,6 +19,9 @@ Ints = NDArray[np.int64]
 
 _WITHIN = 0.75
 """Of a turn: a place that a surface winds round by more is in it; one on it has a half."""
+
+_ASKED = 64
+"""Triangles of a shell whose corners are asked whether they are in another one; bodies that go through one another are each metal."""
 
 _NOTHING = 1e-9
 """Of the extent cubed: a surface that encloses no more is folded flat."""
@@ -177,15 +180,13 @@ def _turned_shells(triangles: Floats, turned: NDArray[np.bool_], shell: Ints) ->
     hollow = np.abs(volume) <= _NOTHING * np.max(high - low, axis=1) ** 3
     if hollow.all():
         return turned, int(3 * order[0])
-    turned = turned.copy()
-    for k in np.flatnonzero((volume < 0) & ~hollow).tolist():
-        outer = np.all((low <= low[k]) & (high >= high[k]), axis=1)
-        inner = np.all((low >= low[k]) & (high <= high[k]), axis=1)
-        outer[k] = inner[k] = False
-        if not any(_holds(wound[rows[n]], wound[rows[k]]) for n in np.flatnonzero(outer).tolist()):
+    turned, shapes = turned.copy(), [wound[each] for each in rows]
+    for k in np.flatnonzero(~hollow).tolist():
+        around = np.all((low <= low[k]) & (high >= high[k]), axis=1) & ~hollow
+        around[k] = False
+        depth = sum(_holds(shapes[n], shapes[k]) for n in np.flatnonzero(around).tolist())
+        if (volume[k] < 0) == (depth % 2 == 0):
             turned[rows[k]] ^= True
-            for n in np.flatnonzero(inner).tolist():
-                turned[rows[n]] ^= _holds(wound[rows[k]], wound[rows[n]])
     return turned, -1
 
 
@@ -208,9 +209,11 @@ def _shells(edges: Edges, patch: Ints, forward: NDArray[np.bool_]) -> Ints:
 
 
 def _holds(outer: Floats, inner: Floats) -> bool:
-    """Return whether a closed surface holds another one that does not go through it: by a place of its largest triangle."""
+    """Return whether a closed surface holds all of another one: its largest triangle's middle, and corners of triangles all over it."""
     size = np.linalg.norm(np.cross(inner[:, 1] - inner[:, 0], inner[:, 2] - inner[:, 0]), axis=1)
-    return abs(winding_number(outer, inner[int(np.argmax(size))].mean(axis=0))) > _WITHIN
+    spread = inner[:: max(1, len(inner) // _ASKED)].reshape(-1, 3)
+    places = [inner[int(np.argmax(size))].mean(axis=0), *spread]
+    return all(abs(winding_number(outer, place)) > _WITHIN for place in places)
 
 
 def winding_number(triangles: Floats, place: Floats) -> float:

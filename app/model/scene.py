@@ -134,7 +134,7 @@ class Passes:
         line: x0, y0, x1, y1 of the first line instead.
         pitch: from plane to plane, mm; or scallop: greatest height of the ridges between passes, mm. Exactly one.
         stock_to_leave: metal left on the surfaces on purpose, mm, >= 0.
-        chord_tolerance: farthest that a path's chords are off the true path, mm.
+        chord_tolerance: farthest that a path is above the true one, square to it, mm.
         boundary: where to go; none: wherever there is a surface.
         floor: the tip goes no lower, mm, or None.
         link_gap: ends of passes nearer than this are joined over the surface rather than by a retract, mm; None: as the tool needs.

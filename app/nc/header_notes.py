@@ -22,6 +22,7 @@ Comments that begin with `hitofude:` hold one `key=value` each, in this order an
     tool=NUMBER,KIND,DIAMETER                       one a tool, in the order of use, those that make no moves last; ,CORNER,TIP,ANGLE
                                                     behind it (radius of the corner, diameter of the tip, full angle in degrees)
                                                     where it has one of them
+    plunge_mm_min=NUMBER,RATE                       of programs over surfaces: how fast each tool is fed straight down
     operation=KIND,TOOL,DEPTH,STOCK_TO_LEAVE        one an operation, also one that makes no moves: pocket, rest, contour, drill; of a
                                                     contour that runs elsewhere than inside the walls ,outside or ,on behind it
     operation_layer=N,NAME                          of the operation before it, the N-th: one a layer that it alone machines

@@ -20,6 +20,7 @@ from app.surface.compound import Boundaries, BoundaryKind, Compound, Planes, Run
 from app.surface.drop_cutter import shape_of
 from app.surface.facets import Facets, surface_parameters
 from app.surface.planes import Stretch, extent_on, stretches
+from app.surface.thinning import Thinning, thinned
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -29,6 +30,10 @@ ALLOWED = 9.99e-5
 _WHILE_MADE = 9.7e-5
 """mm; paths are made with less, so that their written text is proven again with a hair to spare."""
 _FINE = 1e-7
+_PART, _LEAST, _MOST = 0.05, 1e-4, 0.25
+"""Of the tolerance, mm, and of the tolerance at most: so far above where it could be a path may be before points are left out."""
+_TWICE = 2.0
+"""Times as high as in its middle a chord may be elsewhere, over a path that bends upwards all along it."""
 _ROOM = 4096
 _CHORDS = 2_000
 _NEAR = 1e-9
@@ -57,7 +62,7 @@ class FollowOptions:
 
     Attributes:
         leave: metal left on them on purpose, mm, >= 0.
-        tolerance: so far above where it could be the tip may go between two points, mm, > 0.
+        tolerance: so far above where it could be the tip may go, square to its way, mm, > 0.
         grid: places are rounded to it, tips up to it, mm, as they will be written; 0: not at all.
     """
 
@@ -70,10 +75,10 @@ class Follower:
     """One tool over surfaces, along any line."""
 
     def __init__(self, facets: Facets, tool: Tool, options: FollowOptions = FollowOptions()) -> None:
-        from app.surface import contact_kernels, follow_kernels
+        from app.surface import contact_kernels
 
-        self.facets, self.tolerance = facets, options.tolerance
-        self._kernels = follow_kernels
+        self.facets, self.options = facets, options
+        self.tolerance = min(max(_PART * options.tolerance, _LEAST), _MOST * options.tolerance)
         tree = facets.tree
         self._held = tree.held
         self._order, self._leave = tree.order, options.leave
@@ -81,7 +86,7 @@ class Follower:
         if options.leave:
             contact_kernels.thicken(shape_of(tool), options.leave, self._shape)
         least = max(1e-6, 2 * options.grid)
-        self._rules = np.array([max(tool.radius / 2, 4 * least), options.tolerance, _WHILE_MADE, least, options.grid,
+        self._rules = np.array([max(tool.radius / 2, 4 * least), self.tolerance, _WHILE_MADE, least, options.grid,
                                 float(facets.error.max()), _FINE])  # fmt: skip
 
     def along(self, planes: Planes, plane: int, part: Stretch) -> Floats:
@@ -91,37 +96,50 @@ class Follower:
     def between(self, start: tuple[float, float], end: tuple[float, float]) -> Floats | None:
         """Return points (n, 3) of the way straight from one place to another, as low as the surfaces let the tip; None: it has a gap,
         or cannot be proven."""
+        from app.surface import point_kernels as k
+
         far = math.dist(start, end)
         try:
             rows = self._rows(np.array([*start, (end[0] - start[0]) / far, (end[1] - start[1]) / far, 0.0, far]))
         except GeometryError:
             return None
-        k = self._kernels
-        whole = len(rows) > 1 and rows[0, k.S] == 0.0 and rows[-1, k.S] == far and not (rows[1:, k.NEW] == k.BEGINS).any()
-        return rows[:, k.X : k.Z + 1] if whole else None
+        if not (len(rows) > 1 and rows[0, k.S] == 0.0 and rows[-1, k.S] == far) or (rows[1:, k.NEW] == k.BEGINS).any():
+            return None
+        (rows,) = self.thinned([rows], ((end[0] - start[0]) / far, (end[1] - start[1]) / far))
+        return rows[:, k.X : k.Z + 1].copy()
 
-    def proven(self, chords: Floats, progress: Progress = NO_PROGRESS) -> NDArray[np.bool_]:
-        """Return which ways (m, 6) of the tip, from a place to a place, go nowhere deeper than ALLOWED into what is to be left."""
+    def thinned(self, rows: Sequence[Floats], along: tuple[float, float], progress: Progress = NO_PROGRESS) -> list[Floats]:
+        """Return rows along lines of one direction with as few points as the tolerance allows."""
+        room = self.options.tolerance - _TWICE * self.tolerance
+        return thinned(rows, Thinning(along, room, self.options.grid, self.facets.owner, self._proven), progress)
+
+    def _proven(self, chords: Floats, progress: Progress) -> NDArray[np.bool_]:
+        return self.proven(chords, progress, _WHILE_MADE)
+
+    def proven(self, chords: Floats, progress: Progress = NO_PROGRESS, allowed: float = ALLOWED) -> NDArray[np.bool_]:
+        """Return which ways (m, 6) of the tip, from a place to a place, go nowhere deeper than allowed into what is to be left."""
         from app.surface import way_kernels
 
         lowered = np.ascontiguousarray(chords - np.array([0, 0, self._leave, 0, 0, self._leave]))
         found = np.zeros(len(chords), np.bool_)
         spans = [(first, min(first + _CHORDS, len(chords))) for first in range(0, len(chords), _CHORDS)]
-        waiting = [pool().submit(way_kernels.clear_all, self._held, self._shape, lowered, *span, ALLOWED, found) for span in spans]
+        waiting = [pool().submit(way_kernels.clear_all, self._held, self._shape, lowered, *span, allowed, found) for span in spans]
         for n, each in enumerate(waiting):
             each.result()
             progress.step((n + 1) / len(waiting), "Proving")
         return found
 
     def _rows(self, line: Floats) -> Floats:
-        k = self._kernels
+        from app.surface import follow_kernels
+        from app.surface import point_kernels as k
+
         room = _ROOM
         while True:
             out = np.empty((room, k.COLUMNS))
-            count = k.follow(self._held, self._shape, line, self._rules, out)
+            count = follow_kernels.follow(self._held, self._shape, line, self._rules, out)
             if count >= 0:
                 break
-            if count == k.NO_PROOF or room > 1 << 24:
+            if count == follow_kernels.NO_PROOF or room > 1 << 24:
                 x, y = line[:2] + line[4] * line[2:4]
                 raise GeometryError(f"the pass from ({x:.3f}, {y:.3f}) could not be proven; make its tolerance larger.")
             room *= 4
@@ -152,7 +170,7 @@ def cutter_path(follower: Follower, planes: Planes, area: shapely.Geometry | Non
     whole, across = extent_on(planes, facets.triangles[:, :, :2].reshape(-1, 2))
     beside = [overrun.far > 0 and not across[0] - _NEAR <= offset <= across[1] + _NEAR for offset in planes.offsets]
     jobs = [(plane, part) for plane in range(len(beside)) if not beside[plane] for part in stretches(planes, plane, whole, area)]
-    rows = _followed(follower, planes, jobs, progress.part(0.0, 0.9 if overrun.far > 0 else 1.0))
+    rows = _followed(follower, planes, jobs, progress.part(0.0, 0.7 if overrun.far > 0 else 0.8))
     if overrun.far > 0:
         outer = whole[0] - overrun.far, whole[1] + overrun.far
         allowed = _allowed(planes, outer, overrun, area)
@@ -160,15 +178,16 @@ def cutter_path(follower: Follower, planes: Planes, area: shapely.Geometry | Non
                 for piece in ((outer,) if beyond else ((outer[0], whole[0]), (whole[1], outer[1])))
                 for part in stretches(planes, plane, piece, allowed) if part[1] - part[0] > _SHORT]
         lowest = max(overrun.floor, min((float(each[:, _z()].min()) for each in rows if len(each)), default=-math.inf))
-        more, outside = _outside(follower, planes, more, lowest, progress.part(0.9, 1.0))
+        more, outside = _outside(follower, planes, more, lowest, progress.part(0.7, 0.8))
         jobs, rows = _in_a_row([*jobs, *more], [*rows, *outside])
     kept, numbers = _used(planes, beside, [plane for (plane, _), each in zip(jobs, rows, strict=True) if len(each) > 1])
     chosen = [k for k, (plane, _) in enumerate(jobs) if plane in numbers]
-    return _compound(facets, kept, [numbers[jobs[k][0]] for k in chosen], [rows[k] for k in chosen])
+    few = follower.thinned([rows[k] for k in chosen], planes.along, progress.part(0.8, 1.0))
+    return _compound(facets, kept, [numbers[jobs[k][0]] for k in chosen], few)
 
 
 def _z() -> int:
-    from app.surface.follow_kernels import Z
+    from app.surface.point_kernels import Z
 
     return Z
 
@@ -207,7 +226,7 @@ def _outside(follower: Follower, planes: Planes, jobs: Sequence[tuple[int, Stret
 
 def _above(rows: Floats, lowest: float, tolerance: float) -> list[Stretch]:
     """Return from where to where points are above a height; where a chord goes below it, so early that the true path does not."""
-    from app.surface import follow_kernels as k
+    from app.surface import point_kernels as k
 
     found: list[Stretch] = []
     start = None
@@ -231,7 +250,7 @@ def _above(rows: Floats, lowest: float, tolerance: float) -> list[Stretch]:
 
 def _in_a_row(jobs: Sequence[tuple[int, Stretch]], rows: Sequence[Floats]) -> tuple[list[tuple[int, Stretch]], list[Floats]]:
     """Return the stretches in the order of their planes and along them, those joined that meet at one point."""
-    from app.surface import follow_kernels as k
+    from app.surface import point_kernels as k
 
     found: list[tuple[int, Stretch]] = []
     made: list[Floats] = []
@@ -255,21 +274,22 @@ def _used(planes: Planes, beside: Sequence[bool], touched: Sequence[int]) -> tup
 
 def _compound(facets: Facets, planes: Planes, numbers: Sequence[int], parts: Sequence[Floats]) -> Compound:
     """Return rows of points as runs and boundary points."""
-    from app.surface import follow_kernels as k
+    from app.surface import point_kernels as k
 
     runs: list[Run] = []
     for plane, rows in zip(numbers, parts, strict=True):
         starts = np.flatnonzero(rows[:, k.NEW] == k.BEGINS)
         for first, stop in pairwise([*starts.tolist(), len(rows)]):
-            if stop - first > 1:
-                owner = facets.owner[rows[first : stop - 1, k.FACET].astype(np.int64)]
-                runs.append(Run(plane, rows[first:stop, k.X : k.Z + 1].copy(), owner))
+            points, owner = rows[first:stop, k.X : k.Z + 1], facets.owner[rows[first : stop - 1, k.FACET].astype(np.int64)]
+            apart = (np.diff(points, axis=0) != 0).any(axis=1)  # a boundary point may be written where its neighbour is
+            if apart.any():
+                runs.append(Run(plane, points[np.append(apart, True)], owner[apart]))
     return Compound(planes, tuple(runs), _boundaries(facets, planes, numbers, parts))
 
 
 def _boundaries(facets: Facets, planes: Planes, numbers: Sequence[int], parts: Sequence[Floats]) -> Boundaries:
     """Return where the path passes from surface to surface: where it touches both, and where it jumps from one to the other."""
-    from app.surface import follow_kernels as k
+    from app.surface import point_kernels as k
 
     found: list[tuple[int, Floats, Floats, bool]] = []
     for plane, rows in zip(numbers, parts, strict=True):
@@ -279,9 +299,9 @@ def _boundaries(facets: Facets, planes: Planes, numbers: Sequence[int], parts: S
             found.append((plane, rows[n], rows[n], False))
         corners = np.flatnonzero(rows[:, k.NEW] == k.CORNER)
         for n in corners[(corners > 0) & (corners < len(rows) - 1)].tolist():
-            if facets.owner[right[n - 1]] != facets.owner[left[n + 1]]:
+            if not met[n + 1] and facets.owner[right[n - 1]] != facets.owner[left[n + 1]]:
                 found.append((plane, rows[n - 1], rows[n + 1], True))
-    found.sort(key=lambda each: (each[0], each[1][k.S]))
+    found.sort(key=lambda each: (each[0], each[1][k.MET]))
     if not found:
         return Boundaries.none()
     where = np.array([each[0] for each in found])
@@ -291,8 +311,8 @@ def _boundaries(facets: Facets, planes: Planes, numbers: Sequence[int], parts: S
     other = np.where(jump, there[:, k.LEFT], there[:, k.FACET]).astype(np.int64)
     at_one = np.where(jump[:, None], here[:, [k.U, k.V]], here[:, [k.LEFT_U, k.LEFT_V]])
     at_other = np.where(jump[:, None], there[:, [k.LEFT_U, k.LEFT_V]], there[:, [k.U, k.V]])
-    place = np.array([(*planes.place(p, s), z) for p, s, z in zip(where.tolist(), here[:, k.S], here[:, k.TRUE_Z], strict=True)])
-    end = np.array([(*planes.place(p, s), z) for p, s, z in zip(where.tolist(), there[:, k.S], there[:, k.TRUE_Z], strict=True)])
+    place = np.array([(*planes.place(p, s), z) for p, s, z in zip(where.tolist(), here[:, k.MET], here[:, k.TRUE_Z], strict=True)])
+    end = np.array([(*planes.place(p, s), z) for p, s, z in zip(where.tolist(), there[:, k.MET], there[:, k.TRUE_Z], strict=True)])
     sides = (surface_parameters(facets, one, at_one), surface_parameters(facets, other, at_other))
     kind = np.where(jump, BoundaryKind.JUMP, kinds_of(facets, (one, other), sides))
     return Boundaries(where, facets.owner[one], facets.owner[other], place, end, *sides, kind.astype(np.uint8))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
 from app.workflow.closer import Metal, Way
 from app.workflow.course import KnownCourse
+from app.workflow.fast_plunges import fast_plunges
 from app.workflow.holder_contacts import Contact, HolderLook, holder_contacts
 from app.workflow.narrow_rapids import Looked, narrow_rapids
 from app.workflow.plunges import plunges
@@ -37,6 +38,7 @@ class Stage:
     Attributes:
         metal: of the setup, as it is at any time of this program. tools: by T number.
         where: words for the place of a motion in the text, such as "NC line 7", by its row.
+        plunge_rates: that the program's header names, mm/min, by T number.
     """
 
     known: KnownCourse
@@ -45,6 +47,7 @@ class Stage:
     metal: Metal
     tools: Mapping[int, Tool]
     where: Callable[[int], str]
+    plunge_rates: Mapping[int, float]
 
     @property
     def motions(self) -> Motions:
@@ -91,7 +94,8 @@ def accidents(stage: Stage, progress: Progress = NO_PROGRESS) -> Accidents:
     looked = narrow_rapids(stage.known.course, stage.metal, stage.before, stage.cut.rapids, progress.part(0.0, 0.3))
     holders = holder_contacts(stage.known.course, stage.before, stage.cutters, stage.tools, progress.part(0.3, 0.7))
     findings = (*_start(stage), *_rapids(stage, looked), *_sideways_out(stage), *_at_unknown_places(stage),
-                *_plunges(stage, progress.part(0.7, 1.0)), *_holders(stage, holders), *_below_table(stage))  # fmt: skip
+                *_plunges(stage, progress.part(0.7, 0.85)), *_fast_plunges(stage, progress.part(0.85, 1.0)),
+                *_holders(stage, holders), *_below_table(stage))  # fmt: skip
     return Accidents(findings, looked.rapids, holders)
 
 
@@ -191,6 +195,18 @@ def _plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
         yield Finding(FindingKind.PLUNGE, f"{len(found) - NAMED} more times a mill goes down into metal that does not cut at its centre.",
                       amount=float(len(found) - NAMED))  # fmt: skip
     yield from _unseen(stage, all_found.unseen, "ways down")
+
+
+def _fast_plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
+    """Yield, for each tool, its descents into metal at the feed for going sideways."""
+    for each in fast_plunges(stage.metal, stage.before, stage.tools, stage.plunge_rates, progress):
+        others = "" if each.count == 1 else f", the deepest of {each.count} such descents"
+        said = "which is how fast it cuts sideways, too" if each.rate is None else f"where its plunge rate is {each.rate:.0f} mm/min"
+        remedy = "slow it down, or ramp in" if each.rate is not None else "see that it may, or slow it down"
+        text = (f"T{each.tool} goes straight down into metal at {each.feed:.0f} mm/min, {said}: {each.depth:.3f} mm deep at "
+                f"({each.x:.3f}, {each.y:.3f}), {stage.where(each.motion)}{others}; {remedy}.")
+        found = stage.told(FindingKind.FEED, text, each.motion, (each.x, each.y), each.depth)
+        yield replace(found, counts=each.rate is not None)
 
 
 def _holders(stage: Stage, looked: HolderLook) -> Iterator[Finding]:

@@ -236,7 +236,9 @@ class _Run:
     def _stage(self, k: int, before: Workpiece, after: Cut, done: int) -> Stage:
         """Return a program as it was cut; `done` motions were before it."""
         metal = Metal(self.setup.stock, tuple(known.course for known in self.courses[: k + 1]), self.cutters)
-        return Stage(self.courses[k], before, after, metal, self.setup.tools, lambda row: self.setup.where(done + row))
+        header = self.setup.programs[k].header
+        rates = {} if header is None else dict(header.plunge_rates)
+        return Stage(self.courses[k], before, after, metal, self.setup.tools, lambda row: self.setup.where(done + row), rates)
 
     def box(self) -> StockBox:
         """Return the box round all of the stock, program coordinates; of a window nobody knows how high the rest is."""

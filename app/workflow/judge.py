@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from app.dexel.cutter import Cutter
 from app.dexel.reach import reach_of, reachable
-from app.dexel.target import Target, frozen, solid_target
+from app.dexel.target import MARGIN, Target, frozen, solid_target
 from app.dexel.trim import Cut
 from app.dexel.workpiece import Grid, Stock
 from app.progress import NO_PROGRESS, Progress
@@ -35,6 +35,9 @@ APART = 1.0
 """mm between gouges that are told one by one."""
 
 MOST_GOUGES = 100
+
+STEEPEST = 10.0
+"""mm up per mm sideways; steeper places count as that steep."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +73,7 @@ def wanted_over(part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...],
         target, reach = flat.target, flat.reach
     else:
         target = solid_target(part.solid, grid, part.leave, progress)
+        target = replace(target, high=target.high + _upright(target, part.allowance))
         left = target.deviation(cut.heights) > part.tolerance
         reach = ~left
         if left.any() and cutters:
@@ -77,6 +81,18 @@ def wanted_over(part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...],
             sure, possible = (height <= target.high + np.float32(part.tolerance) for height in lowest.over(grid))
             reach |= reachable(left, sure, possible, max(3, math.ceil(3 * lowest.grid.pitch / grid.pitch)))
     return Wanted(replace(target, low=np.minimum(target.low, cut.before.heights)), reach, solid)
+
+
+def _upright(target: Target, allowance: float) -> NDArray[np.float32]:
+    """Return what an allowance square to a part's surface is straight up, at each cell; at walls it is as for a slope of 10."""
+    own = slice(MARGIN, -MARGIN)
+    if not allowance:
+        return np.zeros_like(target.high)
+    with np.errstate(invalid="ignore"):  # beside the part there is no height
+        slopes = np.gradient(target.around, target.grid.pitch)
+    north, east = (np.nan_to_num(slope, nan=STEEPEST, posinf=STEEPEST, neginf=STEEPEST) for slope in slopes)
+    rise = np.hypot(north, east)
+    return np.asarray(allowance * np.hypot(1.0, np.minimum(rise[own, own], STEEPEST)), np.float32)
 
 
 @dataclass(frozen=True, eq=False)

@@ -72,12 +72,15 @@ class SolidPart:
         leave: stock to be left on all of its surface, mm, >= 0.
         tolerance: within which its surface counts as met, mm.
         block: what it is cut from, program coordinates, where it is surfaces seen from above: these may go on beyond it.
+        allowance: so much more metal may stay on its surface, square to it, mm: how far paths may lie above theirs. It is taken off what is
+            told to be left, and says nothing of gouges.
     """
 
     solid: SolidStock
     leave: float = 0.0
     tolerance: float = TOLERANCE
     block: StockBox | None = None
+    allowance: float = 0.0
 
 
 Part = FlatPart | SolidPart

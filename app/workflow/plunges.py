@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from app.dexel.course import Course
 from app.dexel.cutter import Cutter
-from app.dexel.trim import trim
 from app.dexel.workpiece import Workpiece
 from app.model.motion import Floats, MotionKind, Plane
 from app.model.motion_path import arc_paths
 from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
-from app.workflow.closer import MOST, NARROW, Metal, Way
-from app.workflow.course import inserted, picked, straight
+from app.workflow.closer import Metal, Way
+from app.workflow.course import picked
+from app.workflow.led_ways import hits_along
 
 PIN = 0.25
 """Part of a cutter's radius, round its axis, in which it does not cut if it does not cut at its centre."""
@@ -95,9 +95,10 @@ def plunges(metal: Metal, before: Workpiece, progress: Progress = NO_PROGRESS) -
     runs = list(_runs(course, metal.cutters, float(before.heights.max())))
     if not runs:
         return Plunges(())
-    heights, unseen = _metal_heights(metal, before, runs, progress)
-    found = [_plunge(runs[k], height, int(course.tool[runs[k].rows.start])) for k, height in sorted(heights.items())]
-    return Plunges(tuple(each for each in found if each.aside < metal.cutters[each.tool].radius * PIN), unseen)
+    led = hits_along(metal, before, [run.way for run in runs], progress)
+    heights = ((k, max(hit.z + hit.depth for hit in hits)) for k, hits in sorted(led.hits.items()))
+    found = [_plunge(runs[k], height, int(course.tool[runs[k].rows.start])) for k, height in heights]
+    return Plunges(tuple(each for each in found if each.aside < metal.cutters[each.tool].radius * PIN), led.unseen)
 
 
 def _runs(course: Course, cutters: Mapping[int, Cutter], top: float) -> Iterator[_Run]:
@@ -115,7 +116,7 @@ def _runs(course: Course, cutters: Mapping[int, Cutter], top: float) -> Iterator
     aside = np.hypot(way[:, 0], way[:, 1])
     steep = (-way[:, 2] > RAMP * aside) | _turns_within(course, pin)
     alike = np.select([~down, -way[:, 2] > UPRIGHT * aside, steep], [NONE, 1, 2], 3)
-    for first, last in _alike(alike, course.tool):
+    for first, last in alike_runs(alike, course.tool):
         radius = float(pin[first])
         if _stays(motions.start[first : last + 1], motions.end[first : last + 1], top, radius, not steep[first]):
             yield _run(course, range(first, last + 1), Cutter(radius, radius))
@@ -129,7 +130,7 @@ def _turns_within(course: Course, pin: Floats) -> Mask:
     return np.asarray(arc & (from_centre < pin))
 
 
-def _alike(sort: NDArray[np.int64], tool: NDArray[np.int32]) -> list[tuple[int, int]]:
+def alike_runs(sort: NDArray[np.int64], tool: NDArray[np.int32]) -> list[tuple[int, int]]:
     """Return the first and the last row of unbroken runs of one sort and one tool; those of no sort are left out."""
     first = np.flatnonzero(np.concatenate([[True], (np.diff(sort) != 0) | (np.diff(tool) != 0)]))
     last = np.concatenate([first[1:], [len(sort)]]) - 1
@@ -154,37 +155,6 @@ def _run(course: Course, rows: range, pin: Cutter) -> _Run:
     legs = [chords[k][1:] if k in chords else mine.motions.end[k : k + 1] for k in range(len(rows))]
     row = np.repeat(np.asarray(rows), [len(leg) for leg in legs]).tolist()
     return _Run(rows, row, Way(rows.start, np.concatenate([mine.motions.start[:1], *legs]), pin))
-
-
-def _metal_heights(metal: Metal, before: Workpiece, runs: Sequence[_Run], progress: Progress) -> tuple[dict[int, float], int]:
-    """Return, by run, how high the metal is that the dead centre goes into, and how many runs could not be looked at closer."""
-    top, pitch = float(before.heights.max()), before.grid.pitch
-    asked, cutters, owner = _with_ways(metal.courses[-1], metal.cutters, [run.way for run in runs])
-    found: dict[int, float] = {}
-    for hit in trim(before, asked, cutters, progress=progress.part(0.0, 0.5)).rapids:
-        if owner[hit.motion] >= 0:
-            found[owner[hit.motion]] = max(found.get(owner[hit.motion], -np.inf), hit.z + hit.depth)
-    narrow = [k for k, run in enumerate(runs) if k not in found and run.way.cutter.radius < NARROW * pitch]
-    for done, k in enumerate(narrow[:MOST]):
-        progress.step(0.5 + 0.5 * done / len(narrow), "Looking at plunges")
-        closer = metal.met(runs[k].way, top, pitch)
-        if closer is not None:
-            found[k] = closer.z + closer.depth
-    return found, max(0, len(narrow) - MOST)
-
-
-def _with_ways(course: Course, cutters: Mapping[int, Cutter], ways: Sequence[Way]) -> tuple[Course, dict[int, Cutter], list[int]]:
-    """Return a course that is asked along some ways too, all cutters, and to which way each motion belongs, -1: to none."""
-    radii = sorted({way.cutter.radius for way in ways})
-    first = int(max([*cutters, course.tool.max()])) + 1
-    all_cutters = {**cutters, **{first + k: Cutter(radius, radius) for k, radius in enumerate(radii)}}
-    parts = [way.course().motions for way in ways]
-    sizes = [len(part) for part in parts]
-    more = straight(np.concatenate([part.start for part in parts]), np.concatenate([part.end for part in parts]))
-    tool = np.repeat([first + radii.index(way.cutter.radius) for way in ways], sizes).astype(np.int32)
-    made, owner = inserted(course, np.repeat([way.row for way in ways], sizes), more, tool)
-    way_of = np.append(np.repeat(np.arange(len(ways)), sizes), -1)
-    return made, all_cutters, way_of[owner].tolist()
 
 
 def _plunge(run: _Run, height: float, tool: int) -> Plunge:

@@ -40,7 +40,8 @@ def scene_part(scene: Scene, sources: Sources, zero: Origin | None, leave: float
     x, y, z = origin_of(scene, box) if zero is None else zero
     block = StockBox(box.x0 - x, box.y0 - y, box.z0 - z, box.x1 - x, box.y1 - y, box.z1 - z)
     left = min((passes.stock_to_leave for passes in scene.passes if passes.enabled), default=0.0) if leave is None else leave
-    return SolidPart(SolidStock(_closed(facets.triangles - np.array([x, y, z]))), left, met, block)
+    above = max((passes.chord_tolerance for passes in scene.passes if passes.enabled), default=0.0)
+    return SolidPart(SolidStock(_closed(facets.triangles - np.array([x, y, z]))), left, met, block, above)
 
 
 def _closed(triangles: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,6 +26,7 @@ from app.nc.write import NcFile, Remarks, write_moves
 from app.progress import NO_PROGRESS, Progress
 from app.surface.compound import NO_SURFACE, BoundaryKind
 from app.surface.path import ALLOWED
+from app.workflow.scene_load import load_findings
 from app.workflow.surface import Computed, Family, job_of
 
 Floats = NDArray[np.float64]
@@ -39,6 +41,7 @@ class WrittenScene:
         files: in the order of cutting: one, or one a tool where the control changes no tools.
         programs: each file, read back, its motions anchored.
         unproven: (k, 3) ends of moves, scene coordinates, that may go deeper into a surface than ALLOWED.
+        loads: where tools take too much metal at a time.
     """
 
     computed: Computed
@@ -46,6 +49,7 @@ class WrittenScene:
     files: tuple[NcFile, ...]
     programs: tuple[NcProgram, ...]
     unproven: Floats
+    loads: tuple[Finding, ...] = ()
 
     @property
     def time_s(self) -> float:
@@ -59,7 +63,7 @@ class WrittenScene:
             Finding(FindingKind.GOUGE, f"The move to ({x:.3f}, {y:.3f}, {z:.3f}) could not be proven to stay within {ALLOWED:g} mm of the "
                     "surfaces; make the chord tolerance larger, or check the surfaces there.", x, y)
             for x, y, z in self.unproven.tolist()
-        ))  # fmt: skip
+        ), *self.loads)  # fmt: skip
 
 
 def write_scene_nc(computed: Computed, progress: Progress = NO_PROGRESS) -> WrittenScene:
@@ -78,7 +82,7 @@ def write_scene_nc(computed: Computed, progress: Progress = NO_PROGRESS) -> Writ
     files = write_moves(from_origin, job_of(scene, tools), post, _remarks(computed, post), progress.part(0.0, 0.4))
     programs, unproven = [], [np.zeros((0, 3))]
     for k, file in enumerate(files):
-        share = progress.part(0.4 + 0.6 * k / len(files), 0.4 + 0.6 * (k + 1) / len(files))
+        share = progress.part(0.4 + 0.5 * k / len(files), 0.4 + 0.5 * (k + 1) / len(files))
         share.step(0.0, "Reading the program back")
         program = read_program(file.nc.text.encode(), ReadOptions(dialect=post.dialect), share.part(0.0, 0.3))
         if program.error:
@@ -87,7 +91,17 @@ def write_scene_nc(computed: Computed, progress: Progress = NO_PROGRESS) -> Writ
         _require_same(computed, file, motions)
         unproven.append(_unproven(computed, file, motions, share.part(0.3, 1.0)))
         programs.append(program)
-    return WrittenScene(computed, post, files, tuple(programs), np.concatenate(unproven))
+    loads = tuple(_loads(computed, files, programs, progress.part(0.9, 1.0)))
+    return WrittenScene(computed, post, files, tuple(programs), np.concatenate(unproven), loads)
+
+
+def _loads(computed: Computed, files: Sequence[NcFile], programs: Sequence[NcProgram], progress: Progress) -> Iterator[Finding]:
+    """Return where tools take too much metal at a time; a file that names no tool has the one of its first move."""
+    tools = {family.tool.number: family.tool for family in computed.families}
+    numbers = computed.moves.moves.tool
+    known = [tools | {0: tools[int(numbers[file.first])]} for file in files]
+    return load_findings([replace(program, motions=anchored(program.motions)) for program in programs], known, computed.stock,
+                         np.array(computed.origin), progress)  # fmt: skip
 
 
 def _require_same(computed: Computed, file: NcFile, motions: Motions) -> None:
@@ -161,6 +175,10 @@ def _notes(computed: Computed) -> list[str]:
              f"stock_mm={plain_numbers(box.x0, box.y0, box.z0, box.x1, box.y1, box.z1)}"]  # fmt: skip
     for tool in tools.values():
         notes.append(f"tool={tool.number},{tool.kind.value},{plain_numbers(tool.diameter, *shape_numbers(tool))}")
+    fastest: dict[int, float] = {}
+    for family in computed.families:  # passes may feed one tool in different ways
+        fastest[family.tool.number] = max(family.tool.plunge_rate, fastest.get(family.tool.number, 0.0))
+    notes += [f"plunge_mm_min={plain_numbers(number, rate)}" for number, rate in fastest.items()]
     notes += [f"surface={number},{spelled_name(surface.name)}" for number, surface in enumerate(scene.surfaces, 1)]
     return [f"hitofude: {note}" for note in notes]
 

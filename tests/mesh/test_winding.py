@@ -38,6 +38,28 @@ def test_a_hollow_keeps_its_turn_to_what_it_is_in() -> None:
         assert volume(wound.triangles) == pytest.approx(1000 - 27)
 
 
+@pytest.mark.parametrize("wound_as", [(1, 1, 1), (1, -1, 1), (-1, -1, -1), (1, 1, -1), (-1, 1, -1)], ids=str)
+def test_what_is_wholly_in_a_shell_is_a_hollow_and_what_is_in_that_is_metal(wound_as: tuple[int, int, int]) -> None:
+    """Boxes of 10, 6 and 2 within one another, wound any way: 1000 - 216 + 8 mm3 of metal."""
+    shells = (box((0, 0, 0), (10, 10, 10)), box((2, 2, 2), (8, 8, 8)), box((4, 4, 4), (6, 6, 6)))
+    given_ = np.concatenate([shell if sign > 0 else shell[:, ::-1] for shell, sign in zip(shells, wound_as, strict=True)])
+    wound = right_side_out(given_)
+    assert wound.fault == "" and volume(wound.triangles) == pytest.approx(1000 - 216 + 8)
+    assert int(wound.turned.sum()) == 12 * sum(sign != right for sign, right in zip(wound_as, (1, -1, 1), strict=True))
+    for place, turns in (((1, 1, 1), 1), ((3, 3, 3), 0), ((5, 5, 5), 1)):
+        assert winding_number(wound.triangles, np.array(place, float)) == pytest.approx(turns, abs=1e-9)
+
+
+def test_bodies_that_go_through_one_another_are_each_metal() -> None:
+    """A boss that begins within an L and ends beside it: its corners are not all in it."""
+    plate, wall, boss = box((0, 0, 0), (30, 20, 10)), box((0, 0, 2), (5, 20, 30)), box((12, 5, 4), (20, 15, 16))
+    given_ = np.concatenate([plate, wall, boss])
+    wound = right_side_out(given_)
+    assert wound.fault == "" and not wound.turned.any() and wound.shells == 3
+    around = box((0, 0, 0), (30, 20, 30))  # holds all of it
+    assert right_side_out(np.concatenate([around, boss])).turned.sum() == 12
+
+
 @pytest.mark.parametrize("second", [((10, 10, 0), (20, 20, 10)), ((30, 0, 0), (40, 10, 10))], ids=["touch in an edge", "apart"])
 def test_bodies_that_touch_or_not_are_each_turned_alone(second: tuple[tuple[float, float, float], tuple[float, float, float]]) -> None:
     one, other = box((0, 0, 0), (10, 10, 10)), box(*second)

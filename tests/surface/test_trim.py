@@ -71,7 +71,7 @@ def test_a_path_over_half_a_ball_is_proven_and_ends_where_the_surface_does() -> 
     assert follower.proven(np.concatenate([points[:-1], points[1:]], axis=1)).all()
     upper = np.hypot(points[:, 0], points[:, 1]) < 17
     off = points[:, 2] - over_half_ball(points[:, 0], points[:, 1])
-    assert off[upper].min() >= -1e-4 and off[upper].max() <= 3e-4
+    assert off[upper].min() >= -1e-4 and off[upper].max() <= 0.01 * 22 / math.sqrt(22**2 - 17**2) + 2e-4
 
 
 @pytest.mark.parametrize("radius", [2.0, 4.0, 9.0])

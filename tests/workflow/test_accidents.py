@@ -10,7 +10,7 @@ from app.dexel.workpiece import BoxStock
 from app.model.finding import Finding, FindingKind
 from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
-from app.workflow import closer, narrow_rapids, plunges
+from app.workflow import closer, led_ways, narrow_rapids
 from app.workflow.cut import CutOptions, CutProgram, CutSetup, cut
 from app.workflow.parts import SolidPart
 from tests.dexel.test_target import box
@@ -68,7 +68,7 @@ def test_pecks_go_where_the_drill_was() -> None:
 
 def test_rapids_beyond_the_most_that_are_looked_at_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(narrow_rapids, "MOST", 1)
-    monkeypatch.setattr(plunges, "MOST", 1)
+    monkeypatch.setattr(led_ways, "MOST", 1)
     result = done("G0 Z5\nX10 Y10.25\nG1 Z-1 F200\nX20\nG0 X10\nX20\nX10\nZ5\n")
     assert [(finding.kind, finding.counts, finding.amount) for finding in result.findings] == [(FindingKind.TOLERANCE, False, 2.0)]
     holes = "G0 Z5\nX10 Y10.25\nG1 Z-1 F200\nG0 Z5\nX20\nG1 Z-1\nG0 Z5\n"

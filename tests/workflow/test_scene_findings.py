@@ -22,6 +22,7 @@ kind = "ball"
 diameter = 6.0
 feed_rate = 900
 plunge_rate = 300
+{tool}
 [[surface]]
 name = "part"
 shape = {shape}
@@ -40,7 +41,7 @@ def told(folder: Path, triangles: np.ndarray | None = None, **given: object) -> 
     """Return the exit status and the report of `surface` on a scene."""
     if triangles is not None:
         (folder / "part.stl").write_bytes(stl(triangles))
-    words = {"stock": BLOCK, "shape": MESH, "place": "", "pitch": 4, "passes": ""} | given
+    words = {"stock": BLOCK, "shape": MESH, "place": "", "pitch": 4, "passes": "", "tool": ""} | given
     (folder / "s.toml").write_text(SCENE.format(**words))
     status = main(["surface", str(folder / "s.toml"), "-o", str(folder / "s.ngc"), "--report", str(folder / "r.json"), "--quiet"])
     return status, json.loads((folder / "r.json").read_text()) if (folder / "r.json").exists() else {}
@@ -104,6 +105,21 @@ def test_a_part_that_does_not_lie_in_its_stock_is_told(tmp_path: Path, move: lis
     assert [finding for finding in report["findings"] if finding["kind"] == kind and words in finding["text"]]
 
 
+@pytest.mark.parametrize(("top", "flutes", "counts"), [
+    (15.0, "", False), (15.0, "flute_length = 9", True), (8.0, "", None), (15.0, "flute_length = 20", None),
+])  # fmt: skip
+def test_passes_through_metal_that_nothing_has_roughed_are_told(tmp_path: Path, top: float, flutes: str, counts: bool | None) -> None:
+    """A ball of 6, 4 mm beside its last pass, takes 59.04 mm2 below a top at 15, a slot of its width and 9.84 mm, less at the ends."""
+    shape = '{ kind = "plane", corner = [0, 0, 0], along = [40, 0, 0], across = [0, 20, 0] }'
+    status, report = told(tmp_path, shape=shape, stock=f"box = [0, 0, -5, 40, 20, {top}]", tool=flutes)
+    found = [finding for finding in report["findings"] if finding["kind"] == "engagement"]
+    assert status == int(bool(counts)) and [finding["counts"] for finding in found] == ([] if counts is None else [counts])
+    for finding in found:
+        assert 9.2 < finding["amount"] <= 9.84 and 0 <= finding["x"] <= 40 and finding["y"] in (4.0, 8.0, 12.0, 16.0)
+        assert ("its flutes are 9 mm long" if flutes else "it is 6 mm wide") in finding["text"]
+        assert "rough the part first" in finding["text"]
+
+
 def test_passes_that_touch_no_metal_are_told(tmp_path: Path) -> None:
     shape = '{ kind = "plane", corner = [0, 0, 0], along = [20, 0, 0], across = [0, 20, 0] }'
     status, report = told(tmp_path, shape=shape, stock="box = [0, 0, -5, 20, 20, 0]")
@@ -154,7 +170,7 @@ def test_a_level_sheet_is_followed_as_far_as_it_goes(tmp_path: Path) -> None:
 
 def test_a_mesh_that_was_cut_off_is_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "part.stl").write_bytes(stl(np.tile(pocketed_block(), (10, 1, 1)))[:2000])
-    (tmp_path / "s.toml").write_text(SCENE.format(stock=BLOCK, shape=MESH, place="", pitch=4, passes=""))
+    (tmp_path / "s.toml").write_text(SCENE.format(stock=BLOCK, shape=MESH, place="", pitch=4, passes="", tool=""))
     assert main(["surface", str(tmp_path / "s.toml"), "-o", str(tmp_path / "s.ngc")]) == 2
     said = [line for line in capsys.readouterr().err.splitlines() if line.startswith("hitofude: ")]
     assert said == ["hitofude: part.stl: this STL file was cut off: it has 2,000 bytes of the 14,084 that its 280 triangles take; "
@@ -174,3 +190,24 @@ def test_a_way_that_ends_where_the_path_is_as_steep_as_upright_ends() -> None:
     assert math.hypot(8.9998, 12.0) == pytest.approx(12 + 3, abs=2e-4)
     way = follower.between((-6.8512, -13.0), (-8.9998, -12.0))
     assert way is None or way[-1, 2] < -2.9
+
+
+@pytest.mark.parametrize(("pitch", "status", "words"), [
+    (0.3, 0, "0.000 mm2 left within reach"), (2.0, 1, "of metal within reach is left in"),
+])  # fmt: skip
+def test_what_the_chord_tolerance_leaves_is_no_metal_left_and_what_the_pitch_leaves_is(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], pitch: float, status: int, words: str
+) -> None:
+    """A wave that a ball of 6 reaches everywhere, as it bends by 1 / (6 (2 pi / 40)²) = 6.75 at most, and no place of it is out of reach.
+
+    Chords lie up to 0.01 above it, square to it, ridges of a pitch of 2 are 0.17 high.
+    """
+    x = np.linspace(0.0, 60.0, 161)
+    places = np.array([[(at, y, 6 * math.sin(2 * math.pi * at / 40) - 8) for y in (0.0, 20.0)] for at in x.tolist()])
+    a, b, c, d = places[:-1, 0], places[1:, 0], places[1:, 1], places[:-1, 1]
+    wave = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+    told(tmp_path, wave, stock="box = [0, 0, -20, 60, 20, 0]", pitch=pitch)
+    capsys.readouterr()
+    assert main(["cut", str(tmp_path / "s.ngc"), "--against", str(tmp_path / "s.toml"), "--grid", "512"]) == status
+    said = capsys.readouterr().out
+    assert words in said and "0.000 mm2 out of reach" in said

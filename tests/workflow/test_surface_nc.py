@@ -76,7 +76,7 @@ def test_comments_tell_the_surface_and_the_boundary_point_at_its_place() -> None
     done = write_scene_nc(computed(passes=(Passes(1, pitch=4.0),)))
     (file,) = done.files
     lines = file.nc.text.splitlines()
-    row_of = {line: row for row, line in enumerate(file.nc.lines.tolist())}
+    row_of = dict(reversed([(line, row) for row, line in enumerate(file.nc.lines.tolist())]))  # the first one of each line
     marks = 0
     for number, line in enumerate(lines, 1):
         found = re.match(r"\(Surface (\d) (table|dome), CR12 crossing at (\S+) (\S+) (\S+)\)", line)

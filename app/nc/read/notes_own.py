@@ -51,6 +51,7 @@ def own_notes(comments: Comments) -> Notes:
         (tuple(_name(values) for _, values in told.get("keep_out", [])), _first(told.get("keep_out_height_mm", [])) or 0.0),
         tuple(Tab(*numbers) for numbers in _fives(told.get("tab", []))),
         tuple(DogBone(*numbers) for numbers in _fives(told.get("dog_bone", []))), _reading(told),
+        tuple((int(numbers[0]), numbers[1]) for _, values in told.get("plunge_mm_min", []) if len(numbers := _floats(values)) == 2),
     )  # fmt: skip
     return Notes(tuple(_tools(told.get("tool", []))), _stock(told.get("stock_mm", []), origin or (0.0, 0.0, 0.0)), header)
 

@@ -199,6 +199,7 @@ class HeaderNote:
         copies: of the part.
         keep_out: layers of clamps, and how high these are, mm.
         tabs, dog_bones: where metal was left standing, and where walls were cut into, part coordinates.
+        plunge_rates: T numbers, and how fast each may be fed straight down, mm/min.
     """
 
     origin: tuple[float, float, float] | None = None
@@ -213,6 +214,7 @@ class HeaderNote:
     tabs: tuple[Tab, ...] = ()
     dog_bones: tuple[DogBone, ...] = ()
     reading: ReadOptions = AS_DRAWN
+    plunge_rates: tuple[tuple[int, float], ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
