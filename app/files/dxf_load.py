@@ -53,19 +53,20 @@ def load(data: bytes, name: str) -> Loaded:
     """
     _refuse_others(data, name)
     try:
-        return Loaded(_load_sound(data))
+        return Loaded(_probed(_load_sound(data)))
     except Exception as fault:  # whatever a parser makes of a damaged file: the repairing reader gets its turn
         reason = fault
     commas = Commas(data) if data.startswith(_BINARY) else with_points(data, name)
     if commas.count:
         try:
-            return Loaded(_load_sound(commas.data), 0, replace(commas, data=b""))
+            return Loaded(_probed(_load_sound(commas.data)), 0, replace(commas, data=b""))
         except Exception as fault:  # it has other faults too
             data, reason = commas.data, fault
     try:
         from ezdxf import recover
 
         document, auditor = recover.read(io.BytesIO(data))
+        _probed(document)
     except Exception as error:  # a third-party parser on any bytes at all: its faults must not reach the user raw
         raise InputError(f"{name}: the DXF is damaged and cannot be repaired ({_short(reason)}); "
                          "save it again from the CAD program.") from error
@@ -117,6 +118,17 @@ def _load_sound(data: bytes) -> Any:
         return read(io.TextIOWrapper(io.BytesIO(data), encoding=_encoding(data[:_HEAD]), errors="surrogateescape"))
     text = decode_dxf_unicode(data.decode(_encoding(data[:_HEAD]), "surrogateescape"))
     return read(io.StringIO(text, newline=None))
+
+
+def _probed(document: Any) -> Any:
+    """Return a document whose tables and layouts can be walked; the library loads some that fall apart when they are looked at."""
+    for layout in document.layouts:
+        _ = layout.name, layout.is_modelspace, sum(1 for _ in layout)
+    for layer in document.layers:
+        _ = layer.dxf.name, layer.is_off(), layer.is_frozen(), layer.is_locked(), layer.rgb, layer.dxf.color
+    for block in document.blocks:
+        _ = block.name, sum(1 for _ in block)
+    return document
 
 
 def _encoding(head: bytes) -> str:
