@@ -132,3 +132,20 @@ def test_a_wrong_value_is_shown_in_sixty_letters() -> None:
     with pytest.raises(HitofudeError) as caught:
         read_tools("t.toml", f'[[tool]]\nnumber = "{"x" * 3069}"\n'.encode())
     assert len(str(caught.value)) < 200
+
+
+@pytest.mark.parametrize("where", [
+    b'{"x0": 1%s, "y0": 0, "pitch": 1}' % (b"0" * 400), b'{"x0": 0, "y0": 0, "pitch": 1, "floor": 1%s}' % (b"0" * 400),
+    b'{"x0": 0, "y0": 0, "pitch": 1, "floor": NaN}', b'{"x0": 0, "y0": 1e300, "pitch": 1}', b"[" * 100_000])  # fmt: skip
+def test_a_stock_whose_place_is_absurd_is_refused_in_one_sentence(where: bytes) -> None:
+    data = npy(b"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2), }\n", np.ones(4, np.float32).tobytes())
+    with pytest.raises(InputError, match=r"^s\.npy: this is no field of heights") as caught:
+        read_heights("s.npy", data, where)
+    assert len(str(caught.value)) < 300
+
+
+def test_heights_beyond_what_is_kept_of_them_are_refused() -> None:
+    """Heights are kept as float32, in which 1e300 is infinite."""
+    data = npy(b"{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1), }\n", np.array([1e300]).tobytes())
+    with pytest.raises(InputError, match=r"numbers up to 1e\+06 mm"):
+        read_heights("s.npy", data, WHERE)
