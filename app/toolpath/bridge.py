@@ -141,7 +141,8 @@ def fraction_at(row: Rows, point: np.ndarray) -> float:
     """Return the fraction in [0, 1] of a row's length that is nearest to a point."""
     if row[7] == 0:
         along = row[2:4] - row[:2]
-        return float(np.clip((point - row[:2]) @ along / (along @ along), 0, 1))
+        square = along @ along
+        return float(np.clip((point - row[:2]) @ along / square, 0, 1)) if square > 0 else 0.0
     start = np.arctan2(row[1] - row[5], row[0] - row[4])
     sweep = (np.arctan2(row[3] - row[5], row[2] - row[4]) - start) * row[7] % (2 * np.pi)
     turn = (np.arctan2(point[1] - row[5], point[0] - row[4]) - start) * row[7] % (2 * np.pi)
