@@ -189,8 +189,9 @@ class Walker:
 
     def _bounded(self, count: int, insert: Any = None) -> None:
         if count > MOST_CURVES:
-            where = f" at block {insert.dxf.name}" if insert is not None else ""
-            raise InputError(f"{self._name}: the drawing unfolds to more than {MOST_CURVES} curves{where}; "
+            if insert is None:
+                raise InputError(f"{self._name}: the drawing has more than {MOST_CURVES} curves; save it in parts, or thin it out.")
+            raise InputError(f"{self._name}: the drawing unfolds to more than {MOST_CURVES} curves at block {insert.dxf.name}; "
                              "reduce the rows and columns of its inserted blocks.")
 
 
