@@ -1,4 +1,4 @@
-"""Drawings that meet in nasty ways, and mutated ones, through the whole of `make`: no crash, and no clean verdict that the judge finds wrong."""
+"""Drawings that meet in nasty ways, and mutated ones, through all of `make`: no crash, no clean verdict that the judge finds wrong."""
 
 from __future__ import annotations
 
