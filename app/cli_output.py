@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import Self
 
+from app.errors import printable
 from app.model.finding import Finding, FindingKind
 
 REMARKS = 3
@@ -18,12 +19,15 @@ REMARKS = 3
 COUNTED = 10
 """Findings of one kind that are printed; the report has all."""
 
+_LAYOUT = "\n\t"
+"""Signs of our own; what else a terminal would obey can only come from a file."""
+
 
 def say(text: str) -> None:
     """Print a line to stderr; where that is closed, as under cron, or full, nobody hears it and the work goes on."""
     if sys.stderr is not None:
         with suppress(OSError, ValueError):
-            print(text, file=sys.stderr, flush=True)
+            print(printable(text, _LAYOUT), file=sys.stderr, flush=True)
 
 
 def on_terminal() -> bool:
@@ -57,7 +61,7 @@ def tell(text: str) -> None:
     The work is done when this is called, so that a stdout that fails changes no exit status.
     """
     try:
-        print(text, flush=True)
+        print(printable(text, _LAYOUT), flush=True)
     except BrokenPipeError:
         _let_go()
     except OSError as error:

@@ -2,6 +2,7 @@
 
 import os
 import re
+import unicodedata
 
 MOST_QUOTED = 60
 """Letters of a bad word that are quoted."""
@@ -31,8 +32,33 @@ def _is_path(text: str) -> bool:
     return bool(folder) and len(text) < 4096 and os.path.isdir(folder)
 
 
+_UNSEEN = ("Cc", "Cf", "Cs", "Zl", "Zp")
+"""Categories of signs that a terminal obeys, that turn a line about, or that are no text: no file may have its own in a sentence."""
+
+
+def printable(text: str, kept: str = "") -> str:
+    """Return a text as one line whose signs can all be seen: others are spelled out, as \\x1b, and ends of lines are blanks.
+
+    Args:
+        text: may quote names and words of any file.
+        kept: signs that stay as they are, such as the ends of lines.
+    """
+    if text.isprintable():
+        return text
+    return "".join(sign if sign in kept or sign.isprintable() else _spelled(sign) for sign in text)
+
+
+def _spelled(sign: str) -> str:
+    if sign in "\n\r\t":
+        return " "
+    return sign.encode("unicode_escape").decode() if unicodedata.category(sign) in _UNSEEN else sign
+
+
 class HitofudeError(Exception):
     """Base of every error that the program raises on purpose; its text is shown to the user as it is."""
+
+    def __str__(self) -> str:
+        return printable(super().__str__())
 
 
 class ParameterError(HitofudeError, ValueError):

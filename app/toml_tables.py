@@ -6,8 +6,9 @@ import re
 import tomllib
 import types
 import typing
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
+from difflib import get_close_matches
 from enum import Enum
 from typing import Any, TypeVar
 
@@ -16,8 +17,10 @@ from app.errors import HitofudeError, InputError
 Kind = TypeVar("Kind")
 Range = tuple[float, float]
 
-_LONGEST, _QUOTED = 200, 60
+_LONGEST, QUOTED = 200, 60
 """So many letters of an error, and of a wrong value, are shown."""
+_NAMED = 8
+"""Of many known words so many are named."""
 _ENDLESS = re.compile(r"(?<![\w.'\"])[-+]?[0-9][0-9_]{3999,}")
 
 EXPECTED = {str: "a text", bool: "true or false", int: "a whole number", float: "a number", tuple[str, ...]: "a list of texts",
@@ -42,7 +45,7 @@ class _Place:
 
     def error(self, key: str, text: str) -> InputError:
         """Return an error that names a key: "mill.toml:7: x.rapid is ..."."""
-        return InputError(f"{self.file}:{self._line(key)}: {'.'.join((*self.tables, key))} {text}")
+        return InputError(f"{self.file}:{self._line(key)}: {brief('.'.join((*self.tables, key)), QUOTED)} {text}")
 
     def begin(self) -> str:
         """Return the file and the line of the table's header; of the file's own keys, the file alone."""
@@ -142,15 +145,23 @@ def _ensure_small(value: Any, key: str) -> None:
         raise ValueError(f"{key} is a whole number of {value.bit_length()} bits; it has at most 64 bits")
 
 
-def brief(text: str) -> str:
-    """Return a text for a message, not longer than a line can hold."""
-    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}…"
+def brief(text: str, most: int = _LONGEST) -> str:
+    """Return a text for a message, cut after `most` letters: no longer than a line can hold."""
+    return text if len(text) <= most else f"{text[:most]}…"
+
+
+def known_words(word: str, known: Sequence[str]) -> str:
+    """Return what might have been meant by a wrong word: all known ones where they are few, else those that are most like it."""
+    if len(", ".join(known)) <= _LONGEST:
+        return ", ".join(known)
+    near = get_close_matches(word, known, n=3, cutoff=0.5)
+    named = [*near, *(other for other in known if other not in near)][:_NAMED]
+    return f"{', '.join(named)} or one of {len(known) - len(named)} others"
 
 
 def shown(value: Any) -> str:
     """Return a wrong value for a message, cut after 60 letters."""
-    text = repr(value)
-    return text if len(text) <= _QUOTED else f"{text[:_QUOTED]}…"
+    return brief(repr(value), QUOTED)
 
 
 def tables_of(kind: type[Kind], tree: dict[str, Any], source: tuple[str, bytes], ranges: Mapping[str, Range]) -> Kind:
@@ -167,7 +178,7 @@ def _table(kind: Any, data: dict[str, Any], place: _Place, ranges: Mapping[str, 
         data = {key: value for key, value in data.items() if key != "kind"}
     for key in data:
         if key not in hints:
-            raise place.error(key, f"is not known; expected are {', '.join(hints)}.")
+            raise place.error(key, f"is not known; expected are {known_words(key, list(hints))}.")
     for each in fields(kind):
         if each.name not in data and _required(each):
             raise place.error(each.name, f"is missing; add {_expected(hints[each.name])}.")

@@ -15,6 +15,8 @@ from app.errors import InputError, ParameterError
 
 _QUOTED = 60
 """So many letters of what is wrong are shown."""
+_FARTHEST = 1e6
+"""mm; nothing of a work piece is farther away."""
 
 
 def heights_files(workpiece: Workpiece, engine: Engine = Engine.CPU) -> tuple[bytes, bytes]:
@@ -62,11 +64,13 @@ def read_heights(name: str, heights: bytes, where: bytes) -> HeightStock:
         field = np.load(io.BytesIO(heights), allow_pickle=False)
         told = json.loads(where)
         place = [float(told[key]) for key in ("x0", "y0", "pitch")]
-        if field.ndim != 2 or not np.issubdtype(field.dtype, np.floating) or not field.size or not np.isfinite(field).all():
-            raise ValueError("the heights are no table of finite numbers")
+        if field.ndim != 2 or not np.issubdtype(field.dtype, np.floating) or not field.size or not (np.abs(field) <= _FARTHEST).all():
+            raise ValueError(f"the heights are no table of numbers up to {_FARTHEST:g} mm")
         floor = float(told.get("floor", field.min()))
+        if not all(abs(length) <= _FARTHEST for length in (*place, floor)):
+            raise ValueError(f"a length in it is no number up to {_FARTHEST:g} mm")
         grid = Grid(place[0], place[1], place[2], *field.shape)
-    except (ValueError, KeyError, TypeError, AttributeError, EOFError, OSError, ParameterError) as error:
-        raise InputError(f"{name}: this is no field of heights with x0, y0 and pitch in its JSON file ({error}); "
+    except (ValueError, KeyError, TypeError, AttributeError, EOFError, OSError, OverflowError, RecursionError, ParameterError) as error:
+        raise InputError(f"{name}: this is no field of heights with x0, y0 and pitch in its JSON file ({str(error)[:_QUOTED]}); "
                          "write it again with --heights.") from error
     return HeightStock(Workpiece(grid, np.ascontiguousarray(field, np.float32), floor))

@@ -13,6 +13,7 @@ from app.edit.transform import mirroring, turn
 from app.edit.values import Curves, Length, Scope, Value, kind_of, wrong
 from app.errors import InputError
 from app.model.curves import Curve, Point
+from app.toml_tables import known_words
 
 Given = float | Point | Curve
 
@@ -103,7 +104,8 @@ def call(written: s.Call, values: Sequence[Value], scope: Scope) -> Value:
     """
     function = FUNCTIONS.get(written.function.text)
     if function is None:
-        raise wrong(f"'{written.function.text}' is no function; use one of {', '.join(FUNCTIONS)}.", written.function.place)
+        word = written.function.text
+        raise wrong(f"'{word}' is no function; use one of {known_words(word, list(FUNCTIONS))}.", written.function.place)
     given = _taken(function, written, _alike(list(values), scope) if function.keeps_length else list(values), scope)
     try:
         value = function.does(*given)

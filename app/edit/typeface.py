@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import io
+import logging
 import os
 import sys
 from collections.abc import Iterator
@@ -14,14 +15,18 @@ from pathlib import Path
 from typing import Any
 
 from fontTools.pens.basePen import BasePen
-from fontTools.ttLib import TTFont, TTLibError
+from fontTools.ttLib import TTFont
 
 from app.edit.lettering import Face, Glyph, reach_below
 from app.errors import InputError
 from app.model.curves import Curve, Line, Point, Spline
+from app.toml_tables import brief
 
+logging.getLogger("fontTools").addHandler(logging.NullHandler())  # what is wrong with a font is in our own sentence
 _KINDS = (".ttf", ".otf", ".ttc")
 _SHORT = 1e-9
+_MOST_PARTS = 1000
+"""Of one letter; in fonts that people made it has fewer than ten, and parts of parts can double with each step."""
 
 
 def outlined(name: str, words: str) -> Face:
@@ -91,8 +96,11 @@ class Typeface:
 def _readable(name: str) -> Iterator[None]:
     try:
         yield
-    except Exception as error:  # whatever a font of any origin makes of a parser
-        raise InputError(f"The font {name} cannot be read ({error}); choose another one.") from error
+    except InputError:
+        raise
+    except Exception as error:  # readers of fonts raise whatever broken bytes make them
+        why = brief(str(error) or type(error).__name__)
+        raise InputError(f"The font {name} cannot be read ({why}); choose another one.") from error
 
 
 def _capital(font: Any, letters: dict[int, str]) -> float:
@@ -117,6 +125,14 @@ class _Pen(BasePen):  # type: ignore[misc, unused-ignore]
         super().__init__(shapes)
         self.curves: list[Curve] = []
         self._first: Point = (0.0, 0.0)
+        self._parts = 0
+
+    def addComponent(self, glyphName: str, transformation: Any) -> None:  # noqa: N802, N803
+        """Draw a part of a letter that is a letter itself."""
+        self._parts += 1
+        if self._parts > _MOST_PARTS:
+            raise ValueError(f"a letter of more than {_MOST_PARTS} parts")
+        super().addComponent(glyphName, transformation)
 
     def _moveTo(self, pt: Any) -> None:  # noqa: N802
         self._first = _point(pt)
@@ -198,7 +214,7 @@ def _installed() -> dict[str, Path]:
             with TTFont(path, fontNumber=0, lazy=True) as font:
                 names = font["name"]
                 family, style = names.getBestFamilyName() or path.stem, names.getBestSubFamilyName() or ""
-        except (OSError, TTLibError, KeyError, ValueError, AssertionError):
+        except Exception:  # a broken font among those installed is none to choose, whatever its bytes raise
             continue
         found.setdefault(_plain(path.stem), path)
         found.setdefault(_plain(family + style), path)

@@ -8,6 +8,8 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from app import tolerances
 from app.edit.sample import bounds, union
 from app.errors import InputError
@@ -157,8 +159,8 @@ def has_length(curve: Curve) -> bool:
         return curve.radius >= tolerances.WELD
     if isinstance(curve, Ellipse):
         return math.hypot(*curve.major) * (curve.end_parameter - curve.start_parameter) >= tolerances.WELD
-    first = curve.control_points[0]
-    return max(math.dist(first, p) for p in curve.control_points) >= tolerances.WELD
+    points = np.array(curve.control_points)
+    return bool(np.hypot(*(points - points[0]).T).max() >= tolerances.WELD)
 
 
 def on_layers(part: Part, layers: tuple[str, ...], name: str) -> Part:

@@ -5,10 +5,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 
 _EDGE_ON = 1e-9
 """A circle flattened below this ratio of its axes is seen edge-on and has no area left."""
+
+_MANY = 50
+"""Points from which on they are worth an array."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +30,15 @@ class Affine:
     def point(self, p: Point) -> Point:
         """Return where a point goes."""
         return self.xx * p[0] + self.xy * p[1] + self.x0, self.yx * p[0] + self.yy * p[1] + self.y0
+
+    def points(self, points: tuple[Point, ...]) -> tuple[Point, ...]:
+        """Return where points go; of many, to the same bit, in a tenth of the time."""
+        if len(points) < _MANY:
+            return tuple(map(self.point, points))
+        x, y = np.array(points).T
+        with np.errstate(all="ignore"):
+            moved = (self.xx * x + self.xy * y + self.x0).tolist(), (self.yx * x + self.yy * y + self.y0).tolist()
+        return tuple(zip(*moved, strict=True))
 
     def vector(self, v: Point) -> Point:
         """Return where a difference of points goes."""
@@ -62,7 +76,7 @@ def transformed(curve: Curve, to: Affine) -> Curve | None:
     if isinstance(curve, Line):
         return Line(to.point(curve.start), to.point(curve.end))
     if isinstance(curve, Spline):
-        return Spline(curve.degree, tuple(map(to.point, curve.control_points)), curve.knots, curve.weights)
+        return Spline(curve.degree, to.points(curve.control_points), curve.knots, curve.weights)
     if isinstance(curve, Ellipse):
         minor = (-curve.major[1] * curve.ratio, curve.major[0] * curve.ratio)
         axes = to.point(curve.centre), to.vector(curve.major), to.vector(minor)

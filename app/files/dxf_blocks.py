@@ -263,9 +263,10 @@ class Walker:
 
     def _bounded(self, count: int, insert: Any = None) -> None:
         if count > MOST_CURVES:
-            where = f" at block {insert.dxf.name}" if insert is not None else ""
             texts = f", or leave its texts out: {' '.join(f'--skip-type {kind}' for kind in self._read)}" if self._read else ""
-            raise InputError(f"{self._name}: the drawing unfolds to more than {MOST_CURVES} curves{where}; "
+            if insert is None:
+                raise InputError(f"{self._name}: the drawing has more than {MOST_CURVES} curves; save it in parts, or thin it out{texts}.")
+            raise InputError(f"{self._name}: the drawing unfolds to more than {MOST_CURVES} curves at block {insert.dxf.name}; "
                              f"reduce the rows and columns of its inserted blocks{texts}.")
 
 

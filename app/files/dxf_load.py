@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from app.errors import InputError
+from app.files.drawing_account import MOST_CURVES
 from app.files.dxf_numbers import NO_COMMAS, Commas, with_points
 from app.files.dxf_splines import MOST_POINTS, too_many
 
@@ -21,10 +22,10 @@ logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it has to s
 _HEAD, _TAIL = 1 << 16, 1 << 12
 MOST_BYTES = 200 << 20
 """A larger file would take gigabytes before anything of it is known."""
-_SPLINE = re.compile(rb"^[ \t]*0[ \t]*\r?\nSPLINE[ \t]*\r?\n(?:[ \t]*[1-9]\d*[ \t]*\r?\n[^\n]*+\n)*+", re.MULTILINE)
+_ENDLESS = re.compile(rb"^[ \t]*0[ \t]*\r?\n(SPLINE|LWPOLYLINE)[ \t]*\r?\n(?:[ \t]*[1-9]\d*[ \t]*\r?\n[^\n]*+\n)*+", re.MULTILINE)
 _POINT = re.compile(rb"^[ \t]*1([01])[ \t]*\r?\n[^\n]*\n[ \t]*2[01][ \t]*\r?\n", re.MULTILINE)
 _SUSPECT = 1 << 20
-"""Bytes of a spline; a shorter one has not too many points."""
+"""Bytes of an entity; a shorter one has not too many points."""
 
 
 @dataclass(frozen=True)
@@ -53,19 +54,20 @@ def load(data: bytes, name: str) -> Loaded:
     """
     _refuse_others(data, name)
     try:
-        return Loaded(_load_sound(data))
+        return Loaded(_probed(_load_sound(data)))
     except Exception as fault:  # whatever a parser makes of a damaged file: the repairing reader gets its turn
         reason = fault
     commas = Commas(data) if data.startswith(_BINARY) else with_points(data, name)
     if commas.count:
         try:
-            return Loaded(_load_sound(commas.data), 0, replace(commas, data=b""))
+            return Loaded(_probed(_load_sound(commas.data)), 0, replace(commas, data=b""))
         except Exception as fault:  # it has other faults too
             data, reason = commas.data, fault
     try:
         from ezdxf import recover
 
         document, auditor = recover.read(io.BytesIO(data))
+        _probed(document)
     except Exception as error:  # a third-party parser on any bytes at all: its faults must not reach the user raw
         raise InputError(f"{name}: the DXF is damaged and cannot be repaired ({_short(reason)}); "
                          "save it again from the CAD program.") from error
@@ -85,23 +87,24 @@ def _refuse_others(data: bytes, name: str) -> None:
         raise InputError(f"{name}: this is not a DXF file, no section begins in it; export the drawing as DXF (ASCII or binary).")
     if b"EOF" not in data[-_TAIL:]:
         raise InputError(f"{name}: the DXF is cut short, its end mark EOF is missing after {len(data)} bytes; copy or export it again.")
-    _refuse_endless_splines(data, name)
+    _refuse_endless_curves(data, name)
 
 
-def _refuse_endless_splines(data: bytes, name: str) -> None:
-    """Refuse a spline of more points than are read, before the library makes objects of them all."""
+def _refuse_endless_curves(data: bytes, name: str) -> None:
+    """Refuse splines and polylines of more points than are read, before the library makes objects of them all."""
     at = 0
-    while (begin := data.find(b"SPLINE", at)) >= 0:
-        at = begin + len(b"SPLINE")
-        found = _SPLINE.match(data, data.rfind(b"\n", 0, max(data.rfind(b"\n", 0, begin), 0)) + 1)
+    for word in re.finditer(rb"(?:LWPOLY|SP)LINE", data):
+        begin = data.rfind(b"\n", 0, max(data.rfind(b"\n", 0, word.start()), 0)) + 1
+        found = _ENDLESS.match(data, begin) if word.start() >= at else None
         if found is None:
             continue
-        at = max(at, found.end())
+        at = found.end()
         if found.end() - found.start() > _SUSPECT:
             kinds = Counter(each[1] for each in _POINT.finditer(found[0]))
-            if kinds and max(kinds.values()) > MOST_POINTS:
+            most, what = (MOST_POINTS, "spline") if found[1] == b"SPLINE" else (MOST_CURVES, "polyline")
+            if kinds and max(kinds.values()) > most:
                 line = data.count(b"\n", 0, found.start()) + 1
-                raise InputError(f"{name}:{line}: {too_many(max(kinds.values()))}")
+                raise InputError(f"{name}:{line}: {too_many(max(kinds.values()), most, what)}")
 
 
 def _load_sound(data: bytes) -> Any:
@@ -117,6 +120,17 @@ def _load_sound(data: bytes) -> Any:
         return read(io.TextIOWrapper(io.BytesIO(data), encoding=_encoding(data[:_HEAD]), errors="surrogateescape"))
     text = decode_dxf_unicode(data.decode(_encoding(data[:_HEAD]), "surrogateescape"))
     return read(io.StringIO(text, newline=None))
+
+
+def _probed(document: Any) -> Any:
+    """Return a document whose tables and layouts can be walked; the library loads some that fall apart when they are looked at."""
+    for layout in document.layouts:
+        _ = layout.name, layout.is_modelspace, sum(1 for _ in layout)
+    for layer in document.layers:
+        _ = layer.dxf.name, layer.is_off(), layer.is_frozen(), layer.is_locked(), layer.rgb, layer.dxf.color
+    for block in document.blocks:
+        _ = block.name, sum(1 for _ in block)
+    return document
 
 
 def _encoding(head: bytes) -> str:

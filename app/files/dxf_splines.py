@@ -73,9 +73,9 @@ def _clamped(tool: Any) -> Spline | None:
     return Spline(degree, tuple(placed), tuple(knots), tuple(w for _, _, w in control) if rational else ())
 
 
-def too_many(count: int) -> str:
-    """Return what is wrong with a spline of so many points."""
-    return f"a spline has {count} points; {MOST_POINTS} are the most, so split it or thin it out in the CAD program."
+def too_many(count: int, most: int = MOST_POINTS, what: str = "spline") -> str:
+    """Return what is wrong with a curve of so many points."""
+    return f"a {what} has {count} points; {most} are the most, so split it or thin it out in the CAD program."
 
 
 def _sound(points: list[tuple[float, float]], knots: list[float], weights: list[float], degree: int) -> bool:

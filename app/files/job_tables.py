@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 from app.errors import HitofudeError, InputError
 from app.files.holders import outline_of
 from app.model.tool import FeedRow
+from app.toml_tables import QUOTED, brief, known_words
 
 Value = TypeVar("Value")
 _MISSING = object()
@@ -70,7 +71,7 @@ class Table:
 
     def error(self, key: str, text: str) -> InputError:
         """Return an error at the line of a key."""
-        return InputError(f"{self.text.name}:{self.text.line(self.path, self.index, key)}: {key} {text}")
+        return InputError(f"{self.text.name}:{self.text.line(self.path, self.index, key)}: {brief(key, QUOTED)} {text}")
 
     def take(self, key: str, read: Callable[[Any], Any], target: str = "") -> None:
         """Read a key, where the table has it, into `taken`."""
@@ -85,11 +86,13 @@ class Table:
     def done(self, known: str) -> None:
         """Complain about keys that nobody took."""
         for key in self.values:
-            raise self.error(key, f"is no key of [{self.path or 'the file'}]; use {known}")
+            raise self.error(key, f"is no key of [{self.path or 'the file'}]; use {known_words(key, known.split(', '))}")
 
 
 def _shown(value: object) -> str:
-    return f"'{value}'" if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else f"{value}"
+    if isinstance(value, str):
+        return f"'{brief(value, QUOTED)}'"
+    return str(value).lower() if isinstance(value, bool) else brief(f"{value}", QUOTED)
 
 
 def one_of(text: str, choices: Mapping[str, Value], what: str) -> Value:
@@ -101,7 +104,7 @@ def one_of(text: str, choices: Mapping[str, Value], what: str) -> Value:
     try:
         return choices[text.strip().lower()]
     except KeyError as error:
-        raise InputError(f"'{text}' is no {what}; use {' or '.join(choices)}") from error
+        raise InputError(f"'{brief(text, QUOTED)}' is no {what}; use {' or '.join(choices)}") from error
 
 
 def read_number(value: Any) -> float:

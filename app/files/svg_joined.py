@@ -23,10 +23,10 @@ def joined(run: list[Curve]) -> list[Curve]:
     Neighbouring arcs of one circle or ellipse, the same to WELD, become one; Béziers of one degree become one spline.
 
     Args:
-        run: each begins where the one before ends; Béziers are splines of one piece.
+        run: each begins where the one before ends; splines are of Béziers.
     """
     made: list[Curve] = []
-    for degree, group in groupby(run, lambda curve: curve.degree if isinstance(curve, Spline) else 0):
+    for degree, group in groupby(run, _degree):
         curves = list(group)
         if degree:
             made.append(_spline(degree, curves))
@@ -40,11 +40,28 @@ def joined(run: list[Curve]) -> list[Curve]:
     return made
 
 
-def _spline(degree: int, beziers: list[Curve]) -> Spline:
-    points = [beziers[0].start] + [p for bezier in beziers if isinstance(bezier, Spline) for p in bezier.control_points[1:]]
-    inner = [float(k) for k in range(1, len(beziers)) for _ in range(degree)]
-    knots = (0.0,) * (degree + 1) + tuple(inner) + (float(len(beziers)),) * (degree + 1)
-    return Spline(degree, tuple(points), knots)
+def beziers_joined(run: list[Curve]) -> list[Curve]:
+    """Return the same line of curves, neighbouring Béziers of one degree as one spline.
+
+    Exact wherever the curves will be moved to: so many are moved as one.
+    """
+    made: list[Curve] = []
+    for degree, group in groupby(run, _degree):
+        curves = list(group)
+        made += [_spline(degree, curves)] if degree else curves
+    return made
+
+
+def _degree(curve: Curve) -> int:
+    return curve.degree if isinstance(curve, Spline) else 0
+
+
+def _spline(degree: int, parts: list[Curve]) -> Spline:
+    """Return splines that follow one another, each of Béziers, as one."""
+    points = [parts[0].start] + [p for part in parts if isinstance(part, Spline) for p in part.control_points[1:]]
+    count = (len(points) - 1) // degree
+    inner = [float(k) for k in range(1, count) for _ in range(degree)]
+    return Spline(degree, tuple(points), (0.0,) * (degree + 1) + tuple(inner) + (float(count),) * (degree + 1))
 
 
 def _both(a: Curve, b: Curve) -> Curve | None:

@@ -13,6 +13,8 @@ from app.files.svg_numbers import NUMBER
 from app.model.curves import Arc, Curve, Line, Point, Spline
 
 _NUMBER = re.compile(rf"[\s,]*({NUMBER})")
+_NUMBERS = {count: re.compile(rf"[\s,]*+((?>{NUMBER}))" * count) for count in (1, 2, 4, 6)}
+"""So many numbers at once; none is parted to make two of it."""
 _FLAG = re.compile(r"[\s,]*([01])")
 _COMMAND = re.compile(r"[\s,]*([A-Za-z])")
 _COUNTS = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
@@ -68,6 +70,9 @@ def _values(text: str, at: int, count: int) -> tuple[list[float] | None, int]:
     """Return the numbers of one command and where they end; None when some are missing."""
     if count < 0:
         return None, at
+    if count in _NUMBERS:
+        all_found = _NUMBERS[count].match(text, at)
+        return (None, at) if all_found is None else ([*map(float, all_found.groups())], all_found.end())
     values: list[float] = []
     for k in range(count):
         found = (_FLAG if count == 7 and k in (3, 4) else _NUMBER).match(text, at)
@@ -101,11 +106,12 @@ class _Pen:
 
     def do(self, command: str, values: list[float]) -> None:
         kind = command.upper()
-        origin = self._here if command.islower() else (0.0, 0.0)
+        dx, dy = self._here if command.islower() else (0.0, 0.0)
         if kind in "HV":
-            values = [values[0] + origin[0], self._here[1]] if kind == "H" else [self._here[0], values[0] + origin[1]]
-            kind, origin = "L", (0.0, 0.0)
-        places = [(x + origin[0], y + origin[1]) for x, y in zip(values[-2::-2], values[::-2], strict=False)][::-1] if values else []
+            values = [values[0] + dx, self._here[1]] if kind == "H" else [self._here[0], values[0] + dy]
+            kind, dx, dy = "L", 0.0, 0.0
+        given = values[5:] if kind == "A" else values
+        places = [(given[k] + dx, given[k + 1] + dy) for k in range(0, len(given), 2)]
         handle = self._handle
         self._handle = ("", self._here)
         self._DO[kind](self, places, values, handle)

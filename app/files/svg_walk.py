@@ -13,14 +13,15 @@ from app import tolerances
 from app.errors import InputError
 from app.files.drawing_account import MOST_CURVES
 from app.files.dxf_affine import IDENTITY, Affine, transformed
+from app.files.dxf_splines import MOST_POINTS, too_many
 from app.files.svg_generator import INKSCAPE, SODIPODI
-from app.files.svg_joined import joined
+from app.files.svg_joined import beziers_joined, joined
 from app.files.svg_numbers import Box, UnreadableError, fitted, transform, view_box
 from app.files.svg_path import Path
 from app.files.svg_shapes import SHAPES, View, measure, shape
 from app.files.svg_style import Style, StyleSheet
 from app.files.svg_xml import DEEPEST, Node
-from app.model.curves import Circle, Curve, Ellipse, Line, Point
+from app.model.curves import Circle, Curve, Ellipse, Line, Point, Spline
 from app.model.part import Layer
 
 _LINK = "http://www.w3.org/1999/xlink href"
@@ -247,6 +248,9 @@ class Walker:
             return
         if drawn is not None and drawn.fault is not None:
             sheet.faults.append(Fault(node.line, drawn.why))
+        for curve in curves:
+            if isinstance(curve, Spline) and len(curve.control_points) > MOST_POINTS:
+                self._refuse(node, too_many(len(curve.control_points), what="curve").rstrip("."))
         if not curves:
             return
         layer = state.layer or "0"
@@ -260,7 +264,7 @@ class Walker:
     def _placed(self, node: Node, drawn: Path, to: Affine) -> list[Curve]:
         """Return the curves in the drawing; notes the place of a shape that draws nothing."""
         curves: list[Curve] = []
-        for run in drawn.runs:
+        for run in map(beziers_joined, drawn.runs):
             moved = [transformed(curve, to) for curve in run]
             self._sheet.nothing += [to.point(curve.start) for curve, there in zip(run, moved, strict=True) if there is None]
             seen = [curve for curve in moved if curve is not None]

@@ -15,10 +15,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from app.errors import HitofudeError, InputError
+from app.errors import HitofudeError, InputError, printable
 from app.files.holders import outline_of
 from app.files.tool_library import ToolLibrary, check_numbers, shortest_degrees
 from app.model.tool import FeedRow, HolderPoint, Tool, ToolKind
+from app.toml_tables import QUOTED, brief
 
 LENGTH = {"mm": 1.0, "in": 25.4, "inch": 25.4, "": 1.0}
 RATE = {"mm_min": 1.0, "in_min": 25.4, "ipm": 25.4, "": 1.0}
@@ -72,8 +73,8 @@ def read_tool_csv(name: str, data: bytes) -> tuple[ToolLibrary, tuple[str, ...]]
     sheet = _Sheet(name, header, columns, _decimal_comma(columns, rows))
     tools = tuple(sheet.tool(line, cells) for line, cells in rows[1:] if any(cell.strip() for cell in cells))
     check_numbers(name, tools)
-    passed = tuple(f"{name}: column '{cell}' is none of a tool and is passed over." for cell, column in zip(header, columns, strict=True)
-                   if column is None and cell)
+    passed = tuple(printable(f"{name}: column '{brief(cell, QUOTED)}' is none of a tool and is passed over.")
+                   for cell, column in zip(header, columns, strict=True) if column is None and cell)
     return ToolLibrary("", tools), passed
 
 
@@ -134,7 +135,7 @@ class _Sheet:
             if column is None or not cell.strip():
                 continue
             into = feeds.setdefault(column.material, {"material": column.material}) if column.material else values
-            into[column.field] = self._value(column, cell.strip(), f"{self.name}:{line}: {header}")
+            into[column.field] = self._value(column, cell.strip(), f"{self.name}:{line}: {brief(header, QUOTED)}")
         place = f"{self.name}:{line}"
         for field in ("number", "diameter"):
             if field not in values:
@@ -152,7 +153,7 @@ class _Sheet:
         number = self._number(cell, place)
         if column.field in ("number", "flutes"):
             if number != int(number):
-                raise InputError(f"{place} is {cell}; it must be a whole number.")
+                raise InputError(f"{place} is {brief(cell, QUOTED)}; it must be a whole number.")
             return int(number)
         return number * column.unit
 
@@ -160,14 +161,15 @@ class _Sheet:
         plain = re.sub(r"[\s'\u202f]", "", cell)
         if self.decimal_comma:
             if "." in plain and "," not in plain and not THOUSANDS.fullmatch(plain):
-                raise InputError(f"{place} is {cell}, but other numbers of this file have decimal commas; use one sign throughout.")
+                raise InputError(f"{place} is {brief(cell, QUOTED)}, but other numbers of this file have decimal commas; "
+                                 "use one sign throughout.")
             plain = plain.replace(".", "").replace(",", ".")
         try:
             number = float(plain)
         except ValueError as error:
-            raise InputError(f"{place} is '{cell}'; it must be a number, such as 6.35.") from error
+            raise InputError(f"{place} is '{brief(cell, QUOTED)}'; it must be a number, such as 6.35.") from error
         if not math.isfinite(number):
-            raise InputError(f"{place} is {cell}; it must be a number, such as 6.35.")
+            raise InputError(f"{place} is {brief(cell, QUOTED)}; it must be a number, such as 6.35.")
         return number
 
 
@@ -182,7 +184,8 @@ def _built(make: Callable[[], Any], place: str) -> Any:
 def _feed_row(values: dict[str, Any]) -> FeedRow:
     missing = [field for field in ("surface_speed", "feed_per_tooth") if field not in values]
     if missing:
-        raise InputError(f"the feeds for {values['material']} lack {' and '.join(missing)}; fill it in, or empty the others.")
+        raise InputError(f"the feeds for {brief(values['material'], QUOTED)} lack {' and '.join(missing)}; fill it in, or empty the "
+                         "others.")
     return FeedRow(**values)
 
 
@@ -192,7 +195,7 @@ def _kind(cell: str) -> ToolKind:
     try:
         return ToolKind(word)
     except ValueError as error:
-        raise InputError(f"'{cell}' is no kind of tool; use {', '.join(kind.value for kind in ToolKind)}.") from error
+        raise InputError(f"'{brief(cell, QUOTED)}' is no kind of tool; use {', '.join(kind.value for kind in ToolKind)}.") from error
 
 
 def _holder(cell: str) -> tuple[HolderPoint, ...]:

@@ -96,7 +96,7 @@ def pieces_from(entities: Sequence[Entity]) -> tuple[list[Piece], list[Finding]]
 def within_reach(curve: Curve) -> bool:
     """Return whether all coordinates are numbers and none on the curve is beyond FARTHEST."""
     if isinstance(curve, Spline):
-        return all(abs(v) <= FARTHEST for point in curve.control_points for v in point)
+        return bool(np.all(np.abs(np.array(curve.control_points)) <= FARTHEST))
     if isinstance(curve, Line):
         return all(abs(v) <= FARTHEST for v in (*curve.start, *curve.end))
     if isinstance(curve, Arc):

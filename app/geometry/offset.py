@@ -202,7 +202,7 @@ class _Engine:
             return None
         ring_kernels.shift(joined, self._shift[0], self._shift[1])
         regions = self._primitives.region
-        return [Ring(joined[int(first):int(stop)], int(regions[int(owner)]), area, length)
+        return [Ring(_lasting(joined[int(first):int(stop)]), int(regions[int(owner)]), area, length)
                 for first, stop, area, length, owner in table.tolist()]
 
     def _measure_right(self, joined: Rows, owners: Indices, distance: float, limit: float) -> bool:
@@ -225,8 +225,14 @@ class _Engine:
             rows = np.hstack([points, np.roll(points, -1, axis=0), np.zeros((len(points), 4))])
             area, length = signed_area(rows), float(lengths(rows).sum())
             rows[:, :4] += self._shift[:4]
-            rings.append(Ring(rows, region, area, length, polyline=True))
+            rings.append(Ring(_lasting(rows), region, area, length, polyline=True))
         return rings
+
+
+def _lasting(rows: Rows) -> Rows:
+    """Return a ring's rows without those that rounding leaves no length where the drawing lies: of an arc it would make a full turn."""
+    still = (rows[:, :2] == rows[:, 2:4]).all(axis=1)
+    return rows[~still] if 0 < np.count_nonzero(still) < len(rows) else rows
 
 
 def _by_region(rings: Sequence[Ring]) -> dict[int, list[Ring]]:

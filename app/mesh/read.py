@@ -95,6 +95,8 @@ def _by_library(name: str, data: bytes, suffix: str) -> Floats:
         log.addHandler(logging.NullHandler())
     plain = data.decode("latin-1").encode("ascii", "replace") if suffix == "obj" else data  # names may be spelled in any code page
     try:
-        return np.array(trimesh.load_mesh(io.BytesIO(plain), file_type=suffix, process=False).triangles, np.float64).reshape(-1, 3, 3)
+        with np.errstate(all="ignore"):  # numbers that are none are looked for by who asked
+            triangles = trimesh.load_mesh(io.BytesIO(plain), file_type=suffix, process=False).triangles
+            return np.array(triangles, np.float64).reshape(-1, 3, 3)
     except Exception as error:  # readers of meshes raise whatever broken bytes make them
         raise InputError(f"{name}: this is no {suffix.upper()} file, or it is damaged; export it again.") from error

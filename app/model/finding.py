@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 
+from app.errors import printable
+
 
 class FindingKind(Enum):
     """What was found. The value is the key in reports."""
@@ -68,6 +70,10 @@ class Finding:
     amount: float | None = None
     line: int = 0
     layer: str = ""
+
+    def __post_init__(self) -> None:
+        """Let names that a file gives do nothing to who shows them."""
+        object.__setattr__(self, "text", printable(self.text))
 
 
 def worst_first(findings: Iterable[Finding]) -> tuple[Finding, ...]:

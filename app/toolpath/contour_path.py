@@ -70,7 +70,7 @@ class Path:
 
     def rows_at(self, where: Floats) -> tuple[Indices, Floats]:
         """Return (row, fraction of it) at places (m,) along the path, mm; closed ones go on past their end."""
-        along = where % self.length if self.closed else np.clip(where, 0.0, self.length)
+        along = where % self.length if self.closed and self.length > 0 else np.clip(where, 0.0, self.length)
         row = np.minimum(np.searchsorted(self.ends, along, side="right"), len(self.rows) - 1)
         size = self.sizes[row]
         fraction = (along - (self.ends[row] - size)) / np.maximum(size, 1e-300)

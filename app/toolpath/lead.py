@@ -203,8 +203,8 @@ def _score(path: Path, places: Floats, corners: Floats, around: Around) -> Float
     aside = path.points(places) + left_of(path.headings(places)) * around.away * around.size
     room = np.clip(around.field.nearest(aside)[0] - around.need, 0.0, around.size)
     straight = np.where(path.rows[row, TURN] == 0, 0.25, 0.0)
-    score: Floats = np.minimum(far / (2 * width), 1.0) + room / max(around.size, 1e-9) + straight + 0.01 * far / path.length
-    return score
+    score: Floats = np.minimum(far / (2 * width), 1.0) + room / max(around.size, 1e-9) + straight
+    return score + 0.01 * far / max(path.length, 1e-9)  # a tool as wide as its hole has a path of no length
 
 
 def corners_of(path: Path, around: Around, least: float) -> Floats:

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.dexel.course import Course
+from app.dexel.course import Course, TrimOptions
 from app.dexel.cutter import cutter_of
-from app.dexel.trim import TrimOptions, trim
+from app.dexel.trim import trim
 from app.dexel.workpiece import BoxStock, Grid
 from app.model.finding import Finding, FindingKind
 from app.model.motion import Floats, MotionKind

@@ -15,6 +15,7 @@ from app.edit.lettering import engraving, placed, rounded
 from app.edit.measuring import measures
 from app.edit.sample import bounds
 from app.edit.write import draw_text
+from app.errors import InputError
 from app.model.curves import Arc, Curve, Line, Spline
 
 PRINTABLE = "".join(sorted(set(string.printable) - set(string.whitespace)))
@@ -143,3 +144,40 @@ def test_a_font_that_lacks_a_letter_or_is_none_says_so(font: Path, tmp_path: Pat
     (tmp_path / "broken.ttf").write_bytes(b"no font")
     with pytest.raises(CommandError, match="cannot be read"):
         Document().run(f'text 0,0 7 "O" font "{(tmp_path / "broken.ttf").as_posix()}"')
+
+
+def test_a_font_with_any_byte_broken_draws_or_says_so(font: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """Its tables were read by a library that raises whatever comes: struct.error, IndexError, MemoryError for a length of 4 GB."""
+    whole, refused = font.read_bytes(), 0
+    for k in range(0, len(whole), 5):
+        (tmp_path / "broken.ttf").write_bytes(whole[:k] + b"\xff" * 2 + whole[k + 2 :])
+        try:
+            drawn(f'text 0,0 7 "O" font "{(tmp_path / "broken.ttf").as_posix()}"')
+        except InputError as error:
+            assert "broken.ttf" in str(error) or "no letter" in str(error)
+            refused += 1
+    assert 20 < refused < len(whole) // 5 and capfd.readouterr().err == ""
+
+
+def test_a_letter_whose_parts_double_with_each_step_is_refused(tmp_path: Path) -> None:
+    """Forty letters, each twice the one before: 2^40 parts."""
+    names = [".notdef", *(f"g{k}" for k in range(40))]
+    made, pens = FontBuilder(1000, isTTF=True), {name: TTGlyphPen(dict.fromkeys(names)) for name in names}
+    for before, name in pairwise(names[1:]):
+        pens[name].addComponent(before, (1, 0, 0, 1, 0, 0))
+        pens[name].addComponent(before, (1, 0, 0, 1, 5, 0))
+    made.setupGlyphOrder(names)
+    made.setupCharacterMap({ord("O"): names[-1]})
+    glyphs = {name: pen.glyph() for name, pen in pens.items()}
+    for glyph in glyphs.values():
+        glyph.xMin = glyph.yMin = glyph.xMax = glyph.yMax = 0  # to work them out takes as long as to draw it
+    made.setupGlyf(glyphs, calcGlyphBounds=False)
+    made.setupHorizontalMetrics(dict.fromkeys(names, (600, 0)))
+    made.setupHorizontalHeader(ascent=800)
+    made.setupNameTable({"familyName": "Bomb"})
+    made.setupOS2(sCapHeight=700)
+    made.setupPost()
+    made.font.recalcBBoxes = False
+    made.save(tmp_path / "bomb.ttf")
+    with pytest.raises(CommandError, match="more than 1000 parts"):
+        Document().run(f'text 0,0 7 "O" font "{(tmp_path / "bomb.ttf").as_posix()}"')

@@ -10,6 +10,7 @@ import pytest
 from app.bitmap.picture import PictureOptions, read_picture
 from app.dexel.heights_file import read_heights
 from app.errors import HitofudeError, InputError
+from app.files.drawing_account import MOST_CURVES
 from app.files.dxf_load import load
 from app.files.dxf_splines import MOST_POINTS
 from app.files.job_toml import read_job
@@ -132,3 +133,47 @@ def test_a_wrong_value_is_shown_in_sixty_letters() -> None:
     with pytest.raises(HitofudeError) as caught:
         read_tools("t.toml", f'[[tool]]\nnumber = "{"x" * 3069}"\n'.encode())
     assert len(str(caught.value)) < 200
+
+
+@pytest.mark.parametrize("where", [
+    b'{"x0": 1%s, "y0": 0, "pitch": 1}' % (b"0" * 400), b'{"x0": 0, "y0": 0, "pitch": 1, "floor": 1%s}' % (b"0" * 400),
+    b'{"x0": 0, "y0": 0, "pitch": 1, "floor": NaN}', b'{"x0": 0, "y0": 1e300, "pitch": 1}', b"[" * 100_000])  # fmt: skip
+def test_a_stock_whose_place_is_absurd_is_refused_in_one_sentence(where: bytes) -> None:
+    data = npy(b"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2), }\n", np.ones(4, np.float32).tobytes())
+    with pytest.raises(InputError, match=r"^s\.npy: this is no field of heights") as caught:
+        read_heights("s.npy", data, where)
+    assert len(str(caught.value)) < 300
+
+
+def test_heights_beyond_what_is_kept_of_them_are_refused() -> None:
+    """Heights are kept as float32, in which 1e300 is infinite."""
+    data = npy(b"{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1), }\n", np.array([1e300]).tobytes())
+    with pytest.raises(InputError, match=r"numbers up to 1e\+06 mm"):
+        read_heights("s.npy", data, WHERE)
+
+
+def test_a_polyline_of_too_many_points_is_refused_before_it_is_read() -> None:
+    """A million took nine seconds and half a gigabyte to be refused, for the rows and columns of blocks that it had not."""
+    points = "".join(f"10\n{k}\n20\n0\n" for k in range(MOST_CURVES + 1))
+    data = f"0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\n0\n90\n{MOST_CURVES + 1}\n{points}0\nENDSEC\n0\nEOF\n".encode()
+    begun = time.process_time()
+    with pytest.raises(InputError, match=rf"^p\.dxf:5: a polyline has {MOST_CURVES + 1} points; {MOST_CURVES} are the most"):
+        load(data, "p.dxf")
+    assert time.process_time() - begun < 3
+
+
+def beziers(count: int) -> bytes:
+    """A path of Béziers, one after another, that stays within 1 mm."""
+    data = "".join(f"c{k % 7 / 100} .1 .1-.1{'-' * (k % 2)}.05 .0{k % 5}" for k in range(count))
+    return f'<svg xmlns="http://www.w3.org/2000/svg" width="9mm" height="9mm"><path d="M0 0{data}"/></svg>'.encode()
+
+
+def test_a_curve_of_too_many_beziers_is_refused_and_takes_time_by_their_number() -> None:
+    """Half a million took a minute, and then nobody has seen the end of what follows them within a micrometre."""
+    begun = time.process_time()
+    with pytest.raises(InputError, match=rf"^x\.svg:1: a curve has 300001 points; {MOST_POINTS} are the most"):
+        read_svg(beziers(100_000), "x.svg")
+    assert time.process_time() - begun < 4
+    drawn, closing = read_svg(beziers(MOST_POINTS // 3), "x.svg").part.entities
+    assert isinstance(drawn.curve, Spline) and len(drawn.curve.control_points) == MOST_POINTS // 3 * 3 + 1
+    assert closing.curve.start == drawn.curve.end

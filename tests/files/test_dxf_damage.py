@@ -185,3 +185,18 @@ print(told)
     for _ in range(3):
         done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=60)
         assert (done.stdout.strip(), done.stderr) == ("[0, 0, 0, 0]", "")
+
+
+def test_a_document_that_falls_apart_when_it_is_looked_at_is_repaired_or_refused() -> None:
+    """A record of a block without a name, in the section of entities, takes the place of model space in the library's table."""
+    tables = ["0", "SECTION", "2", "TABLES", "0", "TABLE", "70", "1", *record("1F", "*MODEL_SPACE"), *record("1B", "*PAPER_SPACE")]
+    spline = ["0", "SPLINE", "5", "100", "100", "AcDbSpline", "70", "8", "71", "3", "330", "0", "100", "AcDbSymbolTable", "70", "2"]
+    nameless = ["0", "BLOCK_RECORD", "5", "1F", "330", "1", "100", "AcDbBlockBegin", "2", "*Model_Space", "70", "0", "281", "1"]
+    lines = ["0", "SECTION", "2", "HEADER", "9", "$ACADVER", "1", "AC1014", "9", "$HANDSEED", "5", "FFFF", *tables, "0", "ENDTAB"]
+    lines += ["0", "ENDSEC", "100", "AcDbBlockEnd", "0", "ENDSEC", "0", "SECTION", "2", "ENTITIES", *spline, *nameless, "0", "ENDSEC"]
+    with pytest.raises(InputError, match=r"^d\.dxf: [^\n]+$"):
+        read_dxf("\n".join([*lines, "0", "EOF"]).encode(), "d.dxf")
+
+
+def record(handle: str, name: str) -> list[str]:
+    return ["0", "BLOCK_RECORD", "5", handle, "2", name]

@@ -77,3 +77,13 @@ def test_what_is_wrong_is_told_with_its_place(text, told):
     with pytest.raises(InputError) as error:
         read(text)
     assert all(part in str(error.value) for part in told.split("|")), str(error.value)
+
+
+@pytest.mark.parametrize("text", [
+    "number,diameter_mm,corner_radius_mm\n1,6," + "a b " * 500, "number,diameter_mm,kind\n1,6," + "a b " * 500,
+    "number,diameter_mm," + "a b " * 500 + ": surface_speed\n1,6,90",
+])  # fmt: skip
+def test_a_long_cell_makes_no_long_sentence(text: str) -> None:
+    with pytest.raises(InputError) as caught:
+        read(text)
+    assert len(str(caught.value)) < 300

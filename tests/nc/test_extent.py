@@ -123,3 +123,9 @@ def test_feeds_and_speeds_out_of_range() -> None:
     course.line(3, 0)
     found = told(course.program(ModalState(spindle=1, speed=24000), ModalState(speed=50)), largest_feed=4000.0)
     assert [text.split(",")[0] for _, text in found] == ["feed is up to 5000 mm/min in 2 motions", "the spindle is to turn at 24000 rpm"]
+
+
+def test_a_way_home_that_a_block_names_and_fails_to_go_is_none() -> None:
+    """The second G53 has a feed mode's word missing: its block fails after it has said where to."""
+    program = read_program(b"G0 X1\nG53 G1 X3 Y3\n")
+    assert program.error is not None and program.homeward == () and extent(program).high[0] == 1

@@ -14,6 +14,7 @@ from app.model.moves import Program, Purpose
 from app.model.operation import ContourOperation, Cut, Side
 from app.model.part import Contour, Part
 from app.model.tool import Tool
+from app.toolpath import contour_path
 from app.toolpath.compute import compute
 from app.workflow.make import make
 from app.workflow.options import MakeOptions
@@ -125,3 +126,10 @@ def test_a_part_of_real_life_is_clean(data: Path) -> None:
     job = Job(Part(), (Tool(2, 1.0),), (outside(tabs=Tabs(3)),))
     made = make(drawing.name, drawing.read_bytes(), MakeOptions(job=job))
     assert made.program.tabs and not [finding.text for finding in made.findings if finding.counts]
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_path_of_no_length_is_at_its_point_all_along() -> None:
+    """As of a tool that is as wide as its hole: places along it were the remainder of a division by zero."""
+    path = contour_path.Path(np.array([[1.0, 2, 1, 2, 0, 0, 0, 0]]), closed=True)
+    assert path.points(np.array([0.0, 0.5, 3.0])).tolist() == [[1, 2]] * 3

@@ -171,14 +171,18 @@ def block_of(parsed: Parsed, parameters: Parameters) -> Block:
     Raises:
         Fault: two words of one letter or two codes of one group; a value that is no number.
     """
-    block = Block()
+    block, numbered = Block(), False
     for word in parsed.words:
         value = evaluated(word.value, parameters)
         if word.letter in "gm":
             _add_code(block, _code(word.letter, value), word)
         elif word.letter in block.values:
             raise Fault(f"a block takes one word {word.letter.upper()} only.", column=-1 - word.begin)
-        elif word.letter != "n":
+        elif word.letter == "n":
+            if numbered or value < 0:
+                raise Fault("a block has one number N, and that is not negative.", column=-1 - word.begin)
+            numbered = True
+        else:
             block.values[word.letter] = value
             if word.whole:
                 block.whole.add(word.letter)

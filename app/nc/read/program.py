@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
+from app.errors import printable
 from app.model.job import Copies
 from app.model.motion import Motions, Plane
 from app.model.moves import DogBone, Tab
@@ -117,7 +118,7 @@ class Problem:
             file: name of the program.
         """
         place = f"{file}:{self.line}:{self.column}" if self.column else f"{file}:{self.line}"
-        return f"{place}: {self.word + ': ' if self.word else ''}{self.text}"
+        return printable(f"{place}: {self.word + ': ' if self.word else ''}{self.text}")
 
 
 @dataclass(frozen=True, slots=True)

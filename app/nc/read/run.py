@@ -112,8 +112,9 @@ class Run:
         warnings = [Problem(line, 0, letter.upper(), text, Severity.WARNING) for text, (letter, line) in control.warnings.items()]
         told = notes(self._text.data)
         motions = control.columns.motions(control.splines, control.known_from())
+        homeward = tuple(row for row in control.homeward if row < len(motions))  # a block that fails has named its way, and not gone it
         return NcProgram(
-            motions, control.states, tuple(control.events), tuple(control.homeward), (*warnings, *self._problems), told.tools, told.stock,
+            motions, control.states, tuple(control.events), homeward, (*warnings, *self._problems), told.tools, told.stock,
             self._text.line_count, told.header,
         )  # fmt: skip
 

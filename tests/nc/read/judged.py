@@ -48,6 +48,7 @@ def _judge_motions(program: NcProgram) -> None:
     assert not (motions.feed < 0).any() and not np.isinf(motions.feed).any()
     assert set(motions.splines) == set(np.flatnonzero(motions.kind == MotionKind.SPLINE).tolist())
     assert all(-1 <= row <= count for row in motions.known_from)
+    assert all(0 <= row < count for row in program.homeward)
     for event in program.events:
         assert 0 <= event.before <= count and 1 <= event.line <= program.line_count and np.isfinite(event.value), event
 

@@ -117,3 +117,15 @@ def test_a_feed_beside_the_word_that_changes_the_units_is_told() -> None:
 def test_r_of_g64_is_known() -> None:
     told = warnings(read("G64 P0.01 R0.1\nG1 X1 F100\nM2\n"))
     assert len(told) == 1 and "2.10" in told[0]
+
+
+@pytest.mark.parametrize("text", ["n--5 g0 x1\nm2\n", "n-138 g0 x1\nm2\n", "n131n131 g0 x1\nm2\n"])
+def test_a_block_number_is_one_and_not_negative(text: str) -> None:
+    assert rs274(text.encode())[1] != ""
+    error = read_program(text.encode()).error
+    assert error is not None and error.line == 1 and "number N" in error.text
+
+
+@pytest.mark.parametrize("text", ["n5 g0 x1\nm2\n", "n0005 x1\nn5 x2\nm2\n", "/n7 g0 x3\nm2\n"])
+def test_other_block_numbers_stay(text: str) -> None:
+    assert read_program(text.encode()).error is None
