@@ -106,6 +106,7 @@ def read_project(name: str, data: bytes) -> Project:
     commands = {key: _command(name, key, value) for key, value in _table(tree, lines, "commands").items()}
     beside = read_beside(lines, {path: _table(tree, lines, path) for path in ("underlay", "text")})
     source = read_source(lines, _table(tree, lines, "source"))
+    part = part if source is None else replace(part, reading=source.reading.how)
     return Project(State(replace(job, part=part), layer, last, names, commands, Recorded(part), source), _look(tree, lines), beside)
 
 
@@ -275,7 +276,7 @@ def _lines(project: Project) -> Iterator[str]:
                     f"visible = {spelled(layer.visible)}", f"locked = {spelled(layer.locked)}")
     yield from _look_lines(project.look)
     yield from beside_lines(project.beside)
-    yield from source_lines(state.source)
+    yield from source_lines(state.source, part)
     yield from _name_lines(state)
     yield from job_lines(state.job)
     for title, things in (("curves", curve_lines(part.entities)), ("notes", note_lines(part.notes))):

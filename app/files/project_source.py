@@ -9,7 +9,8 @@ from app.errors import InputError
 from app.files.job_tables import JobText, Table, read_flag, read_number, read_text, read_texts, word
 from app.files.job_toml import UNITS
 from app.files.job_write import word_of
-from app.model.read_options import ReadOptions
+from app.model.part import Part
+from app.model.read_options import AS_DRAWN, ReadOptions
 from app.model.reading import Reading, Source
 from app.toml_tables import spelled
 
@@ -18,8 +19,13 @@ _HOW = {"overrule": read_flag, "layout": read_text, "to_zero": read_flag, "pixel
 _KEYS = ("path", "units", "layers", *_HOW)
 
 
-def source_lines(source: Source | None) -> Iterator[str]:
-    """Yield the table of a project file: what is as the drawing's file has it is not said."""
+def source_lines(source: Source | None, part: Part) -> Iterator[str]:
+    """Yield the table of a project file: what is as the drawing's file has it is not said.
+
+    Args:
+        source: of the part; None where it was drawn here.
+        part: also tells what was assumed of a drawing that leaves it open, so that a program is told to be of the same.
+    """
     if source is None:
         return
     yield from ("", "[source]", f"path = {spelled(source.path)}")
@@ -28,9 +34,10 @@ def source_lines(source: Source | None) -> Iterator[str]:
         yield f"units = {spelled(word_of(UNITS, reading.units))}"
     if reading.layers:
         yield f"layers = {spelled(reading.layers)}"
+    how = reading.how if part.reading == AS_DRAWN else part.reading
     for key in _HOW:
-        value = getattr(reading.how, key)
-        if value != getattr(ReadOptions(), key):
+        value = getattr(how, key)
+        if value != getattr(AS_DRAWN, key):
             yield f"{key} = {spelled(value)}"
 
 

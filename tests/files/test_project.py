@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from app.edit.document import Document
 from app.edit.history import State
 from app.errors import InputError
+from app.files.drawing import read_drawing
 from app.files.job_toml import read_job
 from app.files.job_write import empty_lists, job_lines
 from app.files.project import MOST_HEAD, Look, Project, read_project, write_project
@@ -19,6 +20,7 @@ from app.files.project_beside import MOST_TEXT, Beside
 from app.model.curves import Circle
 from app.model.job import Job
 from app.model.part import Part
+from app.model.reading import Reading, Source
 from tests.conftest import ROOT
 from tests.examples import examples
 from tests.files.project_cases import jobs, projects
@@ -64,6 +66,17 @@ def drawn() -> Project:
                  "delete 3", "define bolt(c)\n  circle c 2\nend", "bolt 8,8", "let p = 3,4"):  # fmt: skip
         document.run(line)
     return Project(document.state, Look("view_draw", (5.0, 6.25), 12.5))
+
+
+def test_how_a_drawing_was_read_goes_on_into_its_programs() -> None:
+    """Also what was assumed where its file leaves the size open."""
+    svg = b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 90 90"><rect width="90" height="90"/></svg>'
+    part = read_drawing("a.svg", svg).part
+    assert part.reading.pixels_per_inch == 96
+    project = replace(drawn(), state=replace(drawn().state, job=replace(drawn().state.job, part=part), source=Source("a.svg")))
+    again = read_project("p.hito", write_project(project)).state
+    assert again.job.part.reading == part.reading
+    assert again.source == Source("a.svg", Reading(how=part.reading))
 
 
 def test_the_first_version_opens() -> None:
