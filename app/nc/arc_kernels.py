@@ -20,7 +20,7 @@ _START_RADIUS, _END_RADIUS, _ANGLE, _SWEEP = range(4)  # columns of a shape
 _STEP, _SCALE, _CENTRE_SCALE, _TOLERANCE, _LARGEST_SWEEP, _LEAST, _MOST, _MISMATCH = range(8)  # of the rules
 _X, _Y, _I, _J, _ROUND = range(5)  # columns of a piece
 
-_F, _WHOLE = "float64[::1]", "int64[::1]"
+_F, _WHOLE, _SPANS, _TABLE = "float64[::1]", "int64[::1]", "float64[:, ::1]", "int64[:, ::1]"
 
 
 @kernel(f"complex128(complex128, {_F}, float64)", counts=False)
@@ -55,7 +55,8 @@ def _largest_distance(written_centre, written, centre, shape, begin, stop):
         gap = abs(_at(written_centre, written, k / SAMPLES) - _at(centre, shape, begin + size * k / SAMPLES))
         largest = max(largest, gap)
     sweep, turn, shift = shape[_SWEEP] * size, written[_SWEEP], abs(written_centre - centre)
-    spiral = 2 * (abs(turn * (written[_END_RADIUS] - written[_START_RADIUS])) + abs(shape[_SWEEP] * (shape[_END_RADIUS] - shape[_START_RADIUS])))
+    grows, meant_grows = written[_END_RADIUS] - written[_START_RADIUS], shape[_END_RADIUS] - shape[_START_RADIUS]
+    spiral = 2 * (abs(turn * grows) + abs(shape[_SWEEP] * meant_grows))
     bend = turn * turn * shift + abs(turn * turn - sweep * sweep) * max(shape[_START_RADIUS], shape[_END_RADIUS]) + spiral
     return (largest + bend / (8 * SAMPLES**2)) / (1 - turn * turn / (8 * SAMPLES**2))
 
@@ -115,7 +116,7 @@ def _put(spans, places, row, begin, stop, start, end):
     places[row, 0], places[row, 1], places[row, 2], places[row, 3] = start[0], start[1], end[0], end[1]
 
 
-@kernel(f"int64(complex128, {_F}, {_F}, float64[:, ::1], int64[:, ::1], int64[:, ::1], float64[::1], int64, {_F}, {_WHOLE}, {_WHOLE}, {_WHOLE})")
+@kernel(f"int64(complex128, {_F}, {_F}, {_SPANS}, {_TABLE}, {_TABLE}, {_F}, int64, {_F}, {_WHOLE}, {_WHOLE}, {_WHOLE})", counts=False)
 def _stretch(centre, shape, rules, spans, places, pieces, fraction, count, written, start, end, point):
     """Write the blocks of the stretch that waits in row 0 behind those there are, as far as there is room.
 
@@ -168,12 +169,13 @@ def write_pieces(arcs, ends, rules, first, pieces, fraction, stops):
     """
     spans, places = np.empty((DEEPEST + 1, 2)), np.empty((DEEPEST + 1, 4), np.int64)  # stretches to come, the next one on top
     shape, written = np.empty(4), np.empty(4)
-    at, to, start, end, point = np.empty(2, np.int64), np.empty(2, np.int64), np.empty(2, np.int64), np.empty(2, np.int64), np.empty(2, np.int64)
+    at, to, point = np.empty(2, np.int64), np.empty(2, np.int64), np.empty(2, np.int64)
+    start, end = np.empty(2, np.int64), np.empty(2, np.int64)
     count = stops[first - 1] if first else 0
     for n in range(first, len(arcs)):
         centre = complex(arcs[n, 0], arcs[n, 1])
         shape[0], shape[1], shape[2], shape[3] = arcs[n, 2], arcs[n, 3], arcs[n, 4], arcs[n, 5]
-        parts = int(math.ceil(abs(shape[_SWEEP]) / rules[_LARGEST_SWEEP]))
+        parts = np.int64(np.ceil(abs(shape[_SWEEP]) / rules[_LARGEST_SWEEP]))
         begun, at[0], at[1] = 0.0, ends[n, 0], ends[n, 1]
         for part in range(parts):
             stop, to[0], to[1] = 1.0, ends[n, 2], ends[n, 3]

@@ -15,8 +15,9 @@ LONGEST_NUMBER = 32
 """A word is no longer, its letter, its sign, its point and the space before it included."""
 WORDS = 8
 
-_AT_X, _MOTION, _FEED, _NUMBER = 0, 3, 4, 5  # columns of what is in force
-_POSITION_DECIMALS, _CENTRE_DECIMALS, _FEED_DECIMALS, _ZEROS, _FEED_POINT, _ABSOLUTE, _MODAL, _STEP, _START, _LAST = 0, 3, 4, 5, 6, 7, 8, 9, 10, 11
+_MOTION, _FEED, _NUMBER = 3, 4, 5  # columns of what is in force
+_POSITION_DECIMALS, _CENTRE_DECIMALS, _FEED_DECIMALS, _ZEROS, _FEED_POINT = 0, 3, 4, 5, 6  # columns of the form
+_ABSOLUTE, _MODAL, _STEP, _START, _LAST = 7, 8, 9, 10, 11
 _LINE = 1  # kinds above it are arcs
 _LETTERS = np.frombuffer(b"XYZIJFNG", np.uint8)
 _IJ, _F, _N, _G = 3, 5, 6, 7  # places in it

@@ -113,18 +113,22 @@ class Blocks:
             (stop - first,) the 1-based line behind which each motion is done.
         """
         stop = len(rows) if stop is None else stop
-        if self._cycle and np.any((rows[first:stop, 0] > MoveKind.LINE) | np.any(rows[first:stop, 1:4] != self._state[_POSITION], axis=1)):
+        done = np.empty(stop - first, np.int64)
+        if self._cycle and self._says_any(rows[first:stop]):
             self._end_cycle()
-        parts = [self._portion(rows, begin, min(begin + _PORTION, stop)) for begin in range(first, stop, _PORTION)]
-        return np.concatenate(parts) if len(parts) != 1 else parts[0]
-
-    def _portion(self, rows: Whole, first: int, stop: int) -> Whole:
-        before = len(self.lines)
-        blocks, counts = self._spelling.blocks(rows, (first, stop), self._state)
-        self.lines += blocks
-        done = np.where(counts, before + counts, self.motion_line)
-        self.motion_line = int(done[-1])
+        for begin in range(first, stop, _PORTION):
+            end, before = min(begin + _PORTION, stop), len(self.lines)
+            blocks, counts = self._spelling.blocks(rows, (begin, end), self._state)
+            self.lines += blocks
+            done[begin - first : end - first] = np.where(counts, before + counts, self.motion_line)
+            self.motion_line = int(done[end - first - 1])
         return done
+
+    def _says_any(self, rows: Whole) -> bool:
+        """Tell whether any of the motions is more than nothing."""
+        ends = rows[:, 1:4]
+        elsewhere = (ends != UNKNOWN) & (ends != self._state[_POSITION])
+        return bool(np.any(elsewhere) or np.any(rows[:, 0] > MoveKind.LINE))
 
     def hole(self, hole: Hole, steps: list[tuple[MoveKind, Position]]) -> None:
         """Write a hole as a canned cycle; its G words and its feed are left out where they are in force.
@@ -189,8 +193,9 @@ class _Spelling:
         known = [texts.index(text) if text else NO_MOTION for text in texts]  # those that are spelled alike are alike
         self._spans = np.column_stack([stops - [len(text) for text in texts], stops, known])
         self._form = np.array((
-            digits.X, digits.Y, digits.Z, digits.I, digits.F, words.trailing_zeros, words.feed_point, post.arcs.centre is ArcCentre.ABSOLUTE,
-            words.modal_motion, post.numbers.step if post.numbers.use else 0, post.numbers.start, LAST_NUMBER,
+            digits.X, digits.Y, digits.Z, digits.I, digits.F, words.trailing_zeros, words.feed_point,
+            post.arcs.centre is ArcCentre.ABSOLUTE, words.modal_motion, post.numbers.step if post.numbers.use else 0,
+            post.numbers.start, LAST_NUMBER,
         ), np.int64)  # fmt: skip
         self._longest = WORDS * LONGEST_NUMBER + max(map(len, texts))
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from app.errors import ParameterError
 from app.model.job import Job
-from app.model.moves import MoveKind, Moves, Program
+from app.model.moves import Moves, Program
 from app.model.part import Units
 from app.model.stock_box import stock_box, work_origin
 from app.nc.arcs import ArcRules

@@ -6,9 +6,13 @@ import re
 from dataclasses import replace
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from app.nc import check_blocks
 from app.nc.post import Coolant
 from app.nc.posts import load_post, post_names
+from tests.examples import examples
 from tests.nc.programs import Path
 from tests.nc.test_check import Written, problems
 
@@ -138,3 +142,22 @@ def test_a_tool_that_is_changed_in_the_work_is_told() -> None:
     (file,) = written.files
     assert written.check(file).problems == ()
     assert "is not lifted to clearance" in texts(file.nc.text.replace("G0 Z5.0000\nM5\n", "\nM5\n", 1), written)
+
+
+pieces = st.sampled_from(["G", "g", "X", "y", "N10", "0", "00", "1", "81", "98", "2.", ".5", "-", "+", ".", " ", "\t", "\r", "M5", "(", "A", "é", "\n"])
+
+
+@settings(max_examples=examples(300), deadline=None)
+@given(text=st.lists(pieces, max_size=30).map("".join), name=st.sampled_from(post_names()))
+def test_lines_that_are_passed_over_at_once_only_move(text: str, name: str) -> None:
+    """By the pattern that looks at one line after the other; of spaces beyond ASCII the other way round is not promised."""
+    post = load_post(name)
+    plain = check_blocks._moves_alone(post)
+    slow = [number for number, line in enumerate(text.split("\n"), start=1) if plain.fullmatch(line) is None]
+    assert check_blocks._lines_with_more(text, post).tolist() == slow
+
+
+def test_a_post_without_g_words_of_motion_has_lines_that_only_move() -> None:
+    post = load_post("grbl")
+    bare = replace(post, words=replace(post.words, motion=("", "", "", "")))
+    assert check_blocks._lines_with_more("X1 Y2\nG1 X1\n", bare).tolist() == [2]
