@@ -74,6 +74,15 @@ def _block_number(out, at, state, form, used):
     return at + 1
 
 
+@kernel(f"int64({_BYTES}, int64, int64, int64, {_COLUMN})", counts=False)
+def _word(out, at, word, count, form):
+    """Write a word other than G and N; return the offset behind it."""
+    out[at] = _LETTERS[word]
+    if word == _F:
+        return _number(out, at + 1, count, form[_FEED_DECIMALS], False, _PUT if form[_FEED_POINT] else _DROPPED)
+    return _number(out, at + 1, count, form[min(word, _CENTRE_DECIMALS)], form[_ZEROS] != 0, _KEPT)
+
+
 @kernel(f"void(int64, {_COLUMN}, {_COLUMN}, int64, {_COLUMN}, {_COLUMN}, {_COLUMN}, {_COLUMN})", counts=False)
 def _values(motion, end, centre, feed, state, form, value, said):
     """Write the count of each word, and which words a block says; none says nothing but G and F."""
@@ -129,12 +138,7 @@ def write_blocks(rows, first, stop, order, motions, spans, form, state, out, lin
                         out[at] = motions[k]
                         at += 1
                     continue
-                out[at] = _LETTERS[word]
-                at += 1
-                if word == _F:
-                    at = _number(out, at, value[_F], form[_FEED_DECIMALS], False, _PUT if form[_FEED_POINT] else _DROPPED)
-                else:
-                    at = _number(out, at, value[word], form[min(word, _CENTRE_DECIMALS)], form[_ZEROS] != 0, _KEPT)
+                at = _word(out, at, word, value[word], form)
             out[at] = _LINE_FEED
             at, count = at + 1, count + 1
             state[0], state[1], state[2], state[_MOTION] = end[0], end[1], end[2], spans[kind, 2]
