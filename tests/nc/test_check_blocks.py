@@ -163,3 +163,15 @@ def test_a_post_without_g_words_of_motion_has_lines_that_only_move() -> None:
     post = load_post("grbl")
     bare = replace(post, words=replace(post.words, motion=("", "", "", "")))
     assert check_blocks._lines_with_more("X1 Y2\nG1 X1\n", bare).tolist() == [2]
+
+
+@pytest.mark.parametrize(("line", "moves"), [
+    ("", True), ("N10 G1 X1.5 Y-.5 Z+2. F100", True), ("g00x1i0j2r3q4", True), ("G0", True), ("G83 X1", True), ("G098", True),
+    ("X1.2.3", False), ("X", False), ("X-", False), ("X.", False), ("X 1", False), ("X--1", False), ("G1.", False), ("G10", False),
+    ("G", False), ("G 1", False), ("G01.5", False), ("G8", False), ("M5", False), ("X1 (far)", False), ("A1", False), ("1", False),
+])  # fmt: skip
+def test_which_lines_only_move(line: str, moves: bool) -> None:
+    """The one line among others that move, and it alone."""
+    post = load_post("linuxcnc")
+    assert check_blocks._lines_with_more(f"X1\n{line}\nX2", post).tolist() == ([] if moves else [2])
+    assert (check_blocks._moves_alone(post).fullmatch(line) is not None) == moves
