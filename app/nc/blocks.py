@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from app.model.moves import MoveKind
 from app.model.part import Units
-from app.nc.block_kernels import LONGEST_NUMBER, NO_FEED, NO_MOTION, UNKNOWN, WORDS
+from app.nc.block_kernels import LONGEST_NUMBER, NO_FEED, NO_MOTION, UNKNOWN, WORDS, write_blocks
 from app.nc.drilling import Hole
 from app.nc.grid import Position, numeral, spelled
 from app.nc.post import ArcCentre, Post
@@ -205,8 +205,6 @@ class _Spelling:
 
     def blocks(self, rows: Whole, span: tuple[int, int], state: Whole) -> tuple[list[str], Whole]:
         """Return the blocks of some motions, and how many of them there are behind each motion; `state` is brought up to date."""
-        from app.nc.block_kernels import write_blocks  # compiled code: loaded where it is used
-
         out, counts = np.empty((span[1] - span[0]) * self._longest, np.uint8), np.empty(span[1] - span[0], np.int64)
         length = write_blocks(rows, *span, self._order, self._motions, self._spans, self._form, state, out, counts)
         return out[:length].tobytes().decode("ascii").split("\n")[:-1], counts
