@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
+
 from app.model.moves import MoveKind
 from app.model.part import Units
+from app.nc.block_kernels import LONGEST_NUMBER, NO_FEED, NO_MOTION, UNKNOWN, WORDS, write_blocks
 from app.nc.drilling import Hole
 from app.nc.grid import Position, numeral, spelled
 from app.nc.post import ArcCentre, Post
@@ -11,8 +15,14 @@ from app.nc.post import ArcCentre, Post
 CONTINUED = "hitofude+"
 """What the second and later comments of a note begin with."""
 
-Reached = tuple[int | None, int | None, int | None]
-"""A position of which some axes may be unknown."""
+LAST_NUMBER = 99999
+"""LinuxCNC and Fanuc count blocks no further; N words begin again behind it."""
+
+Whole = NDArray[np.int64]
+
+_PORTION = 4096
+"""Motions whose text is made in one piece."""
+_POSITION, _MOTION, _FEED, _NUMBER = slice(0, 3), 3, 4, 5  # places in what is in force
 
 
 class Blocks:
@@ -31,15 +41,14 @@ class Blocks:
         self.home_lines: list[int] = []
         self._post = post
         self._digits = post.digits(units)
-        self._number = post.numbers.start
-        self.forget()
+        self._spelling = _Spelling(post, units)
+        self._state = np.array([UNKNOWN, UNKNOWN, UNKNOWN, NO_MOTION, NO_FEED, post.numbers.start])
+        self._cycle = ""
 
     def forget(self) -> None:
         """Take nothing for granted any more: at the start, and after a tool change."""
-        self._position: Reached = (None, None, None)
-        self._motion = ""
+        self._state[:_NUMBER] = UNKNOWN, UNKNOWN, UNKNOWN, NO_MOTION, NO_FEED
         self._cycle = ""
-        self._feed: int | None = None
 
     def comment(self, text: str) -> None:
         """Write a comment, in several lines if it is wider than the control takes."""
@@ -60,8 +69,8 @@ class Blocks:
     @property
     def z(self) -> int:
         """Where the tool is along Z, counts of the last decimal."""
-        assert self._position[2] is not None
-        return self._position[2]
+        assert self._state[2] != UNKNOWN
+        return int(self._state[2])
 
     def block(self, text: str) -> None:
         """Write a block that is no motion; an empty text is left out."""
@@ -77,31 +86,49 @@ class Blocks:
     def clearance(self, text: str, z: int) -> None:
         """Write a block that is the rapid to a height, in the post's own words."""
         self.block(text)
-        self._moved(MoveKind.RAPID, (self._position[0], self._position[1], z))
+        self._moved(MoveKind.RAPID, self._above(z))
+
+    def _above(self, z: int) -> Position:
+        """Return where the tool is, at a height."""
+        return (int(self._state[0]), int(self._state[1]), z)
 
     def rapid_z(self, z: int) -> None:
         """Go straight up or down at rapid rate."""
-        self._write(MoveKind.RAPID, (self._position[0], self._position[1], z), {})
+        self.straight(MoveKind.RAPID, self._above(z))
 
     def straight(self, kind: MoveKind, end: Position, feed: int = 0) -> None:
         """Go straight, by a rapid or a line; a move that is none after rounding is left out."""
-        self._write(kind, end, {}, None if kind is MoveKind.RAPID else feed)
+        self.motions(np.array([(kind, *end, 0, 0, NO_FEED if kind is MoveKind.RAPID else feed)]))
 
-    def arc(self, kind: MoveKind, end: Position, centre: tuple[int, int], feed: int) -> None:
-        """Go along an arc; X, Y, I and J are always written.
+    def motions(self, rows: Whole, first: int = 0, stop: int | None = None) -> Whole:
+        """Write the motions of some rows, one block each with the words that change; an arc's X, Y, I and J are always written.
+
+        A motion that is none after rounding is left out.
 
         Args:
-            kind: clockwise or counter-clockwise.
-            end: where to.
-            centre: from the start to the centre, counts of the last decimal of I and J.
-            feed: count of the last decimal of F.
+            rows: (n, 7) kind, X, Y, Z, I, J, F; see `write_blocks`.
+            first, stop: which of them; all from the first on without `stop`.
+
+        Returns:
+            (stop - first,) the 1-based line behind which each motion is done.
         """
-        digits = self._digits
-        if self._post.arcs.centre is ArcCentre.ABSOLUTE:
-            finer = 10 ** (digits.I - digits.X)
-            centre = (centre[0] + (self._position[0] or 0) * finer, centre[1] + (self._position[1] or 0) * finer)
-        words = {"X": self.number(end[0], digits.X), "Y": self.number(end[1], digits.Y)}
-        self._write(kind, end, words | {"I": self.number(centre[0], digits.I), "J": self.number(centre[1], digits.J)}, feed)
+        stop = len(rows) if stop is None else stop
+        done = np.empty(stop - first, np.int64)
+        if self._cycle and self._says_any(rows[first:stop]):
+            self._end_cycle()
+        for begin in range(first, stop, _PORTION):
+            end, before = min(begin + _PORTION, stop), len(self.lines)
+            blocks, counts = self._spelling.blocks(rows, (begin, end), self._state)
+            self.lines += blocks
+            done[begin - first : end - first] = np.where(counts, before + counts, self.motion_line)
+            self.motion_line = int(done[end - first - 1])
+        return done
+
+    def _says_any(self, rows: Whole) -> bool:
+        """Tell whether any of the motions is more than nothing."""
+        ends = rows[:, 1:4]
+        elsewhere = (ends != UNKNOWN) & (ends != self._state[_POSITION])
+        return bool(np.any(elsewhere) or np.any(rows[:, 0] > MoveKind.LINE))
 
     def hole(self, hole: Hole, steps: list[tuple[MoveKind, Position]]) -> None:
         """Write a hole as a canned cycle; its G words and its feed are left out where they are in force.
@@ -117,13 +144,13 @@ class Blocks:
         words += [f"X{self.number(hole.x, self._digits.X)}", f"Y{self.number(hole.y, self._digits.Y)}"]
         heights = {"Z": hole.z, "R": hole.r} | ({"Q": hole.peck} if hole.peck else {})
         words += [letter + self.number(count, self._digits.Z) for letter, count in heights.items()]
-        if hole.feed != self._feed:
+        if hole.feed != self._state[_FEED]:
             words.append(f"F{self._rate(hole.feed)}")
         self.lines.append(self._numbered(" ".join(words)))
         for kind, end in steps:
-            if end != self._position:
+            if np.any(self._state[_POSITION] != end):
                 self._moved(kind, end)
-        self._cycle, self._motion, self._feed = hole.cycle, "", hole.feed
+        self._cycle, self._state[_MOTION], self._state[_FEED] = hole.cycle, NO_MOTION, hole.feed
 
     def _end_cycle(self) -> None:
         """Cancel the canned cycle that is in force."""
@@ -135,27 +162,10 @@ class Blocks:
         """Return a count of the last decimal as the control wants it in an axis word."""
         return numeral(count, decimals, self._post.words.trailing_zeros)
 
-    def _write(self, kind: MoveKind, end: Reached, words: dict[str, str], feed: int | None = None) -> None:
-        """Write a motion block with the axes and the feed that change, and remember what it did."""
-        for letter, new, old in zip("XYZ", end, self._position, strict=True):
-            if new is not None and new != old:
-                words[letter] = self.number(new, getattr(self._digits, letter))
-        if not words:
-            return
-        self._end_cycle()
-        motion = self._post.words.motion[kind]
-        if motion != self._motion or not self._post.words.modal_motion:
-            words["G"] = motion
-        if feed is not None and feed != self._feed:
-            words["F"] = self._rate(feed)
-            self._feed = feed
-        block = (words[letter] if letter == "G" else letter + words[letter] for letter in self._post.words.order if letter in words)
-        self.lines.append(self._numbered(" ".join(block)))
-        self._moved(kind, end)
-
-    def _moved(self, kind: MoveKind, end: Reached) -> None:
+    def _moved(self, kind: MoveKind, end: Position) -> None:
         """Remember what the last line did."""
-        self._motion, self._position, self.motion_line = self._post.words.motion[kind], end, len(self.lines)
+        self._state[_POSITION], self._state[_MOTION] = end, self._spelling.known_by(kind)
+        self.motion_line = len(self.lines)
 
     def _rate(self, feed: int) -> str:
         """Return a feed rate without the zeros behind its point; and without the point, if the control can do so."""
@@ -164,13 +174,40 @@ class Blocks:
         return short if self._post.words.feed_point else short.rstrip(".")
 
     def _numbered(self, text: str) -> str:
-        """Return a block with its N word, if the post wants one; LinuxCNC and Fanuc end at N99999, so it starts again there."""
+        """Return a block with its N word, if the post wants one."""
         if not self._post.numbers.use:
             return text
-        number, self._number = self._number, self._number + self._post.numbers.step
-        if self._number > 99999:
-            self._number = self._post.numbers.start
+        number, following = self._state[_NUMBER], self._state[_NUMBER] + self._post.numbers.step
+        self._state[_NUMBER] = following if following <= LAST_NUMBER else self._post.numbers.start
         return f"N{number} {text}"
+
+
+class _Spelling:
+    """How a post spells motions, as the compiled core wants to be told."""
+
+    def __init__(self, post: Post, units: Units) -> None:
+        words, digits, texts = post.words, post.digits(units), post.words.motion
+        self._order = np.array(["XYZIJFNG".index(letter) for letter in words.order if letter != "N"])
+        self._motions = np.array(list("".join(texts).encode("ascii")), np.uint8)
+        stops = np.cumsum([len(text) for text in texts])
+        known = [texts.index(text) if text else NO_MOTION for text in texts]  # those that are spelled alike are alike
+        self._spans = np.column_stack([stops - [len(text) for text in texts], stops, known])
+        self._form = np.array((
+            digits.X, digits.Y, digits.Z, digits.I, digits.F, words.trailing_zeros, words.feed_point,
+            post.arcs.centre is ArcCentre.ABSOLUTE, words.modal_motion, post.numbers.step if post.numbers.use else 0,
+            post.numbers.start, LAST_NUMBER,
+        ), np.int64)  # fmt: skip
+        self._longest = WORDS * LONGEST_NUMBER + max(map(len, texts))
+
+    def known_by(self, kind: MoveKind) -> int:
+        """Return what a motion is in force as."""
+        return int(self._spans[kind, 2])
+
+    def blocks(self, rows: Whole, span: tuple[int, int], state: Whole) -> tuple[list[str], Whole]:
+        """Return the blocks of some motions, and how many of them there are behind each motion; `state` is brought up to date."""
+        out, counts = np.empty((span[1] - span[0]) * self._longest, np.uint8), np.empty(span[1] - span[0], np.int64)
+        length = write_blocks(rows, *span, self._order, self._motions, self._spans, self._form, state, out, counts)
+        return out[:length].tobytes().decode("ascii").split("\n")[:-1], counts
 
 
 def _wrapped(text: str, width: int) -> list[str]:

@@ -10,6 +10,9 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from app.model.job import Job
 from app.nc.post import Post
 from app.nc.read.dialect import Dialect
@@ -86,9 +89,17 @@ def block_problems(text: str, post: Post, blocks: list[Block]) -> Iterator[Probl
     """
     plain, machine, i = _moves_alone(post), _Machine(), 0
     alike = [plain.fullmatch(block.code) is not None for block in blocks]
-    for number, line in enumerate(text.split("\n"), start=1):
+    lines, more, number = text.split("\n"), _lines_with_more(text, post), 0
+    while (number := number + 1) <= len(lines):
+        wanted = i < len(blocks) and alike[i]
+        if not wanted:
+            following = int(np.searchsorted(more, number))
+            if following == len(more):
+                break
+            number = int(more[following])
+        line = lines[number - 1]
         moves = plain.fullmatch(line) is not None
-        if moves and not (i < len(blocks) and alike[i]):
+        if moves and not wanted:
             continue
         code = _code(line, post)
         if i < len(blocks) and blocks[i].is_as(code):
@@ -118,12 +129,29 @@ def approach_problems(text: str, first: list[int]) -> Iterator[Problem]:
             yield Problem(number, 0, "", f"this tool's first move does not say {axes}, and where the tool was changed nobody knows.")
 
 
-def _moves_alone(post: Post) -> re.Pattern[str]:
-    """Return what a line looks like that only moves, in the post's words of motion and of drilling."""
+def _moving_codes(post: Post) -> list[str]:
+    """Return the numbers of the post's G words of motion and of drilling."""
     drilling = post.drilling
     words = " ".join((*post.words.motion, drilling.drill, drilling.peck, drilling.chip_break, drilling.to_initial, drilling.to_r,
                       drilling.cancel))  # fmt: skip
-    codes = "|".join(sorted({re.escape(f"{float(value):g}") for letter, value in WORD.findall(words.lower()) if letter == "g"}))
+    return sorted({f"{float(value):g}" for letter, value in WORD.findall(words.lower()) if letter == "g"})
+
+
+def _lines_with_more(text: str, post: Post) -> NDArray[np.int64]:
+    """Return the 1-based lines that may do more than move; all others surely do not."""
+    from app.nc.check_kernels import lines_with_more  # compiled code: loaded where it is used
+
+    data, codes = np.frombuffer(text.encode(errors="replace"), np.uint8), _moving_codes(post)
+    lengths = np.array([len(code) for code in codes], np.int64)
+    spans = np.column_stack([np.cumsum(lengths) - lengths, np.cumsum(lengths)])
+    lines = np.empty(text.count("\n") + 1, np.int64)
+    found = lines_with_more(data, np.frombuffer("".join(codes).encode(), np.uint8), spans, lines)
+    return lines[:found]
+
+
+def _moves_alone(post: Post) -> re.Pattern[str]:
+    """Return what a line looks like that only moves, in the post's words of motion and of drilling."""
+    codes = "|".join(re.escape(code) for code in _moving_codes(post))
     return re.compile(rf"\s*(?:(?:[NXYZIJFRQ][-+]?(?:\d+\.?\d*|\.\d+)|G0*(?:{codes})(?![\d.]))\s*)*", re.IGNORECASE)
 
 

@@ -6,9 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
 
+import numpy as np
+
 from app.model.moves import MoveKind, Purpose
 from app.nc.post import DrillingWords
-from app.nc.work_moves import WorkMoves
+from app.nc.work_moves import MoveLists, WorkMoves
 
 NEAR = 1
 """Counts of the last decimal by which a rounded height between two pecks may be off."""
@@ -55,7 +57,29 @@ class CycleRules:
     chip_gap: int
 
 
-def hole_at(moves: WorkMoves, i: int, height: int, rules: CycleRules) -> Hole | None:
+def holes_of(moves: WorkMoves, rules: CycleRules) -> dict[int, Hole]:
+    """Return the holes of a program that the control has cycles for, by the index of the move that each begins with.
+
+    The first move of a tool, from wherever it was, is no part of a cycle.
+
+    Args:
+        moves: the program's.
+        rules: what the control has.
+    """
+    if not rules.words.drill:
+        return {}
+    drilling = (moves.kind == MoveKind.LINE) & (moves.purpose == Purpose.DRILL)
+    soon = np.append(drilling, (False, False))
+    begins = (moves.kind == MoveKind.RAPID) & (soon[1:-1] | soon[2:]) & (np.diff(moves.tool, prepend=moves.tool[:1]) == 0)
+    holes: dict[int, Hole] = {}
+    stop = 1
+    for i in np.flatnonzero(begins).tolist():
+        if i >= stop and (hole := hole_at(moves.lists, i, moves.lists.end[i - 1][2], rules)) is not None:
+            holes[i], stop = hole, hole.stop
+    return holes
+
+
+def hole_at(moves: MoveLists, i: int, height: int, rules: CycleRules) -> Hole | None:
     """Return the hole that begins with move i, or None where the control has no cycle that moves like it.
 
     A hole is a rapid over it, a rapid down to R, feeds down marked as drilling, and a rapid up to R or to the height before
@@ -86,7 +110,7 @@ def hole_at(moves: WorkMoves, i: int, height: int, rules: CycleRules) -> Hole | 
     return None
 
 
-def _first_feed(moves: WorkMoves, i: int, height: int) -> int | None:
+def _first_feed(moves: MoveLists, i: int, height: int) -> int | None:
     """Return the index of the feed behind the rapids over a hole and down to R, which begin with move i."""
     for k in range(i, min(i + 3, len(moves) - 1)):
         z = moves.end[k][2]
@@ -100,7 +124,7 @@ def _first_feed(moves: WorkMoves, i: int, height: int) -> int | None:
     return None
 
 
-def _last_feed(moves: WorkMoves, feed: int) -> int | None:
+def _last_feed(moves: MoveLists, feed: int) -> int | None:
     """Return the index of the last feed that drills the hole and has a move of the hole behind it; None where there is none."""
     last = None
     for k in range(feed, len(moves) - 1):
@@ -113,7 +137,7 @@ def _last_feed(moves: WorkMoves, feed: int) -> int | None:
     return last
 
 
-def _belonging(moves: WorkMoves, k: int) -> tuple[int, ...]:
+def _belonging(moves: MoveLists, k: int) -> tuple[int, ...]:
     """Return place, tool and operation of a move."""
     return (*moves.end[k][:2], moves.tool[k], moves.operation[k])
 

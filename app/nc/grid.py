@@ -9,9 +9,14 @@ Position = tuple[int, int, int]
 """X, Y and Z as counts of their last decimal."""
 
 
-def counts(values: NDArray[np.float64], decimals: int) -> list[int]:
+def whole(values: NDArray[np.float64], decimals: int) -> NDArray[np.int64]:
     """Return values as counts of their last decimal, the nearest ones."""
-    rounded: list[int] = np.rint(values * 10.0**decimals).astype(np.int64).tolist()
+    return np.rint(values * 10.0**decimals).astype(np.int64)
+
+
+def counts(values: NDArray[np.float64], decimals: int) -> list[int]:
+    """Return the same as a list."""
+    rounded: list[int] = whole(values, decimals).tolist()
     return rounded
 
 

@@ -12,21 +12,21 @@ from numpy.typing import NDArray
 
 from app.errors import ParameterError
 from app.model.job import Job
-from app.model.moves import MoveKind, Moves, Program
+from app.model.moves import Moves, Program
 from app.model.part import Units
 from app.model.stock_box import stock_box, work_origin
-from app.nc.arcs import ArcRules, written_pieces
+from app.nc.arcs import ArcRules
 from app.nc.blocks import Blocks
-from app.nc.drilling import CycleRules, hole_at
+from app.nc.drilling import CycleRules, Hole, holes_of
 from app.nc.header import Heading, heading_lines, operation_words, tool_words
 from app.nc.header_notes import heading_notes
 from app.nc.post import Post
 from app.nc.sequence import check_sequence
 from app.nc.template_fields import Fields, program_fields, tool_fields
-from app.nc.work_moves import WorkMoves, work_moves
+from app.nc.work_moves import MotionRows, WorkMoves, motion_rows, work_moves
 from app.progress import NO_PROGRESS, Progress
 
-MOVES_A_STEP = 2048
+MOVES_A_STEP = 8192
 
 LARGEST_DEVIATION = 1e-3
 """No written arc leaves the meant one by more, mm, unless the last decimal itself is coarser."""
@@ -101,7 +101,7 @@ def write_moves(moves: Moves, job: Job, post: Post, remarks: Remarks, progress: 
         part = work_moves(moves.part(first, stop), (0.0, 0.0, 0.0), job.out_units, post.digits(job.out_units))
         said = replace(remarks, before={i - first: words for i, words in remarks.before.items() if first <= i < stop})
         lines = _Writer(job, post, sheet, part).write(said, progress.part(first / len(moves), stop / len(moves)))
-        nc = NcText("\n".join(sheet.lines) + "\n", np.array(lines, dtype=np.int32), tuple(sheet.home_lines))
+        nc = NcText("\n".join(sheet.lines) + "\n", lines, tuple(sheet.home_lines))
         files.append(NcFile(suffix, nc, first))
     return tuple(files)
 
@@ -179,7 +179,7 @@ def _written(program: Program, job: Job, post: Post, file: tuple[int, int], prog
     heading = Heading(program, job, post, box, blend_mm(job, post), writing_tolerance(job, post), *file)
     remarks = Remarks(tuple(heading_lines(heading)), tuple(heading_notes(heading)), lambda i: operation_words(job.operations[i], job))
     lines = _Writer(job, post, sheet, moves).write(remarks, progress)
-    return NcText("\n".join(sheet.lines) + "\n", np.array(lines, dtype=np.int32), tuple(sheet.home_lines))
+    return NcText("\n".join(sheet.lines) + "\n", lines, tuple(sheet.home_lines))
 
 
 def blend_mm(job: Job, post: Post) -> float:
@@ -214,74 +214,65 @@ class _Writer:
         unit = job.out_units.value
         self.z_scale = 10.0**digits.Z
         gaps = (round(gap / unit * self.z_scale) for gap in (post.drilling.peck_gap_mm, post.drilling.chip_gap_mm))
-        self.cycle_rules = CycleRules(post.drilling, round(self.z_scale), *gaps)
+        self.holes: dict[int, Hole] = holes_of(moves, CycleRules(post.drilling, round(self.z_scale), *gaps))
         self.arc_rules = ArcRules(
             digits.X, digits.I, math.sqrt((writing_tolerance(job, post) / unit) ** 2 - (0.5 / self.z_scale) ** 2),  # Z is rounded too
             math.radians(post.arcs.largest_sweep_deg),
             post.arcs.smallest_radius_mm / unit, post.arcs.largest_radius_mm / unit, post.arcs.radius_mismatch_mm / unit,
         )  # fmt: skip
 
-    def write(self, remarks: Remarks, progress: Progress) -> list[int]:
+    def write(self, remarks: Remarks, progress: Progress) -> NDArray[np.int32]:
         """Write everything; return the line of each move."""
-        moves, lines = self.moves, []
+        moves = self.moves
         self._blocks(self.post.program.top)
         for comment in remarks.head:
             self.sheet.comment(comment)
         for note in remarks.notes:
             self.sheet.note(note)
         self._blocks(self.post.program.start)
-        i, told = 0, 0
+        lines, rows, stops = np.zeros(len(moves), np.int32), MotionRows.none(), self._stops(remarks)
+        i = begun = ready = 0
         while i < len(moves):
-            if i >= told:
+            if i >= ready:
                 progress.step(i / len(moves), "Writing NC")
-                told = i + MOVES_A_STEP
-            new_tool = i == 0 or moves.tool[i] != moves.tool[i - 1]
-            if new_tool:
-                self._change_tool(i)
-            if i == 0 or moves.operation[i] != moves.operation[i - 1]:
-                self.sheet.comment(remarks.operation(moves.operation[i]))
-            if new_tool:
-                self.sheet.rapid_z(moves.end[i][2])
-            for comment in remarks.before.get(i, ()):
-                self.sheet.comment(comment)
-            stop = (0 if new_tool else self._hole(i)) or self._move(i)
-            lines += [self.sheet.motion_line] * (stop - i)
+                begun, ready = i, min(i + MOVES_A_STEP, len(moves))
+                rows = motion_rows(moves, (begun, ready), self.arc_rules, self.z_scale)
+            self._head(i, remarks)
+            hole = self.holes.get(i)
+            if hole is not None:
+                self.sheet.hole(hole, [(moves.lists.kind[k], moves.lists.end[k]) for k in range(i, hole.stop)])
+                lines[i : hole.stop] = self.sheet.motion_line
+                i = hole.stop
+                continue
+            stop = min(int(stops[np.searchsorted(stops, i, side="right")]), ready)
+            first = int(rows.stops[i - begun - 1]) if i > begun else 0
+            done = self.sheet.motions(rows.rows, first, int(rows.stops[stop - begun - 1]))
+            lines[i:stop] = done[rows.stops[i - begun : stop - begun] - 1 - first]
             i = stop
         self._leave_tool(len(moves) - 1)
         self._home()
         self._blocks(self.post.program.end)
         return lines
 
-    def _hole(self, i: int) -> int:
-        """Write the hole that begins with move i as a canned cycle; return the index behind it, or 0 where it is none.
+    def _stops(self, remarks: Remarks) -> NDArray[np.int64]:
+        """Return before which moves more than motions may have to be written, and the number of moves."""
+        tool, operation = self.moves.tool, self.moves.operation
+        changes = np.flatnonzero((tool[1:] != tool[:-1]) | (operation[1:] != operation[:-1])) + 1
+        own = [len(self.moves), *self.holes, *remarks.before]
+        return np.unique(np.concatenate([changes, np.array(own, np.int64)]))
 
-        The first move of a tool, from wherever it was, is no part of a cycle.
-        """
-        sheet, moves = self.sheet, self.moves
-        if moves.kind[i] is not MoveKind.RAPID:
-            return 0
-        hole = hole_at(moves, i, sheet.z, self.cycle_rules)
-        if hole is None:
-            return 0
-        sheet.hole(hole, [(moves.kind[k], moves.end[k]) for k in range(i, hole.stop)])
-        return hole.stop
-
-    def _move(self, i: int) -> int:
-        """Write one move; return the index behind it."""
+    def _head(self, i: int, remarks: Remarks) -> None:
+        """Write what stands before move i: its tool, what its operation is, remarks."""
         moves = self.moves
-        kind, end, feed = moves.kind[i], moves.end[i], moves.feed[i]
-        if kind in (MoveKind.RAPID, MoveKind.LINE):
-            self.sheet.straight(kind, end, feed)
-            return i + 1
-        before, z0, z1 = moves.end[i - 1], moves.z[i - 1], moves.z[i]
-        for piece in written_pieces(moves.arcs[i], before[:2], end[:2], self.arc_rules):
-            z = end[2] if piece.fraction == 1 else round((z0 + (z1 - z0) * piece.fraction) * self.z_scale)
-            if piece.centre is None:
-                self.sheet.straight(MoveKind.LINE, (*piece.end, z), feed)
-            else:
-                self.sheet.arc(kind, (*piece.end, z), piece.centre, feed)
-        self.sheet.straight(MoveKind.LINE, end, feed)
-        return i + 1
+        new_tool = i == 0 or moves.tool[i] != moves.tool[i - 1]
+        if new_tool:
+            self._change_tool(i)
+        if i == 0 or moves.operation[i] != moves.operation[i - 1]:
+            self.sheet.comment(remarks.operation(int(moves.operation[i])))
+        if new_tool:
+            self.sheet.rapid_z(int(moves.end[i, 2]))
+        for comment in remarks.before.get(i, ()):
+            self.sheet.comment(comment)
 
     def _change_tool(self, i: int) -> None:
         """Leave the tool before, if there is one, and take the tool of move i."""
@@ -289,7 +280,7 @@ class _Writer:
             self._leave_tool(i - 1)
         self._home()
         self.sheet.forget()
-        tool, z = self.job.tool(self.moves.tool[i]), self.moves.end[i][2]
+        tool, z = self.job.tool(int(self.moves.tool[i])), int(self.moves.end[i, 2])
         self.sheet.comment(tool_words(tool, self.job.out_units))
         fields = self._tool_fields(i) | {"clearance": self.sheet.number(z, self.digits.Z)}
         for template in self.post.program.tool:
@@ -301,7 +292,7 @@ class _Writer:
 
     def _leave_tool(self, i: int) -> None:
         """Go to safe Z, where each tool began, after move i, the last of its tool; then stop spindle and coolant."""
-        self.sheet.rapid_z(self.moves.end[0][2])
+        self.sheet.rapid_z(int(self.moves.end[0, 2]))
         for template in self.post.program.leave:
             self.sheet.block(template.format(**self._tool_fields(i)).strip())
 
@@ -317,9 +308,10 @@ class _Writer:
 
     def _tool_fields(self, i: int) -> Fields:
         """Return what the templates round the tool of move i may name."""
-        return self.fields | tool_fields(self.job.tool(self.moves.tool[i]), self.post, self._next_tool(i))
+        return self.fields | tool_fields(self.job.tool(int(self.moves.tool[i])), self.post, self._next_tool(i))
 
     def _next_tool(self, i: int) -> int:
         """Return the T number that follows that of move i; after the last one, the first."""
         tools = self.moves.tool
-        return next((tool for tool in tools[i:] if tool != tools[i]), tools[0])
+        others = tools[i:] != tools[i]
+        return int(tools[i + np.argmax(others)] if others.any() else tools[0])

@@ -11,7 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.nc.arcs import ArcRules, MeantArc, Piece, written_pieces
+from app.errors import GeometryError
+from app.nc.arcs import ArcRules, MeantArc, Piece, all_pieces, written_pieces
 from tests.examples import examples
 
 MM4 = ArcRules(4, 4, 2e-4, math.radians(355), 0.002, 1e5, 0.02)
@@ -151,3 +152,31 @@ def test_a_spiral_in_the_path_is_kept_within_tolerance() -> None:
     arc = MeantArc(1 + 1j, 10.0, 10.0008, 0.2, 2.0)
     pieces, paths = write(arc, MM4)
     assert deviation(arc, pieces, paths) <= 2e-4
+
+
+@RULES
+def test_many_arcs_at_once_are_each_by_itself(rules: ArcRules) -> None:
+    """Among them some of hundreds of lines, for which there is no room at first, and some that are nothing."""
+    shapes = np.random.default_rng(5).uniform([-100, -100, -4, -3, -6], [100, 100, 3, 3, 6], (300, 5))
+    shapes[::60, 2], shapes[::60, 4], shapes[1::60, 4] = 5.5, 0.02, 1e-9
+    arcs = [round_arc(complex(x, y), 10.0**size, angle, sweep) for x, y, size, angle, sweep in shapes.tolist()]
+    rows = np.array([(arc.centre.real, arc.centre.imag, arc.start_radius, arc.end_radius, arc.start_angle, arc.sweep) for arc in arcs])
+    ends = np.array([(*grid(arc.at(0), rules), *grid(arc.at(1), rules)) for arc in arcs])
+    found, begin = all_pieces(rows, ends, rules), 0
+    for arc, (x0, y0, x1, y1), stop in zip(arcs, ends.tolist(), found.stops.tolist(), strict=True):
+        alone = written_pieces(arc, (x0, y0), (x1, y1), rules)
+        assert [piece.end for piece in alone] == [tuple(end) for end in found.end[begin:stop].tolist()]
+        assert [piece.fraction for piece in alone] == found.fraction[begin:stop].tolist()
+        assert [piece.centre or (0, 0) for piece in alone] == [tuple(centre) for centre in found.centre[begin:stop].tolist()]
+        assert [piece.centre is not None for piece in alone] == found.round[begin:stop].tolist()
+        begin = stop
+    assert begin == len(found.end) > 2 * len(arcs) + 16
+
+
+def test_no_arcs_have_no_pieces() -> None:
+    assert len(all_pieces(np.zeros((0, 6)), np.zeros((0, 4), np.int64), MM4).end) == 0
+
+
+def test_an_arc_of_no_numbers_is_refused() -> None:
+    with pytest.raises(GeometryError, match=r"The arc round X1 Y2 of radius nan cannot be written within 0\.0002; write more decimals"):
+        written_pieces(MeantArc(1 + 2j, math.nan, math.nan, 0.0, 1.0), (0, 0), (1, 1), MM4)

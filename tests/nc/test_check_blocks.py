@@ -6,9 +6,13 @@ import re
 from dataclasses import replace
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from app.nc import check_blocks
 from app.nc.post import Coolant
 from app.nc.posts import load_post, post_names
+from tests.examples import examples
 from tests.nc.programs import Path
 from tests.nc.test_check import Written, problems
 
@@ -138,3 +142,36 @@ def test_a_tool_that_is_changed_in_the_work_is_told() -> None:
     (file,) = written.files
     assert written.check(file).problems == ()
     assert "is not lifted to clearance" in texts(file.nc.text.replace("G0 Z5.0000\nM5\n", "\nM5\n", 1), written)
+
+
+pieces = st.sampled_from([
+    "G", "g", "X", "y", "N10", "0", "00", "1", "81", "98", "2.", ".5", "-", "+", ".", " ", "\t", "\r", "M5", "(", "é", "\n",
+])  # fmt: skip
+
+
+@settings(max_examples=examples(300), deadline=None)
+@given(text=st.lists(pieces, max_size=30).map("".join), name=st.sampled_from(post_names()))
+def test_lines_that_are_passed_over_at_once_only_move(text: str, name: str) -> None:
+    """By the pattern that looks at one line after the other; of spaces beyond ASCII the other way round is not promised."""
+    post = load_post(name)
+    plain = check_blocks._moves_alone(post)
+    slow = [number for number, line in enumerate(text.split("\n"), start=1) if plain.fullmatch(line) is None]
+    assert check_blocks._lines_with_more(text, post).tolist() == slow
+
+
+def test_a_post_without_g_words_of_motion_has_lines_that_only_move() -> None:
+    post = load_post("grbl")
+    bare = replace(post, words=replace(post.words, motion=("", "", "", "")))
+    assert check_blocks._lines_with_more("X1 Y2\nG1 X1\n", bare).tolist() == [2]
+
+
+@pytest.mark.parametrize(("line", "moves"), [
+    ("", True), ("N10 G1 X1.5 Y-.5 Z+2. F100", True), ("g00x1i0j2r3q4", True), ("G0", True), ("G83 X1", True), ("G098", True),
+    ("X1.2.3", False), ("X", False), ("X-", False), ("X.", False), ("X 1", False), ("X--1", False), ("G1.", False), ("G10", False),
+    ("G", False), ("G 1", False), ("G01.5", False), ("G8", False), ("M5", False), ("X1 (far)", False), ("A1", False), ("1", False),
+])  # fmt: skip
+def test_which_lines_only_move(line: str, moves: bool) -> None:
+    """The one line among others that move, and it alone."""
+    post = load_post("linuxcnc")
+    assert check_blocks._lines_with_more(f"X1\n{line}\nX2", post).tolist() == ([] if moves else [2])
+    assert (check_blocks._moves_alone(post).fullmatch(line) is not None) == moves

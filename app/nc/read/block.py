@@ -60,12 +60,15 @@ class Parsed:
     words: tuple[Word, ...]
 
 
+LONGEST_KEPT = 100
+"""Characters of a line whose words are worth their room."""
+
 SLASH = re.compile(r"(?:n[0-9.]+)?/[0-9]?")
 """What marks a block that the control leaves out when it is told to."""
 
 
 def parse(code: str, nesting: int, free: bool = False, polar: bool = False) -> Parsed:
-    """Return the words of a line.
+    """Return the words of a line; programs say many lines again and again, so the last ones are kept, but for long ones.
 
     Args:
         code: as `text.code_of` gives it.
@@ -76,6 +79,10 @@ def parse(code: str, nesting: int, free: bool = False, polar: bool = False) -> P
     Raises:
         Fault: something in it is no word.
     """
+    return (_parsed_once if len(code) <= LONGEST_KEPT else _parsed)(code, nesting, free, polar)
+
+
+def _parsed(code: str, nesting: int, free: bool, polar: bool) -> Parsed:
     values = Values(code, nesting)
     slash = SLASH.match(code)
     deleted = slash is not None
@@ -101,6 +108,9 @@ def parse(code: str, nesting: int, free: bool = False, polar: bool = False) -> P
         else:
             raise Fault(f"{letter!r} begins no word; expected a letter with a number.", column=-1 - begin, word=letter)
     return Parsed(code, deleted, tuple(settings), tuple(words))
+
+
+_parsed_once = lru_cache(2048)(_parsed)
 
 
 def _numbered(found: re.Match[str], values: Values) -> Word:
