@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TypeVar
 
-import cv2
 import numpy as np
 
 from app.dexel.cutter import Cutter
@@ -95,6 +94,8 @@ def _coarser(grid: Grid, leave: float) -> Grid:
 
 def _sampled(coarse: Target, grid: Grid) -> Target:
     """Return a target on finer cells; low and high are those of the coarse cells around, so that nothing is told too early."""
+    import cv2  # for stock to leave alone
+
     kernel = np.ones((3, 3), np.uint8)
     low, high = cv2.erode(coarse.low, kernel), cv2.dilate(coarse.high, kernel)
     rows, cols = (np.clip(((at - start) / coarse.grid.pitch).astype(np.int64), 0, most - 1)

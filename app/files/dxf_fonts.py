@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from app.edit.lettering import Face, Glyph, engraving
-from app.edit.typeface import Typeface, installed
 from app.errors import InputError
 from app.files.dxf_affine import scaled, transformed
+
+if TYPE_CHECKING:
+    from app.edit.typeface import Typeface
 
 _STROKED = ("", "txt", "standard")
 """Names without an ending of fonts that are strokes in every CAD program; they are no families."""
@@ -86,6 +88,8 @@ class Fonts:
         return Set(replace(face, glyphs={**face.glyphs, **others}), font.name, frozenset(drawn), lacking)
 
     def _font(self, name: FontName) -> Typeface | None:
+        from app.edit.typeface import Typeface  # reading fonts is for drawings with texts alone
+
         if name not in self._found:
             try:
                 path = _path(name)
@@ -97,6 +101,8 @@ class Fonts:
 
 def _path(name: FontName) -> Any:
     """Return the file of an installed font; strokes (.shx) have none, unless the drawing tells their family too."""
+    from app.edit.typeface import installed
+
     bare = "." not in name.file
     family = name.family or (name.file if bare and name.file.casefold() not in _STROKED else "")
     return installed(name.file, family, name.style)

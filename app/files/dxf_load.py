@@ -13,6 +13,7 @@ from app.errors import InputError
 from app.files.drawing_account import MOST_CURVES
 from app.files.dxf_numbers import NO_COMMAS, Commas, with_points
 from app.files.dxf_splines import MOST_POINTS, too_many
+from app.files.light_ezdxf import load_ezdxf
 
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 _SECTION = re.compile(rb"^\s*0[ \t]*\r?[\n\r][ \t]*SECTION", re.MULTILINE)
@@ -64,6 +65,7 @@ def load(data: bytes, name: str) -> Loaded:
         except Exception as fault:  # it has other faults too
             data, reason = commas.data, fault
     try:
+        load_ezdxf()
         from ezdxf import recover
 
         document, auditor = recover.read(io.BytesIO(data))
@@ -108,7 +110,7 @@ def _refuse_endless_curves(data: bytes, name: str) -> None:
 
 
 def _load_sound(data: bytes) -> Any:
-    import ezdxf  # noqa: F401 (the whole before its parts: else, while another thread imports it too, parts are found half made)
+    load_ezdxf()
     from ezdxf.document import Drawing
     from ezdxf.filemanagement import read
     from ezdxf.lldxf.encoding import decode_dxf_unicode

@@ -13,6 +13,7 @@ from app import tolerances
 from app.files.drawing_written import Conversions, Written, box_round
 from app.files.dxf_affine import scaled, transformed
 from app.files.dxf_curves import polar
+from app.files.light_ezdxf import load_ezdxf
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from app.model.part import Layer, Part, Units
 
@@ -54,7 +55,7 @@ def dxf_bytes(part: Part, version: DxfVersion = DxfVersion.R2010, tolerance: flo
     Raises:
         GeometryError: a curve cannot be followed in R12.
     """
-    import ezdxf  # noqa: F401 (the whole before its parts, as in `dxf_load`)
+    load_ezdxf()
     from ezdxf.filemanagement import new
 
     part, old = part.with_entities(part.entities), version is DxfVersion.R12
