@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -41,9 +40,11 @@ def places_of(mask: NDArray[np.bool_], value: NDArray[np.float32], grid: Grid) -
     Args:
         mask: (rows, cols). value: (rows, cols), of which the largest is the worst.
     """
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=8)
-    if count <= 1:
+    if not mask.any():
         return (), 0
+    import cv2  # there mostly is none
+
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=8)
     cells = np.flatnonzero(labels)
     label, worth = labels.ravel()[cells], value.ravel()[cells]
     order = np.lexsort((worth, label))
