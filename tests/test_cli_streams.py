@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -47,9 +48,11 @@ def test_without_stderr_errors_do_not_go_to_stdout(monkeypatch: pytest.MonkeyPat
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
-def test_ended_while_writing_it_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: signal.Signals) -> None:
+def test_ended_while_writing_it_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest,
+                                               number: signal.Signals) -> None:  # fmt: skip
     (tmp_path / "a").write_bytes(b"old")
     monkeypatch.setattr(os, "fsync", lambda _: os.kill(os.getpid(), number))
+    request.addfinalizer(partial(signal.signal, number, signal.signal(number, signal.SIG_DFL)))  # under nohup it is ignored
     with pytest.raises(Stopped) as stop, stoppable() as stopped:
         write_together({tmp_path / "a": b"new", tmp_path / "b": b"new"})
     assert stop.value.status == 128 + number and stopped.is_set()

@@ -132,6 +132,8 @@ def _turns_within(course: Course, pin: Floats) -> Mask:
 
 def alike_runs(sort: NDArray[np.int64], tool: NDArray[np.int32]) -> list[tuple[int, int]]:
     """Return the first and the last row of unbroken runs of one sort and one tool; those of no sort are left out."""
+    if not len(sort):
+        return []
     first = np.flatnonzero(np.concatenate([[True], (np.diff(sort) != 0) | (np.diff(tool) != 0)]))
     last = np.concatenate([first[1:], [len(sort)]]) - 1
     some = sort[first] != NONE

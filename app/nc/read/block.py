@@ -189,8 +189,8 @@ def block_of(parsed: Parsed, parameters: Parameters) -> Block:
         elif word.letter in block.values:
             raise Fault(f"a block takes one word {word.letter.upper()} only.", column=-1 - word.begin)
         elif word.letter == "n":
-            if numbered or value < 0:
-                raise Fault("a block has one number N, and that is not negative.", column=-1 - word.begin)
+            if numbered or not parsed.code[word.begin + 1].isdigit():
+                raise Fault("a block has one number N, and that begins with a digit.", column=-1 - word.begin)
             numbered = True
         else:
             block.values[word.letter] = value

@@ -119,13 +119,13 @@ def test_r_of_g64_is_known() -> None:
     assert len(told) == 1 and "2.10" in told[0]
 
 
-@pytest.mark.parametrize("text", ["n--5 g0 x1\nm2\n", "n-138 g0 x1\nm2\n", "n131n131 g0 x1\nm2\n"])
-def test_a_block_number_is_one_and_not_negative(text: str) -> None:
+@pytest.mark.parametrize("text", ["n--5 g0 x1\nm2\n", "n-138 g0 x1\nm2\n", "n131n131 g0 x1\nm2\n", "n.5 g0 x1\nm2\n", "n[5] g0 x1\nm2\n"])
+def test_a_block_number_is_one_and_begins_with_a_digit(text: str) -> None:
     assert rs274(text.encode())[1] != ""
     error = read_program(text.encode()).error
     assert error is not None and error.line == 1 and "number N" in error.text
 
 
-@pytest.mark.parametrize("text", ["n5 g0 x1\nm2\n", "n0005 x1\nn5 x2\nm2\n", "/n7 g0 x3\nm2\n"])
+@pytest.mark.parametrize("text", ["n5 g0 x1\nm2\n", "n0005 g0 x1\nn5 x2\nm2\n", "n5.5 g0 x1\nm2\n", "/n7 g0 x3\nm2\n"])
 def test_other_block_numbers_stay(text: str) -> None:
     assert read_program(text.encode()).error is None

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from app.nc.read.columns import Columns
@@ -156,7 +156,7 @@ plains = st.builds(
 )  # fmt: skip
 
 
-@settings(max_examples=examples(300))
+@settings(max_examples=examples(300), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(lines(), max_size=20), plains)
 def test_random_lines_mean_the_same_to_the_last_bit(texts: list[str], plain: Plain) -> None:
     _assert_same(texts, plain)
