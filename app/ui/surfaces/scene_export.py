@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog
 
 from app.atomic import write_together
+from app.model.finding import FindingKind
 from app.progress import Progress
 from app.ui.figures import counted, grouped
 from app.ui.log import Log
@@ -122,9 +123,11 @@ def _texts(wish: _Wish, path: Path, told: tuple[Progress, list[str]]) -> Iterato
         yield path, scene_points_csv(computed)
         return
     written = wish.proven.written if wish.proven is not None else write_scene_nc(computed, progress)
-    findings = written.findings()
-    if findings:
-        remarks.append(f"{counted(len(findings), 'move')} could not be proven. {findings[0].text}")
+    unproven = f"{counted(len(written.unproven), 'move')} could not be proven. " if len(written.unproven) else ""
+    if findings := written.findings():
+        told = next((each for each in findings if each.kind is FindingKind.GOUGE), findings[0])
+        more = f" ({counted(len(findings) - 1, 'more finding')})" if len(findings) > 1 and not unproven else ""
+        remarks.append(f"{unproven}{told.text}{more}")
     if suffix == ".json":
         yield path, surface_report(computed, written).text().encode()
         return

@@ -127,9 +127,11 @@ class SceneWork(QObject):
     def verdict(self) -> Verdict:
         """Where the scene stands in a line."""
         if self.state is SceneState.PROVEN and self.proven is not None:
-            unproven = len(self.findings)
+            unproven, wrong = len(self.proven.written.unproven), [each.text for each in self.findings if each.counts]
             if unproven:
-                return Verdict(Level.BAD, f"{counted(unproven, 'move')} not proven")
+                return Verdict(Level.BAD, f"{counted(unproven, 'move')} not proven", wrong[0])
+            if wrong:
+                return Verdict(Level.BAD, counted(len(wrong), "finding"), wrong[0])
             tip = "Every move of the program is proven to go no deeper into a surface than 0.00009 mm"
             return Verdict(Level.OK, f"✓ 0 gouge · {counted(len(self.proven.written.files), 'program')} · {clock(self.proven.time_s)}", tip)
         words = {SceneState.WRONG: (Level.REMARK, "The text is wrong"), SceneState.FAILED: (Level.REMARK, "Could not be computed"),

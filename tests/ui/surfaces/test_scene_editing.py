@@ -1,11 +1,15 @@
 """A scene is changed in the panel and in its text, computed at once, undone, saved, and not lost."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QTextCursor
 from PySide6.QtTest import QTest
 
 from app.files.scene_toml import read_scene
+from app.model.finding import Finding, FindingKind
 from app.resources import resource
 from app.ui.surfaces.ask_fields import VectorField
 from app.ui.surfaces.scene_document import SceneDocument
@@ -64,6 +68,23 @@ def test_a_number_in_the_panel_changes_the_text_the_picture_and_the_verdict(qtbo
     again(qtbot, opened)
     assert len(window.views.surfaces.shown.planes) < planes
     assert window.status.badge.text() != verdict
+
+
+def test_what_is_but_said_of_a_program_is_no_move_that_is_not_proven(qtbot, wiring):
+    wiring.files.open_file(resource("samples", "compound.toml"))
+    proven(qtbot, wiring)
+    work = wiring.scenes.work
+    assert work.findings and not any(finding.counts for finding in work.findings), "it slots the full block, and that is a remark"
+    assert wiring.window_.status.badge.property("verdict") == Level.OK.value
+
+
+@pytest.mark.parametrize(("counts", "unproven", "said"), [(True, 0, "1 finding"), (False, 2, "2 moves not proven")])
+def test_what_counts_is_told_by_its_kind(qtbot, opened, counts, unproven, said):
+    work = opened.scenes.work
+    finding = Finding(FindingKind.ENGAGEMENT, "It takes too much.", counts=counts)
+    written = replace(work.proven.written, loads=(finding,), unproven=np.zeros((unproven, 3)))
+    work.proven = replace(work.proven, written=written)
+    assert (work.verdict.level, work.verdict.text) == (Level.BAD, said)
 
 
 @pytest.mark.exhaustive
