@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 from app.progress import Progress
 
@@ -13,9 +14,15 @@ class StageTimes:
     Stages whose texts differ but in numbers and names of files count as one.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, clock: Callable[[], float] = time.perf_counter) -> None:
+        """Begin.
+
+        Args:
+            clock: tells seconds: of the wall, or of the processor.
+        """
         self._seconds: dict[str, float] = {}
-        self._stage, self._since = "Start", time.perf_counter()
+        self._clock = clock
+        self._stage, self._since = "Start", clock()
 
     def watch(self, progress: Progress) -> Progress:
         """Return a progress that tells its listener what it is told, and notes when."""
@@ -30,7 +37,7 @@ class StageTimes:
         return Progress(told, progress.cancelled, progress.start, progress.stop)
 
     def seconds(self) -> dict[str, float]:
-        """Return the wall time of each stage so far, s, in the order in which they came first."""
+        """Return the time of each stage so far, s, in the order in which they came first."""
         self._charge("")
         return {stage: round(spent, 4) for stage, spent in self._seconds.items()}
 
@@ -41,7 +48,7 @@ class StageTimes:
         return [f"  {spent:8.2f} s  {stage}" for stage, spent in [*longest, ("all", sum(found.values()))]]
 
     def _charge(self, text: str) -> None:
-        now = time.perf_counter()
+        now = self._clock()
         self._seconds[self._stage] = self._seconds.get(self._stage, 0.0) + now - self._since
         self._stage, self._since = _stage(text) if text else self._stage, now
 

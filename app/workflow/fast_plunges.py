@@ -20,7 +20,7 @@ from app.model.tool import Tool, ToolKind
 from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
 from app.workflow.closer import Metal, Way
-from app.workflow.led_ways import hits_along
+from app.workflow.led_ways import NARROW, hits_along
 from app.workflow.plunges import PIN, alike_runs
 
 STEEP = math.tan(math.radians(60.0))
@@ -85,7 +85,8 @@ def fast_plunges(metal: Metal, before: Workpiece, tools: Mapping[int, Tool], rat
     spans = [span for span in alike_runs(fast.astype(np.int64), course.tool) if _may_be_deep(metal, tools, known, span, top)]
     if not spans:
         return
-    radius = {number: tool.radius * PIN for number, tool in tools.items()}
+    wide = NARROW * before.grid.pitch  # metal under the axis that a cell would not show makes no plunge, so no closer look is taken
+    radius = {number: max(tool.radius * PIN, min(wide, tool.radius)) for number, tool in tools.items()}
     ways = [Way(first, np.concatenate([motions.start[first : first + 1], motions.end[first : last + 1]]),
                 Cutter(radius[int(course.tool[first])], radius[int(course.tool[first])])) for first, last in spans]  # fmt: skip
     deepest: dict[int, list[FastPlunge]] = {}

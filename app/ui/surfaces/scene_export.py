@@ -125,9 +125,9 @@ def _texts(wish: _Wish, path: Path, told: tuple[Progress, list[str]]) -> Iterato
     written = wish.proven.written if wish.proven is not None else write_scene_nc(computed, progress)
     unproven = f"{counted(len(written.unproven), 'move')} could not be proven. " if len(written.unproven) else ""
     if findings := written.findings():
-        told = next((each for each in findings if each.kind is FindingKind.GOUGE), findings[0])
+        worst = next((each for each in findings if each.kind is FindingKind.GOUGE), findings[0])
         more = f" ({counted(len(findings) - 1, 'more finding')})" if len(findings) > 1 and not unproven else ""
-        remarks.append(f"{unproven}{told.text}{more}")
+        remarks.append(f"{unproven}{worst.text}{more}")
     if suffix == ".json":
         yield path, surface_report(computed, written).text().encode()
         return
