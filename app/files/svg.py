@@ -78,17 +78,8 @@ def read_svg(
     Raises:
         InputError: the file is no usable SVG, has no curves, or has not one of the layers.
     """
-    root = read_xml(data, name)
-    if root.tag != "svg":
-        raise InputError(f"{name}:{root.line}: this is not an SVG file, it begins with {root.tag[:60]}; export the drawing as SVG.")
-    if units is not None and how.pixels_per_inch is not None:
-        raise InputError(f"{name}: units and --px-per-inch say the same of a drawing in two ways; give one of them.")
-    density = density_of(root) if how.pixels_per_inch is None else Density(how.pixels_per_inch)
-    try:
-        page = _page(root, units, density.pixel, how.overrule)
-    except UnreadableError as error:
-        raise InputError(f"{name}:{root.line}: the page's width, height or viewBox, {error.args[0][:60]!r}, cannot be read; "
-                         "give it a size above 0 and save it again.") from None
+    opened = _opened(name, data, units, how)
+    root, density, page = opened.root, opened.density, opened.page
     sheet, reading = Walker(root, name).sheet(page.to, page.view), Reading(units, layers, how)
 
     def placed(to_zero: bool) -> Taken:
@@ -114,6 +105,30 @@ def read_svg(
     if question is None and not (page.named or units or how.pixels_per_inch):
         question = _about_pixels(root, density, (size_of(part), page.to), reading)
     return Drawing(part, tuple(findings), tuple(sorted(left_out.items())), page.named, contents, question)
+
+
+@dataclass(frozen=True)
+class _Opened:
+    """A file whose page is known, and how many of its units it takes for an inch where it names no size."""
+
+    root: Node
+    density: Density
+    page: _Page
+
+
+def _opened(name: str, data: bytes, units: Units | None, how: ReadOptions) -> _Opened:
+    root = read_xml(data, name)
+    if root.tag != "svg":
+        raise InputError(f"{name}:{root.line}: this is not an SVG file, it begins with {root.tag[:60]}; export the drawing as SVG.")
+    if units is not None and how.pixels_per_inch is not None:
+        raise InputError(f"{name}: units and --px-per-inch say the same of a drawing in two ways; give one of them.")
+    density = density_of(root) if how.pixels_per_inch is None else Density(how.pixels_per_inch)
+    try:
+        page = _page(root, units, density.pixel, how.overrule)
+    except UnreadableError as error:
+        raise InputError(f"{name}:{root.line}: the page's width, height or viewBox, {error.args[0][:60]!r}, cannot be read; "
+                         "give it a size above 0 and save it again.") from None
+    return _Opened(root, density, page)
 
 
 def _about_pixels(root: Node, density: Density, now: tuple[Size, Affine], reading: Reading) -> Question:
