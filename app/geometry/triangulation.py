@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,9 +30,10 @@ def _triangles(points: NDArray[np.float64]) -> NDArray[np.int64]:
     if len(points) <= FEW:
         import shapely
 
-        made = shapely.get_parts(shapely.delaunay_triangles(shapely.multipoints(points)))
-        corners = shapely.get_coordinates(made).reshape(-1, 4, 2)[:, :3].reshape(-1, 2)
-        return _number_of(points, corners).reshape(-1, 3)
+        with suppress(shapely.errors.GEOSException):  # of points that nearly lie on one another it may lose one; scipy does not
+            made = shapely.get_parts(shapely.delaunay_triangles(shapely.multipoints(points)))
+            corners = shapely.get_coordinates(made).reshape(-1, 4, 2)[:, :3].reshape(-1, 2)
+            return _number_of(points, corners).reshape(-1, 3)
     from scipy.spatial import Delaunay, QhullError
 
     try:
