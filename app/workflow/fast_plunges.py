@@ -19,8 +19,8 @@ from app.model.motion import Floats, MotionKind
 from app.model.tool import Tool, ToolKind
 from app.progress import NO_PROGRESS, Progress
 from app.tolerances import LEVEL
-from app.workflow.closer import Metal, Way
-from app.workflow.led_ways import NARROW, hits_along
+from app.workflow.closer import NARROW, Metal, Way
+from app.workflow.led_ways import hits_along
 from app.workflow.plunges import PIN, alike_runs
 
 STEEP = math.tan(math.radians(60.0))
