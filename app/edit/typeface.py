@@ -127,7 +127,7 @@ class _Pen(BasePen):  # type: ignore[misc, unused-ignore]
         self._first: Point = (0.0, 0.0)
         self._parts = 0
 
-    def addComponent(self, glyphName: str, transformation: Any) -> None:  # noqa: N802, N803
+    def addComponent(self, glyphName: str, transformation: Any) -> None:  # noqa: N802, N803 (the library's names)
         """Draw a part of a letter that is a letter itself."""
         self._parts += 1
         if self._parts > _MOST_PARTS:

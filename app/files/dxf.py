@@ -83,7 +83,7 @@ def read_dxf(
     found, papers = placed(how.to_zero), paper(document)
     others = Counter() if how.layout else papers
     if not found.entities:
-        raise UndecidedError(f"{name}: {_nothing(sheet, found, others)}", _asked(sheet, found, others, (reading, unit)))
+        raise UndecidedError(f"{name}: {_nothing(sheet, found, others)}", _asked(sheet, found, others, reading, unit))
     part = Part(name=PurePath(name).stem, units=unit.shown, layers=_layers(document, found.entities)).with_entities(found.entities)
     names = tuple(layer.name for layer in part.layers)
     part = on_layers(part, layers, name)
@@ -98,9 +98,8 @@ def read_dxf(
     return Drawing(part, tuple(findings), tuple(sorted((+left_out + found.missing).items())), unit.named, contents, question)
 
 
-def _asked(sheet: Sheet, found: Taken, others: Counter[str], how: tuple[Reading, _Unit]) -> Question | None:
+def _asked(sheet: Sheet, found: Taken, others: Counter[str], reading: Reading, unit: _Unit) -> Question | None:
     """Return what to ask about a drawing that has nothing to machine, in the order of `_nothing`."""
-    reading, unit = how
     if found.far and found.moved is None:
         return about_far(found.far[0][0], reading, unit.shown)
     if sheet.hidden:

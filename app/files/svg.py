@@ -103,7 +103,7 @@ def read_svg(
                         per_inch=None if page.named else own.per_inch, editor=own.editor)  # fmt: skip
     question = strays_or_none(found, reading, placed)
     if question is None and not (page.named or units or how.pixels_per_inch):
-        question = _about_pixels(root, density, (size_of(part), page.to), reading)
+        question = _about_pixels(root, density, size_of(part), page.to, reading)
     return Drawing(part, tuple(findings), tuple(sorted(left_out.items())), page.named, contents, question)
 
 
@@ -131,9 +131,9 @@ def _opened(name: str, data: bytes, units: Units | None, how: ReadOptions) -> _O
     return _Opened(root, density, page)
 
 
-def _about_pixels(root: Node, density: Density, now: tuple[Size, Affine], reading: Reading) -> Question:
-    """Ask how large the page's units are; `now` is the drawing's size, mm, and the map by which it has it."""
-    (wide, high), to = now
+def _about_pixels(root: Node, density: Density, size: Size, to: Affine, reading: Reading) -> Question:
+    """Ask how large the page's units are; `size` is the drawing's now, mm, and `to` the map by which it has it."""
+    wide, high = size
 
     def size_in(other: Reading) -> Size:
         per_inch = other.how.pixels_per_inch

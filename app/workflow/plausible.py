@@ -54,7 +54,7 @@ def read_plausible(name: str, data: bytes, reading: Reading, diameters: Callable
     if not doubt or reading.units is drawing.part.units or (reading.how.pixels_per_inch is not None and not drawing.units_named):
         return drawing
     if reading.units is None:
-        sized = lambda units: _size_in(units, drawing, reading, (name, data))  # noqa: E731 (read only when it is asked)
+        sized = lambda units: _size_in(units, drawing, reading, name, data)  # noqa: E731 (read only when it is asked)
         raise UndecidedError(f"{PurePath(name).name}: {doubt}. {_options(drawing)}", _question(drawing, reading, tools, sized))
     return _read(name, data, replace(reading, how=replace(reading.how, overrule=True)))
 
@@ -63,11 +63,11 @@ def _read(name: str, data: bytes, reading: Reading) -> Drawing:
     return read_drawing(name, data, reading.units, reading.layers, reading.how)
 
 
-def _size_in(units: Units, drawing: Drawing, reading: Reading, file: tuple[str, bytes]) -> Size:
+def _size_in(units: Units, drawing: Drawing, reading: Reading, name: str, data: bytes) -> Size:
     """Return the size of a drawing in other units, mm: of an SVG, whose page may be scaled, by reading it so; (0, 0) where it cannot be."""
-    if PurePath(file[0]).suffix.lower() == ".svg":
+    if PurePath(name).suffix.lower() == ".svg":
         try:
-            return size_of(_read(*file, reading.in_units(units)).part, reading.layers)
+            return size_of(_read(name, data, reading.in_units(units)).part, reading.layers)
         except InputError:
             return (0.0, 0.0)
     wide, high = size_of(drawing.part, reading.layers)
