@@ -10,9 +10,10 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
 
-gc.set_threshold(100_000, 20, 20)  # imports and small jobs make many objects and hardly any rings: looking for these took a fifth of `make`
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # bands of our own use the cores; threads of the library wait busily for small matrices
+gc.set_threshold(300_000, 20, 20)  # imports and small jobs make many objects and hardly any rings: looking for these took a fifth of `make`
 
-from app.cli import BAD_INPUT  # noqa: E402 (the collector first: importing makes most of the objects)
+from app.cli import BAD_INPUT  # noqa: E402 (both first: importing makes most of the objects, and reads the environment)
 from app.cli import main as command_line  # noqa: E402
 from app.cli_output import say  # noqa: E402
 from app.errors import shortened  # noqa: E402

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import statistics
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -110,7 +109,7 @@ def _shift(curves: list[Curve]) -> Point | None:
     boxes = [box for curve in curves if has_place(curve) for box in [bounds(curve)]]
     if not boxes:
         return None
-    x, y = (statistics.median((box[k] + box[k + 2]) / 2 for box in boxes) for k in (0, 1))
+    x, y = np.median([((box[0] + box[2]) / 2, (box[1] + box[3]) / 2) for box in boxes], axis=0)
     near = [box for box in boxes if abs(box[0] - x) <= FARTHEST and abs(box[1] - y) <= FARTHEST]
     return (-min(box[0] for box in near), -min(box[1] for box in near)) if near else None
 
