@@ -13,10 +13,10 @@ from typing import NoReturn
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # bands of our own use the cores; threads of the library wait busily for small matrices
 gc.set_threshold(300_000, 20, 20)  # imports and small jobs make many objects and hardly any rings: looking for these took a fifth of `make`
 
-from app.cli import BAD_INPUT  # noqa: E402 (both first: importing makes most of the objects, and reads the environment)
-from app.cli import main as command_line  # noqa: E402
-from app.cli_output import say  # noqa: E402
-from app.errors import shortened  # noqa: E402
+from .cli.main import BAD_INPUT  # noqa: E402 (both first: importing makes most of the objects, and reads the environment)
+from .cli.main import main as command_line  # noqa: E402
+from .cli.output import say  # noqa: E402
+from .core.errors import shortened  # noqa: E402
 
 _LIBRARIES = "libegl1 libgl1 libglib2.0-0 libfontconfig1 libdbus-1-3 libxkbcommon0 libxkbcommon-x11-0 libxcb-cursor0 libxcb-icccm4 " \
     "libxcb-keysyms1 libxcb-shape0"
@@ -77,7 +77,7 @@ def _window(path: Path | None) -> int:
     if not _has_screen():
         return _refuse("there is no screen here to open a window on; start it on a desktop, or use: hitofude make DRAWING -o OUT.ngc")
     try:
-        from app.ui.start import start
+        from .ui.shell.start import start
 
         gc.freeze()  # what was imported stays
         gc.set_threshold(700, 10, 10)  # a window stays smooth by many short looks

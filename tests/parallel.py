@@ -11,7 +11,7 @@ ON_A_SCREEN = ("tests/ui/real_mouse/", "tests/ui/cut/test_on_screen.py")
 """Tests with a real mouse and focus: two at once would slow one another until somebody's patience ends."""
 
 
-COSTS = {"tests/ui/test_snapshots": 40, "tests/jit/": 10, "tests/ui/": 6, "tests/test_cli": 6, "tests/workflow/": 3}
+COSTS = {"tests/ui/test_snapshots": 40, "tests/core/": 10, "tests/ui/": 6, "tests/test_cli": 6, "tests/workflow/": 3}
 """How much longer a test takes here than elsewhere, about: what takes long begins early, so that the processes end together."""
 
 

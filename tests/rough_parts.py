@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from app.geometry.overlay import without_crossings
+from app.geometry.overlay.overlay import without_crossings
 from app.geometry.region import polygon_contour
 from app.model.part import Contour
 from tests.part_shapes import bulged, circle, random_star, square

@@ -106,7 +106,7 @@ def test_rooms_know_only_what_lies_before_them() -> None:
 
 def test_geometry_knows_of_fit_only_its_arcs() -> None:
     def strangers(path: Path) -> set[str]:
-        return {name for name in imports(path) if name.startswith("app.fit")} - {"app.fit.arcs"}
+        return {name for name in imports(path) if name.startswith("app.fitting")} - {"app.geometry.arcs.arcs"}
 
     assert not offenders([path for path in FILES if room_of(module_name(path)) == "geometry"], strangers)
 
@@ -118,7 +118,7 @@ def test_qt_stays_in_the_window() -> None:
 
 def test_only_kernel_files_know_the_compiler() -> None:
     others = [path for path in FILES if "kernels" not in path.stem and room_of(module_name(path)) != "jit"]
-    assert not offenders(others, lambda path: {name for name in imports(path) if name.split(".")[0] in COMPILER or name == "app.jit"})
+    assert not offenders(others, lambda path: {name for name in imports(path) if name.split(".")[0] in COMPILER or name == "app.core.jit"})
 
 
 def test_only_one_file_of_the_compiler_s_room_imports_it() -> None:
@@ -179,13 +179,13 @@ def modules_after(statement: str) -> set[str]:
 
 
 def test_the_command_line_starts_without_heavy_libraries() -> None:
-    assert not modules_after("import app.cli") & (QT | COMPILER | {"ezdxf", "trimesh", "cv2", "shapely", "scipy"})
+    assert not modules_after("import app.cli.main") & (QT | COMPILER | {"ezdxf", "trimesh", "cv2", "shapely", "scipy"})
 
 
 def test_the_window_opens_without_heavy_libraries() -> None:
-    assert not modules_after("import app.ui.main_window") & (COMPILER | {"ezdxf", "trimesh", "scipy"})
+    assert not modules_after("import app.ui.shell.main_window") & (COMPILER | {"ezdxf", "trimesh", "scipy"})
 
 
 def test_kernel_modules_know_no_window() -> None:
-    code = "import app.kernels, importlib\nfor name in app.kernels.kernel_modules(): importlib.import_module(name)"
+    code = "import app.core.jit.warm, importlib\nfor name in app.core.jit.warm.kernel_modules(): importlib.import_module(name)"
     assert not modules_after(code) & (QT | COMPILER)

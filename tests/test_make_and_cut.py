@@ -11,7 +11,7 @@ from typing import Any
 import ezdxf
 import pytest
 
-from app.cli import main
+from app.cli.main import main
 
 Corners = list[tuple[float, float]]
 Drawn = tuple[str, Corners | tuple[float, float, float]]

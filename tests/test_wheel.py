@@ -16,7 +16,7 @@ OPEN_AND_CLOSE = """
 import sys
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
-import app.ui.start as start
+import app.ui.shell.start as start
 began = start.begin
 def begin(wiring, path):
     began(wiring, path)

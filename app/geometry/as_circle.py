@@ -7,10 +7,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from app.geometry.primitives import TURN, contour_rows, points_at
-from app.model.curves import Circle, Line
-from app.model.part import Contour
-from app.tolerances import CURVE
+from ..core.tolerances import CURVE
+from ..model.curves import Circle, Line
+from ..model.part import Contour
+from .primitives import TURN, contour_rows, points_at
 
 LEAST_CHORDS = 12
 """Chords of a polygon that is a circle, and the share of a turn that none may exceed: a hexagon or an octagon is meant as one."""

@@ -8,9 +8,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from app.geometry import kernels
-from app.geometry.primitives import Indices, Rows, boxes
-from app.pool import pool
+from ..core.pool import pool
+from . import kernels
+from .primitives import Indices, Rows, boxes
 
 _WORTH_TWO_CORES = 20_000
 """Points from which a second core is worth its start."""

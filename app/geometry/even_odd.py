@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.geometry import even_odd_kernels
-from app.model.curves import Arc, Circle, Line, Primitive
-from app.model.part import Contour
+from ..model.curves import Arc, Circle, Line, Primitive
+from ..model.part import Contour
+from . import even_odd_kernels
 
 Floats = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from app.jit import kernel
+from ..core.jit import kernel
 
 LOW, HIGH, X_LOW, X_HIGH, CX, CY, R = range(7)
 

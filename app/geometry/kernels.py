@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from app.jit import kernel
+from ..core.jit import kernel
 
 LEAF = 4
 INF = math.inf

@@ -15,9 +15,9 @@ from itertools import chain, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from app.errors import GeometryError
-from app.model.curves import Arc, Circle, Line, Primitive
-from app.model.part import Contour, Region
+from ..core.errors import GeometryError
+from ..model.curves import Arc, Circle, Line, Primitive
+from ..model.part import Contour, Region
 
 Rows = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -166,7 +166,7 @@ def signed_area(rows: Rows) -> float:
 
 def boxes(rows: Rows) -> NDArray[np.float64]:
     """Return (n, 4) boxes x0, y0, x1, y1 that hold each row exactly, mm."""
-    from app.geometry import kernels  # here, so that the window opens without the compiler
+    from . import kernels  # here, so that the window opens without the compiler
 
     around = np.empty((len(rows), 4))
     kernels.row_boxes(np.ascontiguousarray(rows, np.float64), around)

@@ -9,11 +9,11 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from app import tolerances
-from app.geometry.distance import DistanceField
-from app.geometry.primitives import Rows, boxes, contour_rows, lengths, points_at, sample, signed_area
-from app.model.curves import Line, Primitive, reversed_curve
-from app.model.part import Contour, Region
+from ..core import tolerances
+from ..model.curves import Line, Primitive, reversed_curve
+from ..model.part import Contour, Region
+from .distance import DistanceField
+from .primitives import Rows, boxes, contour_rows, lengths, points_at, sample, signed_area
 
 _CHORD = 0.01
 """mm; an inner point of each contour is found with it, and then proven exactly. Thin contours are sampled more finely."""

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from enum import Enum
 
-from app.errors import ParameterError
-from app.model.curves import Point
+from ..core.errors import ParameterError
+from .curves import Point
 
 STEEPEST = math.radians(45)
 """Radians; a steeper ramp is a plunge by another name."""

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 
-from app.errors import printable
+from ..core.errors import printable
 
 
 class FindingKind(Enum):

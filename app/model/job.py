@@ -5,20 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from app.errors import ParameterError
-from app.model.operation import (
-    LEAST_LENGTH,
-    ContourOperation,
-    Cut,
-    DrillOperation,
-    Operation,
-    Order,
-    PocketOperation,
-    RestOperation,
-    kind_word,
-)
-from app.model.part import Part, Units
-from app.model.tool import Tool, ToolKind
+from ..core.errors import ParameterError
+from .operation import LEAST_LENGTH, ContourOperation, Cut, DrillOperation, Operation, Order, PocketOperation, RestOperation, kind_word
+from .part import Part, Units
+from .tool import Tool, ToolKind
 
 LARGEST_JOIN = 10.0
 """mm; a wider gap is no loose end any more."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from app.errors import ParameterError
+from ..core.errors import ParameterError
 
 Triple = tuple[float, float, float]
 

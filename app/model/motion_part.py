@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.model.motion import Floats, MotionKind, Motions
-from app.model.motion_path import arc_paths, spline_points
+from .motion import Floats, MotionKind, Motions
+from .motion_path import arc_paths, spline_points
 
 _COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
 _FULL = 2 * np.pi

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from app.model.motion import Floats, MotionKind, Motions, Nurbs, Plane
+from .motion import Floats, MotionKind, Motions, Nurbs, Plane
 
 SPLINE_PIECES = 256
 """Chords that stand for a spline where its length is asked for."""

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.model.finding import Finding
-from app.model.part import Contour, Region
+from .finding import Finding
+from .part import Contour, Region
 
 Floats = NDArray[np.float64]
 

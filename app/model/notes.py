@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from enum import Enum
 
-from app.model.curves import Line, Point
+from .curves import Line, Point
 
 _FAR = 2e4
 """Half the length of a construction line where it is cut with curves, mm: far longer than any drawing, and digits are left."""

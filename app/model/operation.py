@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from enum import Enum
 
-from app.errors import ParameterError
-from app.model.entry import Entry, Lead, Tabs
+from ..core.errors import ParameterError
+from .entry import Entry, Lead, Tabs
 
 LEAST_LENGTH = 1e-3
 """mm; a smaller depth, step or height would vanish in the digits of an NC program."""

@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from enum import Enum
 
-from app.model.curves import Curve, Primitive
-from app.model.notes import Note, Shape
-from app.model.read_options import AS_DRAWN, ReadOptions
+from .curves import Curve, Primitive
+from .notes import Note, Shape
+from .read_options import AS_DRAWN, ReadOptions
 
 
 class Units(Enum):

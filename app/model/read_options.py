@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from app.errors import InputError, ParameterError
+from ..core.errors import InputError, ParameterError
 
 LEAST_PER_INCH, MOST_PER_INCH = 1.0, 1e5
 

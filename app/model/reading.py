@@ -6,8 +6,8 @@ import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from app.model.part import Units
-from app.model.read_options import AS_DRAWN, ReadOptions
+from .part import Units
+from .read_options import AS_DRAWN, ReadOptions
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,13 +7,13 @@ import re
 from dataclasses import dataclass
 from enum import Enum
 
-from app.errors import ParameterError
-from app.model.job import OriginXY, OriginZ
-from app.model.operation import LEAST_LENGTH
-from app.model.part import Units
-from app.model.scene_curves import Point2, Point3
-from app.model.scene_shapes import MOST_LENGTH, Shape
-from app.model.tool import LEAST_RATE, Tool, ToolKind
+from ..core.errors import ParameterError
+from .job import OriginXY, OriginZ
+from .operation import LEAST_LENGTH
+from .part import Units
+from .scene_curves import Point2, Point3
+from .scene_shapes import MOST_LENGTH, Shape
+from .tool import LEAST_RATE, Tool, ToolKind
 
 Box = tuple[float, float, float, float, float, float]
 Rectangle = tuple[float, float, float, float]

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 
-from app.errors import ParameterError
-from app.model.part import Part
+from ..core.errors import ParameterError
+from .part import Part
 
 Point2 = tuple[float, float]
 Point3 = tuple[float, float, float]

@@ -7,8 +7,8 @@ from dataclasses import dataclass, fields
 from enum import Enum
 from typing import ClassVar
 
-from app.errors import ParameterError
-from app.model.scene_curves import MOST_DEGREE, Point2, Point3, SectionCurve, said
+from ..core.errors import ParameterError
+from .scene_curves import MOST_DEGREE, Point2, Point3, SectionCurve, said
 
 MOST_LENGTH = 1e6
 """mm; no shape is larger, or farther away."""

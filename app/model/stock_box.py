@@ -6,10 +6,10 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from app.errors import ParameterError
-from app.model.curves import Arc, Circle, Point, Primitive
-from app.model.job import Job, OriginXY, OriginZ
-from app.model.part import Contour, Region
+from ..core.errors import ParameterError
+from .curves import Arc, Circle, Point, Primitive
+from .job import Job, OriginXY, OriginZ
+from .part import Contour, Region
 
 QUADRANTS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import pairwise
 
-from app.errors import ParameterError
+from ..core.errors import ParameterError
 
 LEAST_RATE = 1.0
 """mm/min; a slower feed would be rounded away in the digits of F."""

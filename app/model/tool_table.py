@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from app.errors import HitofudeError
-from app.model.tool import Tool
+from ..core.errors import HitofudeError
+from .tool import Tool
 
 
 @dataclass(frozen=True, slots=True)

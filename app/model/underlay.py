@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-from app.errors import ParameterError
-from app.model.curves import Point
+from ..core.errors import ParameterError
+from .curves import Point
 
 
 @dataclass(frozen=True, slots=True)

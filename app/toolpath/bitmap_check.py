@@ -11,12 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.bitmap.codes import Codes, PixelCode, area_mm2
-from app.bitmap.fill import Observer, fill
-from app.bitmap.frame import Frame
-from app.geometry.distance import DistanceField
-from app.geometry.offset import Level
-from app.model.finding import Finding, FindingKind
+from ..geometry.distance import DistanceField
+from ..geometry.offset.offset import Level
+from ..model.finding import Finding, FindingKind
+from ..raster.codes import Codes, PixelCode, area_mm2
+from ..raster.fill import Observer, fill
+from ..raster.frame import Frame
 
 
 @dataclass(frozen=True)

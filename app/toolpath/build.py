@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from app.geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, Rows, lengths, reversed_rows, sweeps
-from app.model.moves import MoveKind, Moves, Purpose
+from ..geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, Rows, lengths, reversed_rows, sweeps
+from ..model.moves import MoveKind, Moves, Purpose
 
 _SAME_CENTRE = 1e-6  # mm
 _NO_CENTRE = (math.nan, math.nan)

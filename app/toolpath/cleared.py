@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app import tolerances
-from app.geometry.kernels import build_tree
-from app.geometry.primitives import Rows, boxes
-from app.model.curves import Point
-from app.model.tool import Tool, ToolKind
-from app.toolpath import cleared_kernels as kernels
+from ..core import tolerances
+from ..geometry.kernels import build_tree
+from ..geometry.primitives import Rows, boxes
+from ..model.curves import Point
+from ..model.tool import Tool, ToolKind
+from . import cleared_kernels as kernels
 
 _SLACK = 0.01
 """Of a cutter's radius: so thin a skin may stand on ground that counts as cut; at least 1 um."""

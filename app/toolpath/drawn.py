@@ -10,20 +10,20 @@ import shapely
 import shapely.affinity
 from numpy.typing import NDArray
 
-from app import tolerances
-from app.errors import ParameterError
-from app.geometry.chain import chain
-from app.geometry.even_odd import even_odd
-from app.geometry.overlay import without_crossings
-from app.geometry.primitives import contour_rows, sample, signed_area
-from app.geometry.region import reversed_contour
-from app.model.curves import Arc, Circle, Line, Point, Primitive
-from app.model.finding import Finding, FindingKind
-from app.model.job import Job
-from app.model.part import Contour, Region
-from app.model.stock_box import extent
-from app.toolpath.lettering import strokes_of
-from app.toolpath.witness import about_chaining
+from ..core import tolerances
+from ..core.errors import ParameterError
+from ..geometry.chaining.chain import chain
+from ..geometry.even_odd import even_odd
+from ..geometry.overlay.overlay import without_crossings
+from ..geometry.primitives import contour_rows, sample, signed_area
+from ..geometry.region import reversed_contour
+from ..model.curves import Arc, Circle, Line, Point, Primitive
+from ..model.finding import Finding, FindingKind
+from ..model.job import Job
+from ..model.part import Contour, Region
+from ..model.stock_box import extent
+from .lettering import strokes_of
+from .witness import about_chaining
 
 _CHORD = 1e-3
 """mm; arcs as chords within this, where it is asked what lies in what."""

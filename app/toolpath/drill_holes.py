@@ -8,16 +8,16 @@ from dataclasses import dataclass, replace
 
 import shapely
 
-from app.geometry.as_circle import as_circle
-from app.model.curves import Circle
-from app.model.finding import Finding, FindingKind
-from app.model.job import Job
-from app.model.operation import DrillOperation
-from app.model.part import Contour, Region
-from app.model.tool import Tool, ToolKind
-from app.tolerances import CURVE
-from app.toolpath.drawn import Drawn
-from app.toolpath.flat import region_shapes
+from ..core.tolerances import CURVE
+from ..geometry.as_circle import as_circle
+from ..model.curves import Circle
+from ..model.finding import Finding, FindingKind
+from ..model.job import Job
+from ..model.operation import DrillOperation
+from ..model.part import Contour, Region
+from ..model.tool import Tool, ToolKind
+from .coverage.flat import region_shapes
+from .drawn import Drawn
 
 ALIKE = 0.1
 """mm; circles whose diameter is this near to a drill's are its own."""

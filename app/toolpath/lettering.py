@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from app.geometry.chain import Chaining, chain
-from app.model.curves import Arc, Circle, Primitive
-from app.model.finding import Finding, FindingKind
-from app.model.part import Contour, Entity
-from app.toolpath.witness import about_chaining
+from ..geometry.chaining.chain import Chaining, chain
+from ..model.curves import Arc, Circle, Primitive
+from ..model.finding import Finding, FindingKind
+from ..model.part import Contour, Entity
+from .witness import about_chaining
 
 
 def strokes_of(entities: Sequence[Entity], join_tolerance: float) -> tuple[tuple[Contour, ...], list[Finding]]:

@@ -9,16 +9,16 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from app.geometry.distance import DistanceField
-from app.geometry.offset import Level, Ring, offset_levels
-from app.geometry.primitives import Primitives, contour_rows, sample
-from app.model.finding import Finding, FindingKind
-from app.model.job import Job
-from app.model.operation import ContourOperation, DrillOperation, Operation, Side
-from app.model.part import Region
-from app.model.tool import Tool
-from app.toolpath.bridge import level_bridges
-from app.toolpath.link_tree import Tree
+from ..geometry.distance import DistanceField
+from ..geometry.offset.offset import Level, Ring, offset_levels
+from ..geometry.primitives import Primitives, contour_rows, sample
+from ..model.finding import Finding, FindingKind
+from ..model.job import Job
+from ..model.operation import ContourOperation, DrillOperation, Operation, Side
+from ..model.part import Region
+from ..model.tool import Tool
+from .linking.bridge import level_bridges
+from .linking.tree import Tree
 
 _CHORD = 1e-3
 

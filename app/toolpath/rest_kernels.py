@@ -11,8 +11,8 @@ import math
 
 import numpy as np
 
-from app.geometry.kernels import LEAF, box_distance, nearest, point_distance
-from app.jit import kernel
+from ..core.jit import kernel
+from ..geometry.kernels import LEAF, box_distance, nearest, point_distance
 
 
 @kernel("float64(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64, float64)")

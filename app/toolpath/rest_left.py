@@ -15,12 +15,12 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from app.geometry.distance import DistanceField
-from app.geometry.primitives import Indices, Rows, points_at, within_half_turn
-from app.progress import Progress
-from app.toolpath import rest_kernels
-from app.toolpath.flat import region_shapes
-from app.toolpath.sheets import Sheet
+from ..core.progress import Progress
+from ..geometry.distance import DistanceField
+from ..geometry.primitives import Indices, Rows, points_at, within_half_turn
+from . import rest_kernels
+from .coverage.flat import region_shapes
+from .sheets import Sheet
 
 LEAST = 4e-3
 """mm; metal in which no disc of this radius fits is none: it is thinner than what the measure of coverage counts."""

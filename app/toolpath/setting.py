@@ -7,26 +7,26 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from app.bitmap.fill import Observer
-from app.errors import ParameterError
-from app.geometry.distance import DistanceField
-from app.geometry.offset import Level
-from app.geometry.primitives import contour_rows
-from app.model.entry import EntryKind
-from app.model.finding import Finding
-from app.model.job import Job
-from app.model.moves import DogBone, Tab
-from app.model.operation import ContourOperation, Cut, Side
-from app.model.part import Region
-from app.progress import Progress
-from app.toolpath.bitmap_check import BitmapCheck
-from app.toolpath.build import Label, MovesBuilder, Stroke
-from app.toolpath.cleared import Cleared
-from app.toolpath.depth import DepthPasses, Levels, pass_heights
-from app.toolpath.depth_order import in_order
-from app.toolpath.entry import Ground
-from app.toolpath.entry_hole import drilled, usable
-from app.toolpath.sheets import Sheet, Sheets
+from ..core.errors import ParameterError
+from ..core.progress import Progress
+from ..geometry.distance import DistanceField
+from ..geometry.offset.offset import Level
+from ..geometry.primitives import contour_rows
+from ..model.entry import EntryKind
+from ..model.finding import Finding
+from ..model.job import Job
+from ..model.moves import DogBone, Tab
+from ..model.operation import ContourOperation, Cut, Side
+from ..model.part import Region
+from ..raster.fill import Observer
+from .bitmap_check import BitmapCheck
+from .build import Label, MovesBuilder, Stroke
+from .cleared import Cleared
+from .depth.depth import DepthPasses, Levels, pass_heights
+from .entry.entry import Ground
+from .entry.hole import drilled, usable
+from .ordering.depth_order import in_order
+from .sheets import Sheet, Sheets
 
 
 @dataclass

@@ -9,20 +9,20 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from app.geometry.distance import DistanceField
-from app.geometry.overlay import Overlaid, without_crossings, without_outlines
-from app.geometry.primitives import Primitives, contour_rows, pack, points_at
-from app.geometry.region import nested, polygon_contour
-from app.model.finding import Finding
-from app.model.job import Job
-from app.model.moves import Area
-from app.model.operation import ContourOperation, DrillOperation, Operation, PocketOperation, RestOperation, Side
-from app.model.part import Contour, Region
-from app.model.stock_box import extent
-from app.toolpath.drawn import Drawn
-from app.toolpath.drill_holes import Hole, circle_of, hole_regions, made_by_drills
-from app.toolpath.lead import lead_size
-from app.toolpath.witness import about_regions
+from ..geometry.distance import DistanceField
+from ..geometry.overlay.overlay import Overlaid, without_crossings, without_outlines
+from ..geometry.primitives import Primitives, contour_rows, pack, points_at
+from ..geometry.region import nested, polygon_contour
+from ..model.finding import Finding
+from ..model.job import Job
+from ..model.moves import Area
+from ..model.operation import ContourOperation, DrillOperation, Operation, PocketOperation, RestOperation, Side
+from ..model.part import Contour, Region
+from ..model.stock_box import extent
+from .drawn import Drawn
+from .drill_holes import Hole, circle_of, hole_regions, made_by_drills
+from .leads.lead import lead_size
+from .witness import about_regions
 
 _ON_CLAMP = 2e-5
 """mm; a wall all of which is this near to a clamp's outline is the clamp's: ends that meet are put together by as much."""

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 import shapely
 
-from app.geometry.offset import Level, Ring
-from app.geometry.primitives import reversed_rows, sample
-from app.model.operation import Direction
-from app.toolpath.contour_path import Path
-from app.toolpath.sheets import Sheet
+from ..geometry.offset.offset import Level, Ring
+from ..geometry.primitives import reversed_rows, sample
+from ..model.operation import Direction
+from .leads.contour_path import Path
+from .sheets import Sheet
 
 _CHORD = 0.01
 """mm; only which ring lies in which depends on it."""

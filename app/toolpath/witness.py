@@ -12,22 +12,22 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from app import tolerances
-from app.errors import GeometryError
-from app.fit.bezier import pieces_of
-from app.geometry.chain import Chaining
-from app.geometry.chain_findings import at
-from app.geometry.chain_pieces import length_of, within_reach
-from app.geometry.distance import DistanceField
-from app.geometry.even_odd import even_odd
-from app.geometry.overlay import differing
-from app.geometry.primitives import contour_rows, lengths, points_at, signed_area
-from app.geometry.region import Nesting
-from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Primitive, Spline
-from app.model.finding import Finding, FindingKind
-from app.model.moves import Area
-from app.model.part import Contour, Entity, Region
-from app.toolpath.flat import region_shapes
+from ..core import tolerances
+from ..core.errors import GeometryError
+from ..geometry.arcs.bezier import pieces_of
+from ..geometry.chaining.chain import Chaining
+from ..geometry.chaining.findings import at
+from ..geometry.chaining.pieces import length_of, within_reach
+from ..geometry.distance import DistanceField
+from ..geometry.even_odd import even_odd
+from ..geometry.overlay.overlay import differing
+from ..geometry.primitives import contour_rows, lengths, points_at, signed_area
+from ..geometry.region import Nesting
+from ..model.curves import Arc, Circle, Curve, Ellipse, Line, Primitive, Spline
+from ..model.finding import Finding, FindingKind
+from ..model.moves import Area
+from ..model.part import Contour, Entity, Region
+from .coverage.flat import region_shapes
 
 Floats = NDArray[np.float64]
 

@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.files.drawing import read_drawing
+from app.formats.drawing import read_drawing
 from app.model.job import Job
 from app.model.part import Region
-from app.toolpath.compute import regions_of
+from app.operations.compute import regions_of
 from tests.conftest import ROOT
 
 DRAWINGS = {

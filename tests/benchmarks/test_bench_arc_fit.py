@@ -9,10 +9,10 @@ import pytest
 from numpy.typing import NDArray
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.fit.arc_fit import ArcOptions, fit_arcs
-from app.fit.arcs import lines_and_arcs
+from app.fitting.line_arcs.arc_fit import ArcOptions, fit_arcs
+from app.geometry.arcs.arcs import lines_and_arcs
 from app.model.curves import Spline
-from app.workflow.smooth import SmoothOptions, smooth
+from app.usecases.smooth import SmoothOptions, smooth
 from tests.benchmarks.conftest import OURS, record
 from tests.conftest import ROOT
 

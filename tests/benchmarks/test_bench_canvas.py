@@ -12,12 +12,12 @@ from pytest_benchmark.fixture import BenchmarkFixture
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
-from app.edit.document import Document
+from app.drafting.document import Document
 from app.model.curves import Arc, Curve, Line
 from app.model.job import Job
 from app.model.part import Part
-from app.ui.canvas.canvas import Canvas
-from app.ui.theme import LIGHT
+from app.ui.framework.theme import LIGHT
+from app.ui.views.canvas.canvas import Canvas
 from tests.benchmarks.conftest import OURS, record
 
 pytestmark = pytest.mark.benchmark

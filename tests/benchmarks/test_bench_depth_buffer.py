@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.dexel.depth_buffer import DepthBuffer
-from app.dexel.engines import published_error
-from app.dexel.quads import quad_heights
-from app.dexel.trim import trim
-from app.graphics import standalone_context
-from app.workflow.die_programs import PROGRAMS, block
-from app.workflow.figure_eleven import plain_heights
+from app.exhibits.die_programs import PROGRAMS, block
+from app.exhibits.figure_eleven import plain_heights
+from app.simulation.engines import published_error
+from app.simulation.gpu.depth_buffer import DepthBuffer
+from app.simulation.gpu.graphics import standalone_context
+from app.simulation.gpu.quads import quad_heights
+from app.simulation.sweeps.trim import trim
 from tests.benchmarks.conftest import OURS, record
 
 pytestmark = pytest.mark.benchmark

@@ -5,14 +5,14 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.dexel.course import TrimOptions
-from app.dexel.trim import trim
-from app.dexel.workpiece import Grid, Heights
-from app.files.holders import outline_of
+from app.exhibits.die_programs import PROGRAMS, SIZE, STOCK, block
+from app.exhibits.figure_eleven import plain_heights
+from app.formats.tools.holders import outline_of
 from app.model.tool import Tool, ToolKind
-from app.workflow.die_programs import PROGRAMS, SIZE, STOCK, block
-from app.workflow.figure_eleven import plain_heights
-from app.workflow.holder_contacts import holder_contacts
+from app.simulation.field.workpiece import Grid, Heights
+from app.simulation.sweeps.course import TrimOptions
+from app.simulation.sweeps.trim import trim
+from app.verify.holder_contacts import holder_contacts
 from tests.benchmarks.conftest import OURS, record
 
 pytestmark = pytest.mark.benchmark

@@ -16,7 +16,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.files.drawing import read_drawing
+from app.formats.drawing import read_drawing
+from app.gcode.interpreter.reader import read_program
 from app.model.curves import Circle, Line, Primitive
 from app.model.job import Job
 from app.model.motion import MotionKind
@@ -25,9 +26,8 @@ from app.model.operation import Cut, PocketOperation
 from app.model.part import Region
 from app.model.stock_box import extent
 from app.model.tool import Tool
-from app.nc.read.reader import read_program
-from app.toolpath.compute import compute
-from app.toolpath.coverage import measure
+from app.operations.compute import compute
+from app.toolpath.coverage.coverage import measure
 from tests.conftest import ROOT
 
 pytestmark = [pytest.mark.benchmark, pytest.mark.skipif(shutil.which("freecadcmd") is None, reason="freecad is not installed")]

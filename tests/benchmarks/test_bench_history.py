@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.dexel.course import TrimOptions
-from app.dexel.history import History, Playhead, changed_box
-from app.dexel.sweeps import Field
-from app.dexel.trim import trim
-from app.workflow.die_programs import PROGRAMS, block
+from app.exhibits.die_programs import PROGRAMS, block
+from app.simulation.history.history import History, Playhead, changed_box
+from app.simulation.sweeps.course import TrimOptions
+from app.simulation.sweeps.sweeps import Field
+from app.simulation.sweeps.trim import trim
 from tests.benchmarks.conftest import OURS, record
 
 pytestmark = pytest.mark.benchmark

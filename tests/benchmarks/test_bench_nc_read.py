@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.nc.read.reader import read_program
+from app.gcode.interpreter.reader import read_program
 from tests.benchmarks.conftest import OURS, record
 from tests.conftest import ROOT
-from tests.nc.rs274_oracle import RS274, needs_rs274, own_home
+from tests.gcode.rs274_oracle import RS274, needs_rs274, own_home
 
 pytestmark = pytest.mark.benchmark
 LINES = 200_000

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
+from app.gcode.checks.check import Meant, check
+from app.gcode.posts.posts import load_post
+from app.gcode.writer.write import NcFile, write_files
 from app.model.moves import Moves, Program
-from app.nc.check import Meant, check
-from app.nc.posts import load_post
-from app.nc.write import NcFile, write_files
 from tests.benchmarks.conftest import OURS, record
-from tests.nc.programs import Path, job, square
+from tests.gcode.programs import Path, job, square
 
 pytestmark = pytest.mark.benchmark
 MOST = {57_000: 0.25, 1_000_000: 3.4}

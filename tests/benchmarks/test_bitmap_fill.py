@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.bitmap.fill import fill
-from app.bitmap.frame import Frame
 from app.geometry.primitives import contour_rows, sample
 from app.model.part import Region
+from app.raster.fill import fill
+from app.raster.frame import Frame
 from tests.benchmarks.conftest import OURS, record
 
 pytestmark = pytest.mark.benchmark

@@ -7,10 +7,10 @@ import pytest
 from numpy.typing import NDArray
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.fit.bspline import SplineFit, fit_spline
-from app.fit.proven_curve import SplineOptions, fit_splines
-from app.fit.space_curve import curve_of_motions
-from app.fit.tube import Answer, Tube, judge
+from app.fitting.point_curves.bspline import SplineFit, fit_spline
+from app.fitting.point_curves.proven_curve import SplineOptions, fit_splines
+from app.fitting.point_curves.space_curve import curve_of_motions
+from app.fitting.point_curves.tube import Answer, Tube, judge
 from tests.benchmarks.conftest import OURS, record
 
 pytestmark = pytest.mark.benchmark

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.fit.correction import CorrectionOptions, corrected
-from app.fit.effective_points import EffectiveOptions, effective_points
+from app.fitting.point_curves.correction import CorrectionOptions, corrected
+from app.fitting.point_curves.effective_points import EffectiveOptions, effective_points
 from tests.benchmarks.conftest import OURS, record
 
 pytestmark = pytest.mark.benchmark

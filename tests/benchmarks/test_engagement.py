@@ -3,12 +3,12 @@
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.files.drawing import read_drawing
+from app.formats.drawing import read_drawing
 from app.model.job import Job
 from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.model.tool import Tool
-from app.toolpath.compute import compute
-from app.toolpath.engagement_feed import followed
+from app.operations.compute import compute
+from app.toolpath.engagement.feed import followed
 from tests.benchmarks.conftest import DRAWINGS, OURS, record
 
 pytestmark = pytest.mark.benchmark

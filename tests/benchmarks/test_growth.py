@@ -13,10 +13,10 @@ import ezdxf
 import numpy as np
 import pytest
 
-from app.cli_timings import StageTimes
-from app.progress import Progress
-from app.workflow.make import make
-from app.workflow.options import MakeOptions
+from app.cli.timings import StageTimes
+from app.core.progress import Progress
+from app.usecases.make import make
+from app.usecases.options import MakeOptions
 
 pytestmark = pytest.mark.benchmark
 SIZES = (100, 400, 1600)

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.bitmap.border import Border, borders_of
-from app.bitmap.frame import Frame
-from app.bitmap.levels import RingSteps, offset_area, ring_index
-from app.bitmap.walls import Mask, free_pixels
+from app.raster.border import Border, borders_of
+from app.raster.frame import Frame
+from app.raster.levels import RingSteps, offset_area, ring_index
+from app.raster.walls import Mask, free_pixels
 from tests.benchmarks.conftest import OURS, record
 from tests.part_shapes import fig2
 

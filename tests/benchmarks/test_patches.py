@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.ui.cut.colouring import CutColour, colouring
-from app.ui.cut.patch import patch_of
-from app.ui.cut.picture import CutPicture
-from app.ui.cut.scene import CutScene
+from app.ui.views.cut.colouring import CutColour, colouring
+from app.ui.views.cut.patch import patch_of
+from app.ui.views.cut.picture import CutPicture
+from app.ui.views.cut.scene import CutScene
 from tests.benchmarks.conftest import OURS, record
 from tests.ui.cut.pictures import INKS, without_a_screen
 

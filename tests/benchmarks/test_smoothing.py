@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.bitmap.frame import Frame
-from app.fit.smooth import SmoothOptions, smooth
+from app.fitting.corner_smoothing.smooth import SmoothOptions, smooth
+from app.raster.frame import Frame
 from tests.benchmarks.conftest import OURS, record
-from tests.fit.paths import traces, wavy
+from tests.fitting.paths import traces, wavy
 
 pytestmark = pytest.mark.benchmark
 TASK = "smoothing of 100 000 pixels"

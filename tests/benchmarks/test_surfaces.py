@@ -10,17 +10,17 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.files.scene_toml import read_scene, sources_of
+from app.formats.scene.toml import read_scene, sources_of
 from app.model.tool import Tool, ToolKind
-from app.surface.build import build
-from app.surface.drop_cutter import drop
-from app.surface.facets import Facets
-from app.surface.path import Follower, FollowOptions, cutter_path
-from app.surface.planes import even_planes
-from app.surface.scene_facets import scene_facets
+from app.surfaces.cutter_contact.drop_cutter import drop
+from app.surfaces.cutter_contact.scene_facets import scene_facets
+from app.surfaces.passes.path import Follower, FollowOptions, cutter_path
+from app.surfaces.patches.build import build
+from app.surfaces.patches.facets import Facets
+from app.surfaces.sections.planes import even_planes
 from tests.benchmarks.conftest import OURS, record
 from tests.conftest import ROOT
-from tests.surface.surface_places import no_data
+from tests.surfaces.surface_places import no_data
 
 pytestmark = pytest.mark.benchmark
 SIDE, WIDTH = 300, 100.0

@@ -15,7 +15,7 @@ from contextlib import redirect_stderr, redirect_stdout, suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
-from app.errors import HitofudeError, shortened
+from app.core.errors import HitofudeError, shortened
 from tests.fuzz.mutations import mutated
 
 SECONDS, ENDLESS, MEGABYTES, LETTERS = 5.0, 60.0, 1000, 300

@@ -13,9 +13,9 @@ import shapely
 from numpy.typing import NDArray
 from scipy.interpolate import BSpline
 
+from app.gcode.interpreter.program import NcProgram
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from app.model.motion import MotionKind
-from app.nc.read.program import NcProgram
 
 Floats = NDArray[np.float64]
 

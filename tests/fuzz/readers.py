@@ -12,27 +12,27 @@ from pathlib import Path
 
 import numpy as np
 
-from app.bitmap.picture import PictureOptions, read_picture
-from app.dexel.heights_file import read_heights
-from app.dexel.solid import read_solid
-from app.edit.document import drawn
-from app.edit.typeface import outlined
-from app.files.drawing import read_drawing
-from app.files.job_toml import read_job
-from app.files.machine_toml import read_machine
-from app.files.project import read_project
-from app.files.recovery import recoveries
-from app.files.scene_edit import with_table, with_value
-from app.files.scene_toml import read_scene
-from app.files.tool_files import read_rows, read_tools
-from app.mesh.read import read_mesh
-from app.mesh.winding import right_side_out
-from app.nc.posts import read_post
-from app.nc.read.dialect import Dialect
-from app.nc.read.options import ReadOptions
-from app.nc.read.reader import read_program
-from app.settings import load_settings, state_folder
-from app.workflow.examine import ExamineOptions, examine
+from app.core.settings import load_settings, state_folder
+from app.drafting.document import drawn
+from app.formats.drawing import read_drawing
+from app.formats.job.toml import read_job
+from app.formats.machine_toml import read_machine
+from app.formats.project.project import read_project
+from app.formats.project.recovery import recoveries
+from app.formats.scene.edit import with_table, with_value
+from app.formats.scene.toml import read_scene
+from app.formats.tools.files import read_rows, read_tools
+from app.gcode.interpreter.dialect import Dialect
+from app.gcode.interpreter.options import ReadOptions
+from app.gcode.interpreter.reader import read_program
+from app.gcode.posts.posts import read_post
+from app.geometry.typeface import outlined
+from app.raster.picture import PictureOptions, read_picture
+from app.simulation.field.solid import read_solid
+from app.simulation.heights_file import read_heights
+from app.surfaces.meshes.read import read_mesh
+from app.surfaces.meshes.winding import right_side_out
+from app.usecases.examine import ExamineOptions, examine
 from tests.fuzz import seeds
 from tests.fuzz.apart import Read, Reader
 

@@ -16,19 +16,19 @@ import numpy as np
 import trimesh
 from fontTools.fontBuilder import FontBuilder
 from fontTools.pens.ttGlyphPen import TTGlyphPen
-
-from app.edit.document import drawn
-from app.edit.history import State
-from app.edit.recorded import Recorded
-from app.files.project import Project, write_project
-from app.files.tool_files import read_tools, write_tools
-from app.files.tool_library import ToolLibrary
-from app.model.job import Job
-from app.settings import Settings
-from tests.conftest import ROOT
-from tests.files.test_svg_damage import RICH
 from tests.mesh import solids
-from tests.nc.read.rs274_programs import PROGRAMS
+
+from app.core.settings import Settings
+from app.drafting.document import drawn
+from app.drafting.history import State
+from app.drafting.recorded import Recorded
+from app.formats.project.project import Project, write_project
+from app.formats.tools.files import read_tools, write_tools
+from app.formats.tools.library import ToolLibrary
+from app.model.job import Job
+from tests.conftest import ROOT
+from tests.formats.test_svg_damage import RICH
+from tests.gcode.interpreter.rs274_programs import PROGRAMS
 
 DATA, RESOURCES, GOLDEN = ROOT / "tests" / "data", ROOT / "resources", ROOT / "tests" / "nc" / "golden"
 WHERE = b'{"x0": -1.5, "y0": 2, "pitch": 0.5, "floor": -3.0}\n'

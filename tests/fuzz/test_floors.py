@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.errors import HitofudeError
-from app.files.drawing import read_drawing
+from app.core.errors import HitofudeError
+from app.formats.drawing import read_drawing
+from app.gcode.interpreter.reader import read_program
 from app.model.curves import Circle, Curve
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.part import Entity, Part
-from app.nc.read.reader import read_program
-from app.workflow.make import Made, export, make
-from app.workflow.options import MakeOptions
+from app.usecases.make import Made, export, make
+from app.usecases.options import MakeOptions
 from tests.fuzz.apart import case
 from tests.fuzz.judge import wrong_floor
 from tests.fuzz.readers import reader

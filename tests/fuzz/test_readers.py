@@ -11,7 +11,7 @@ import random
 
 import pytest
 
-from app.errors import InputError
+from app.core.errors import InputError
 from tests.fuzz import apart
 from tests.fuzz.apart import Reader, case, faults
 from tests.fuzz.mutations import MUTATIONS

@@ -6,8 +6,8 @@ from itertools import pairwise
 
 import pytest
 
-from app.geometry.chain import Chaining, chain
-from app.geometry.chain_pieces import equally_far, within_reach
+from app.geometry.chaining.chain import Chaining, chain
+from app.geometry.chaining.pieces import equally_far, within_reach
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline, reversed_curve
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity

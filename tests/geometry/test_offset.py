@@ -9,15 +9,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app import tolerances
-from app.errors import Cancelled
-from app.geometry import offset
-from app.geometry.offset import Level, offset_levels
-from app.geometry.overlay import without_crossings
+from app.core import tolerances
+from app.core.errors import Cancelled
+from app.core.progress import Progress
+from app.geometry.offset import offset
+from app.geometry.offset.offset import Level, offset_levels
+from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import lengths, pack, points_at
 from app.geometry.region import nest, polygon_contour
 from app.model.part import Contour
-from app.progress import Progress
 from tests import plain_distance
 from tests.examples import examples
 from tests.part_shapes import bulged, circle, fig2, random_part, square

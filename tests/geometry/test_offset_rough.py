@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import shapely
 
-from app import tolerances
-from app.geometry.offset import Level, offset_levels
+from app.core import tolerances
+from app.geometry.offset.offset import Level, offset_levels
 from app.geometry.primitives import contour_rows, pack, points_at, sample
 from app.geometry.region import nest
 from app.model.part import Contour, Region

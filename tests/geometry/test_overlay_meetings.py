@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from app import tolerances
-from app.geometry import overlay_net
-from app.geometry.chain_crossings import contacts, crossings
+from app.core import tolerances
+from app.geometry.chaining.crossings import contacts, crossings
 from app.geometry.even_odd import even_odd
-from app.geometry.overlay import without_crossings, without_outlines
+from app.geometry.overlay import net as overlay_net
+from app.geometry.overlay.overlay import without_crossings, without_outlines
 from app.geometry.primitives import contour_rows, curve_rows, lengths, row_curve, signed_area
 from app.geometry.region import nest, nested, polygon_contour
 from app.model.curves import Arc, Line

@@ -5,11 +5,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.fit.nurbs import flattened_all
+from app.geometry.arcs.nurbs import flattened_all
 from app.model.motion import MotionKind, Motions, Nurbs, Plane
 from app.model.motion_part import part_of, place_on
 from app.model.motion_path import arc_paths, lengths
-from tests.dexel.courses import arc, polyline
+from tests.simulation.courses import arc, polyline
 
 ARCS = {
     "quarter": arc((3, 0, 1), (0, 3, 1), (0, 0, 1)),

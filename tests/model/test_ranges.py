@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from app.errors import ParameterError
+from app.core.errors import ParameterError
 from app.model.entry import Lead
 from app.model.job import Job
 from app.model.operation import Cut, PocketOperation

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import pytest
 
-from app.errors import ParameterError
+from app.core.errors import ParameterError
 from app.model.scene import Outline, Passes, Scene, SceneStock, Surface
 from app.model.scene_curves import CurveForm, SectionCurve
 from app.model.scene_shapes import (

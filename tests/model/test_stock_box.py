@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.errors import ParameterError
+from app.core.errors import ParameterError
 from app.model.curves import Arc, Circle, Line
 from app.model.job import Job, OriginXY, OriginZ, Stock
 from app.model.part import Contour, Part, Region

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from app.errors import ParameterError
+from app.core.errors import ParameterError
 from app.model.tool import FeedRow, Tool, ToolKind
 
 BULL = Tool(3, 12.0, ToolKind.BULL, corner_radius=1.0, flute_length=26.0, overall_length=83.0, stick_out=40.0, shank_diameter=12.0)

@@ -9,13 +9,13 @@ from itertools import pairwise
 
 import numpy as np
 
+from app.core.progress import NO_PROGRESS
 from app.geometry.primitives import Rows, contour_rows
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Purpose
 from app.model.operation import ContourOperation, Cut, Operation, PocketOperation
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
-from app.progress import NO_PROGRESS
 from app.toolpath.build import Stroke
 from app.toolpath.drawn import drawn
 from app.toolpath.setting import Setting, emit

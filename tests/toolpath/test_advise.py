@@ -12,24 +12,24 @@ import shapely
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from app.errors import Cancelled, ParameterError
-from app.files.drawing import read_drawing
+from app.core.errors import Cancelled, ParameterError
+from app.core.progress import Progress
+from app.formats.drawing import read_drawing
+from app.gcode.posts.posts import load_post
 from app.geometry.distance import DistanceField
-from app.geometry.overlay import without_crossings
+from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import pack
 from app.geometry.region import nest, polygon_contour
 from app.model.job import Job
 from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.model.part import Contour
 from app.model.tool import Tool, ToolKind
-from app.nc.posts import load_post
-from app.progress import Progress
-from app.toolpath.advise import Advice, RegionAdvice, Spot, advise
-from app.toolpath.advise_reach import FITS, centres
-from app.toolpath.advise_time import Plan, distances, times
-from app.toolpath.compute import compute, regions_of
-from app.toolpath.flat import region_shapes
-from app.workflow.written import write_and_check
+from app.operations.compute import compute, regions_of
+from app.toolpath.advice.advise import Advice, RegionAdvice, Spot, advise
+from app.toolpath.advice.reach import FITS, centres
+from app.toolpath.advice.time import Plan, distances, times
+from app.toolpath.coverage.flat import region_shapes
+from app.usecases.written import write_and_check
 from tests.examples import examples
 from tests.part_shapes import bulged, circle, fig2, random_part, square
 

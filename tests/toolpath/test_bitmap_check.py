@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from app.geometry.distance import DistanceField
-from app.geometry.offset import Level, offset_levels
-from app.geometry.overlay import without_crossings
+from app.geometry.offset.offset import Level, offset_levels
+from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import pack
 from app.geometry.region import nest
 from app.model.part import Contour

@@ -9,18 +9,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app import tolerances
+from app.core import tolerances
 from app.geometry.distance import DistanceField
-from app.geometry.offset import offset_levels
+from app.geometry.offset.offset import offset_levels
 from app.geometry.primitives import lengths, pack, points_at
 from app.geometry.region import nest, polygon_contour
 from app.model.moves import Purpose
 from app.model.part import Contour
 from app.toolpath.build import Stroke
-from app.toolpath.chain_net import Corridor
-from app.toolpath.chains import chains
+from app.toolpath.linking.chain_net import Corridor
+from app.toolpath.linking.chains import chains
+from app.toolpath.linking.rest_runs import Chunks, Run
 from app.toolpath.rest_left import Ground
-from app.toolpath.rest_runs import Chunks, Run
 from tests import plain_distance
 from tests.examples import examples
 from tests.part_shapes import circle, random_part, square

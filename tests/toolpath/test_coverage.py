@@ -12,17 +12,17 @@ import numpy as np
 import pytest
 import shapely
 
-from app.errors import Cancelled
+from app.core.errors import Cancelled
+from app.core.progress import Progress
 from app.model.curves import Circle
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.model.part import Contour, Part, Region
 from app.model.tool import Tool
-from app.progress import Progress
-from app.toolpath.coverage import _between_reversals, _solid, _widened, coverage_findings, measure
-from app.toolpath.proven import uncertain
-from tests.nc.programs import Path, square
+from app.toolpath.coverage.coverage import _between_reversals, _solid, _widened, coverage_findings, measure
+from app.toolpath.coverage.proven import uncertain
+from tests.gcode.programs import Path, square
 
 DISC = Region(1, Contour((Circle((0.0, 0.0), 10.0),)))
 
@@ -135,7 +135,7 @@ def test_what_is_proven_covered_changes_nothing(radii: tuple[float, ...], monkey
     regions = (DISC, Region(2, Contour((Circle((30.0, 0.0), 9.0),)), (island,)), Region(3, Contour((Circle((0.0, 25.0), 9.0),))))
     program = rings(*radii).program(*regions)
     quick = measure(program, one_tool())
-    monkeypatch.setattr("app.toolpath.coverage.uncertain", lambda wanted, paths, progress: np.array([shapely.box(*wanted.bounds)]))
+    monkeypatch.setattr("app.toolpath.coverage.coverage.uncertain", lambda wanted, paths, progress: np.array([shapely.box(*wanted.bounds)]))
     full = measure(program, one_tool())
     assert quick.reachable_left_mm2 == pytest.approx(full.reachable_left_mm2, abs=1e-3)
     assert quick.reachable_left_mm2 > 300

@@ -7,15 +7,15 @@ from dataclasses import replace
 import pytest
 import shapely
 
-from app.errors import ParameterError
+from app.core.errors import ParameterError
 from app.geometry.region import polygon_contour
 from app.model.curves import Circle, Line
 from app.model.finding import FindingKind
 from app.model.job import Copies, Job
 from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.model.part import Contour, Entity
+from app.toolpath.coverage.flat import region_shapes
 from app.toolpath.drawn import Drawn, drawn, layers_of, outermost
-from app.toolpath.flat import region_shapes
 from tests.part_shapes import circle, layered_part, square
 
 

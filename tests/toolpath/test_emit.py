@@ -9,7 +9,7 @@ import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
-from app.errors import HitofudeError, ParameterError
+from app.core.errors import HitofudeError, ParameterError
 from app.geometry.primitives import lengths
 from app.model.entry import Entry, EntryKind
 from app.model.finding import FindingKind
@@ -17,14 +17,14 @@ from app.model.job import Stock
 from app.model.moves import MoveKind, Moves, Purpose
 from app.model.operation import Cut, Direction, PocketOperation
 from app.toolpath.build import Stroke
-from app.toolpath.depth import pass_heights
-from app.toolpath.depth_ways import keeps_off_walls
-from app.toolpath.entry import Ground
-from app.workflow.make import export
+from app.toolpath.depth.depth import pass_heights
+from app.toolpath.entry.entry import Ground
+from app.toolpath.entry.ways import keeps_off_walls
+from app.usecases.make import export
 from tests.examples import examples
 from tests.part_shapes import circle, square
 from tests.toolpath.emitting import TOOL, contour_operation, emitted, lifts, loop, path, setting_of
-from tests.workflow.test_random_jobs import random_job
+from tests.usecases.test_random_jobs import random_job
 
 PLUNGE = Entry(EntryKind.PLUNGE)
 

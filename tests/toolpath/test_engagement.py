@@ -12,8 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
-from app.errors import Cancelled
-from app.files.drawing import read_drawing
+from app.core.errors import Cancelled
+from app.core.progress import Progress
+from app.formats.drawing import read_drawing
 from app.geometry.primitives import lengths, points_at
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Program
@@ -21,15 +22,15 @@ from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.model.part import Region
 from app.model.stock_box import stock_box
 from app.model.tool import Tool, ToolKind
-from app.progress import Progress
-from app.toolpath import engagement as engagement_module
-from app.toolpath import engagement_field, engagement_places
-from app.toolpath.compute import compute
-from app.toolpath.engagement import engagement, look
-from app.toolpath.engagement_places import chain_begins, places
-from app.toolpath.flat import move_rows
+from app.operations.compute import compute
+from app.toolpath.coverage.flat import move_rows
+from app.toolpath.engagement import engagement as engagement_module
+from app.toolpath.engagement import field as engagement_field
+from app.toolpath.engagement import places as engagement_places
+from app.toolpath.engagement.engagement import engagement, look
+from app.toolpath.engagement.places import chain_begins, places
 from tests.examples import examples
-from tests.nc.programs import Path, job, square
+from tests.gcode.programs import Path, job, square
 from tests.part_shapes import fig2
 
 D, R = 6.0, 3.0
@@ -172,7 +173,7 @@ def test_passes_side_by_side_against_intervals_on_a_line() -> None:
 
 
 def fig2_program() -> tuple[Program, Job]:
-    from tests.toolpath.test_compute import job_of
+    from tests.operations.test_compute import job_of
 
     made = job_of(fig2(), operations=(PocketOperation(Cut(1, 2.0, 1.0), stepover=4.8), ContourOperation(Cut(2))), stock=Stock(1.0, 10.0))
     return compute(made), made

@@ -11,19 +11,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.errors import Cancelled
-from app.files.drawing import read_drawing
+from app.core.errors import Cancelled
+from app.core.progress import Progress
+from app.formats.drawing import read_drawing
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Moves, Program
 from app.model.operation import ContourOperation, Cut, DrillOperation, PocketOperation
 from app.model.tool import Tool
-from app.progress import Progress
-from app.toolpath.compute import compute
-from app.toolpath.engagement import engagement
-from app.toolpath.engagement_feed import LEAST_FEED, followed, most_engaged
-from app.toolpath.flat import move_rows
+from app.operations.compute import compute
+from app.toolpath.coverage.flat import move_rows
+from app.toolpath.engagement.engagement import engagement
+from app.toolpath.engagement.feed import LEAST_FEED, followed, most_engaged
 from tests.examples import examples
-from tests.nc.programs import Path, job, square
+from tests.gcode.programs import Path, job, square
 
 FEED, R = 600.0, 3.0
 PLATE = square(-60, -60, 60, 60)

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.geometry.offset import offset_levels
+from app.geometry.offset.offset import offset_levels
 from app.geometry.primitives import TURN, Rows, lengths, sample
 from app.model.entry import Lead, LeadKind
 from app.model.job import Job
@@ -18,14 +18,14 @@ from app.model.moves import Purpose
 from app.model.operation import Direction, Side
 from app.model.part import Contour
 from app.model.tool import Tool
-from app.toolpath.compute import compute
-from app.toolpath.contour_path import headings_at, keep_clear
-from app.toolpath.lead import Around, Run, about_leads, about_overlaps, corners_of, runs
+from app.operations.compute import compute
+from app.toolpath.leads.contour_path import headings_at, keep_clear
+from app.toolpath.leads.lead import Around, Run, about_leads, about_overlaps, corners_of, runs
 from app.toolpath.side import wall_paths
 from tests import plain_distance
 from tests.examples import examples
+from tests.operations.contour_jobs import about, contour_job, outside, rows_of, sheet_of
 from tests.part_shapes import circle, fig2, random_part, square
-from tests.toolpath.contour_jobs import about, contour_job, outside, rows_of, sheet_of
 
 
 def runs_of(job: Job, lead: Lead = Lead(), taken: list[tuple[float, float]] | None = None) -> tuple[tuple[Run, ...], Around]:

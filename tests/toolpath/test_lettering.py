@@ -4,14 +4,14 @@ from dataclasses import replace
 
 import pytest
 
-from app.edit.lettering import engraving
+from app.geometry.lettering import engraving
 from app.model.curves import Arc, Circle
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.operation import ContourOperation, Cut, Operation, PocketOperation, Side
 from app.model.part import Entity, Part
 from app.model.tool import Tool
-from app.toolpath.compute import about_drawing, compute, followed_lines, machined
+from app.operations.compute import about_drawing, compute, followed_lines, machined
 from app.toolpath.drawn import drawn
 from app.toolpath.lettering import strokes_of
 

@@ -7,18 +7,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app import tolerances
+from app.core import tolerances
 from app.geometry.distance import DistanceField
-from app.geometry.offset import Level, offset_levels
-from app.geometry.overlay import without_crossings
+from app.geometry.offset.offset import Level, offset_levels
+from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import lengths, pack, points_at, signed_area
 from app.geometry.region import nest, polygon_contour
 from app.model.moves import Purpose
 from app.model.operation import Direction
 from app.model.part import Contour
+from app.operations.pocket.pocket import pocket_distances, without_empty
 from app.toolpath.build import Stroke, started_at
-from app.toolpath.link import Manner, link
-from app.toolpath.pocket import pocket_distances, without_empty
+from app.toolpath.linking.link import Manner, link
 from tests import plain_distance
 from tests.examples import examples
 from tests.part_shapes import circle, fig2, random_part, square

@@ -7,23 +7,23 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app import tolerances
-from app.files.drawing import read_drawing
+from app.core import tolerances
+from app.formats.drawing import read_drawing
 from app.geometry.distance import DistanceField
-from app.geometry.offset import offset_levels
-from app.geometry.overlay import without_crossings
+from app.geometry.offset.offset import offset_levels
+from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import lengths, pack, points_at
 from app.geometry.region import nest
 from app.model.job import Job
 from app.model.moves import Purpose
 from app.model.operation import Direction
 from app.model.part import Region
-from app.toolpath.compute import regions_of
-from app.toolpath.link import Manner
-from app.toolpath.link_slant import covers
-from app.toolpath.pocket import Cleared, Wanted, shortest
+from app.operations.compute import regions_of
+from app.operations.pocket.pocket import Cleared, Wanted, shortest
+from app.toolpath.coverage.uncut import uncut
+from app.toolpath.linking.link import Manner
+from app.toolpath.linking.slant import covers
 from app.toolpath.sheets import Sheet
-from app.toolpath.uncut import uncut
 from tests import plain_distance
 from tests.conftest import ROOT
 from tests.examples import examples

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 
 import pytest
 
+from app.core.tolerances import NOMINAL
 from app.model.finding import FindingKind
-from app.tolerances import NOMINAL
-from app.workflow.bitmap_options import BitmapOptions, BitmapSize
-from app.workflow.make import Made, make
-from app.workflow.options import MakeOptions
+from app.usecases.bitmap_options import BitmapOptions, BitmapSize
+from app.usecases.make import Made, make
+from app.usecases.options import MakeOptions
 
 WIDTH = 3.175
 

@@ -14,7 +14,7 @@ from shapely import affinity
 
 from app.geometry.distance import DistanceField
 from app.geometry.primitives import Rows, within_half_turn
-from app.toolpath.proven import uncertain
+from app.toolpath.coverage.proven import uncertain
 from tests.examples import examples
 
 RADIUS = 2.0

@@ -9,9 +9,9 @@ from app.model.job import Job
 from app.model.operation import Cut, PocketOperation
 from app.model.part import Entity, Part, Region
 from app.model.tool import Tool
-from app.toolpath.compute import compute
-from app.toolpath.coverage import measure
-from app.toolpath.reachable import Cutter, Fields, reached
+from app.operations.compute import compute
+from app.toolpath.coverage.coverage import measure
+from app.toolpath.coverage.reachable import Cutter, Fields, reached
 
 
 def slot(width: float) -> tuple[Region, ...]:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from app.core.progress import NO_PROGRESS
 from app.geometry.distance import DistanceField
-from app.geometry.offset import offset_levels
+from app.geometry.offset.offset import offset_levels
 from app.geometry.primitives import lengths, pack
 from app.geometry.region import nest
-from app.progress import NO_PROGRESS
+from app.toolpath.linking.rest_runs import Cells, Chunks, runs
 from app.toolpath.rest_left import LEAST, Ground, Reach, core_cells, suspects
-from app.toolpath.rest_runs import Cells, Chunks, runs
 from app.toolpath.sheets import Sheet
 from tests.part_shapes import circle, square
 

@@ -10,19 +10,19 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app import tolerances
+from app.core import tolerances
 from app.geometry.distance import DistanceField
-from app.geometry.offset import Level, offset_levels
-from app.geometry.overlay import without_crossings
+from app.geometry.offset.offset import Level, offset_levels
+from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import Primitives, Rows, lengths, pack, points_at, sample, within_half_turn
 from app.geometry.region import nest, polygon_contour
 from app.model.part import Contour
+from app.operations.pocket.pocket import pocket_distances, without_empty
 from app.toolpath.build import Stroke
-from app.toolpath.flat import region_shapes
-from app.toolpath.link import Manner, link
-from app.toolpath.pocket import pocket_distances, without_empty
-from app.toolpath.runs import NOTHING, Filling, between, fill, gaps_of
-from app.toolpath.uncut import uncut
+from app.toolpath.coverage.flat import region_shapes
+from app.toolpath.coverage.uncut import uncut
+from app.toolpath.linking.link import Manner, link
+from app.toolpath.linking.runs import NOTHING, Filling, between, fill, gaps_of
 from tests import plain_distance
 from tests.examples import examples
 from tests.part_shapes import circle, fig2, random_part, square

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 import shapely
 
-from app.geometry.overlay import without_outlines
+from app.geometry.overlay.overlay import without_outlines
 from app.geometry.region import nest, polygon_contour
 from app.model.job import Copies, Job
 from app.model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, RestOperation, Side
 from app.model.part import Contour, Region
 from app.model.tool import Tool
+from app.toolpath.coverage.flat import region_shapes
 from app.toolpath.drawn import drawn
-from app.toolpath.flat import region_shapes
 from app.toolpath.sheets import Sheet, Sheets
 from tests.part_shapes import circle, layered_part, random_part, square
 

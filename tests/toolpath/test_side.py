@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 import shapely
 
-from app.geometry.offset import offset_levels
+from app.geometry.offset.offset import offset_levels
 from app.geometry.primitives import contour_rows, points_at, sample, signed_area
 from app.model.job import Job
 from app.model.operation import ContourOperation, Cut, Direction, Side
 from app.model.part import Contour
-from app.toolpath.contour_path import Path, headings_at, left_of
+from app.toolpath.leads.contour_path import Path, headings_at, left_of
 from app.toolpath.side import ranks, wall_paths
 from tests import plain_distance
+from tests.operations.contour_jobs import contour_job, outside, polygon, sheet_of
 from tests.part_shapes import circle, fig2, random_part, square
-from tests.toolpath.contour_jobs import contour_job, outside, polygon, sheet_of
 
 
 def paths_of(job: Job, distance: float, direction: Direction = Direction.CLIMB) -> tuple[Path, ...]:

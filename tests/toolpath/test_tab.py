@@ -17,11 +17,11 @@ from app.model.job import Copies, Job
 from app.model.moves import Program, Purpose
 from app.model.operation import ContourOperation, Cut, Side
 from app.model.part import Contour
-from app.toolpath.compute import compute
+from app.operations.compute import compute
 from tests import plain_distance
 from tests.examples import examples
+from tests.operations.contour_jobs import about, contour_job, outside, rows_of
 from tests.part_shapes import circle, fig2, square
-from tests.toolpath.contour_jobs import about, contour_job, outside, rows_of
 
 PLUNGE = Entry(EntryKind.PLUNGE)
 

@@ -12,21 +12,21 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.errors import Cancelled, ParameterError
-from app.files.drawing import read_drawing
+from app.core.errors import Cancelled, ParameterError
+from app.core.progress import Progress
+from app.formats.drawing import read_drawing
 from app.geometry.distance import DistanceField
-from app.geometry.offset import offset_levels
+from app.geometry.offset.offset import offset_levels
 from app.geometry.primitives import lengths, pack
 from app.model.job import Job
 from app.model.moves import Purpose
 from app.model.operation import Direction
-from app.progress import Progress
+from app.operations.compute import regions_of
+from app.operations.contour.contour import contour_strokes
+from app.operations.pocket.pocket import pocket_distances, without_empty
 from app.toolpath.build import Stroke
-from app.toolpath.compute import regions_of
-from app.toolpath.contour import contour_strokes
-from app.toolpath.link import Manner, link
-from app.toolpath.pocket import pocket_distances, without_empty
-from app.toolpath.tour import in_short_order, travel_mm
+from app.toolpath.linking.link import Manner, link
+from app.toolpath.ordering.tour import in_short_order, travel_mm
 from tests.examples import examples
 
 Before = list[tuple[int, int]]
@@ -135,8 +135,8 @@ def test_many_strokes(seed: int, count: int, closed: bool, reversible: bool, how
 
 
 def test_the_search_alone_finds_the_shortest_order_of_a_few(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.toolpath.tour._FEW", 0)
-    monkeypatch.setattr("app.toolpath.tour._BASE", 100_000)
+    monkeypatch.setattr("app.toolpath.ordering.tour._FEW", 0)
+    monkeypatch.setattr("app.toolpath.ordering.tour._BASE", 100_000)
     for seed in range(12):
         strokes, before = random_strokes(seed, 6, seed % 2 == 0), random_rules(seed, 6, seed % 4)
         assert check(strokes, (5, 5), before, False) == pytest.approx(shortest(strokes, (5, 5), before, False))

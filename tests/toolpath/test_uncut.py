@@ -9,16 +9,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.errors import Cancelled
+from app.core.errors import Cancelled
+from app.core.progress import Progress
 from app.geometry.distance import DistanceField
-from app.geometry.offset import Level, offset_levels
-from app.geometry.overlay import without_crossings
+from app.geometry.offset.offset import Level, offset_levels
+from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import Rows, pack
 from app.geometry.region import nest
 from app.model.part import Contour
-from app.progress import Progress
-from app.toolpath.pocket import pocket_distances, without_empty
-from app.toolpath.uncut import Uncut, uncut
+from app.operations.pocket.pocket import pocket_distances, without_empty
+from app.toolpath.coverage.uncut import Uncut, uncut
 from tests import plain_distance
 from tests.examples import examples
 from tests.part_shapes import circle, random_part, square

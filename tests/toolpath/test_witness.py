@@ -9,17 +9,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.geometry import chain, overlay_net
-from app.geometry.chain import Chaining
+from app.geometry.chaining import chain
+from app.geometry.chaining.chain import Chaining
+from app.geometry.overlay import net as overlay_net
 from app.geometry.region import Nesting
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.part import Contour, Entity, Part
-from app.toolpath import compute, drawn, sheets, witness
-from app.workflow.machining import Machining
-from app.workflow.make import Made, make
-from app.workflow.options import MakeOptions
+from app.operations import compute
+from app.toolpath import drawn, sheets, witness
+from app.usecases.machining import Machining
+from app.usecases.make import Made, make
+from app.usecases.options import MakeOptions
 from tests.geometry.meeting_shapes import OFFSETS
 from tests.part_shapes import circle, layered_part, random_part, square
 

@@ -11,13 +11,13 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QMenu, QWidget
 
-from app.edit.document import Document
+from app.drafting.document import Document
 from app.model.part import Part
-from app.ui.canvas.modes import CanvasTool as T
-from app.ui.keys_window import KeysWindow
-from app.ui.tour import STEPS
-from app.ui.views import View
-from app.ui.wiring import Wiring
+from app.ui.shell.keys_window import KeysWindow
+from app.ui.shell.tour import STEPS
+from app.ui.shell.views import View
+from app.ui.shell.wiring import Wiring
+from app.ui.views.canvas.modes import CanvasTool as T
 
 Place = tuple[float, float]
 

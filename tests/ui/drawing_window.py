@@ -6,8 +6,8 @@ from pathlib import Path
 
 from PySide6.QtCore import QTimer
 
-from app.ui import start
-from app.ui.wiring import Wiring
+from app.ui.shell import start
+from app.ui.shell.wiring import Wiring
 
 
 def main() -> None:

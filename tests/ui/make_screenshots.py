@@ -19,15 +19,15 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
 
-from app.fit.correction import Select
-from app.settings import ThemeChoice
-from app.ui.computation import State
-from app.ui.memory import choose_theme
-from app.ui.nc.motion_picture import PathColour
-from app.ui.nc.motion_shapes import Side
-from app.ui.start import build
-from app.ui.views import View
-from app.ui.wiring import Wiring
+from app.core.settings import ThemeChoice
+from app.fitting.point_curves.correction import Select
+from app.ui.shell.computation import State
+from app.ui.shell.memory import choose_theme
+from app.ui.shell.start import build
+from app.ui.shell.views import View
+from app.ui.shell.wiring import Wiring
+from app.ui.views.nc.motion_picture import PathColour
+from app.ui.views.nc.motion_shapes import Side
 from tests.ui.curves.facets import facets
 from tests.ui.drawing_states import DrawingStates
 from tests.ui.stages.scan import scan

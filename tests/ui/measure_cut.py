@@ -16,10 +16,10 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 import numpy as np
 from PySide6.QtWidgets import QApplication
 
-from app.ui.cut.colouring import prepare
-from app.ui.cut.cut_view import CutView
-from app.ui.cut.painting import REST_MS
-from app.ui.theme import DARK
+from app.ui.framework.theme import DARK
+from app.ui.views.cut.colouring import prepare
+from app.ui.views.cut.cut_view import CutView
+from app.ui.views.cut.painting import REST_MS
 from tests.ui.cut.made_up import made_up
 from tests.ui.measure_window import live_until
 

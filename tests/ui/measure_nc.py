@@ -91,7 +91,7 @@ def long_file(folder: Path) -> Path:
 
 def measure_all(paths: list[Path]) -> dict[str, Felt]:
     """Measure programs in one window."""
-    from app.ui.start import build, warm_up
+    from app.ui.shell.start import build, warm_up
 
     window, wiring = build()
     window.resize(1440, 900)

@@ -24,7 +24,7 @@ USABLE = """
 import time; t = time.perf_counter()
 from PySide6.QtWidgets import QApplication
 a = QApplication([])
-from app.ui.start import build
+from app.ui.shell.start import build
 w, k = build(); w.show(); a.processEvents(); a.processEvents()
 print(time.perf_counter() - t)
 """
@@ -77,8 +77,8 @@ def use_fine_tools(document) -> None:
 
 def measure_gaps(drawing: Path) -> dict[str, float]:
     """Open a drawing in a window and compute it; return the longest gap in ms by what was going on."""
-    from app.ui.computation import State
-    from app.ui.start import build, warm_up
+    from app.ui.shell.computation import State
+    from app.ui.shell.start import build, warm_up
 
     window, wiring = build()
     window.show()

@@ -6,14 +6,14 @@ from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.edit.document import Document
-from app.settings import Settings, ThemeChoice
-from app.ui.canvas.modes import CanvasTool
-from app.ui.canvas.view import View as CanvasView
-from app.ui.fade import FADE_MS
-from app.ui.start import build
-from app.ui.views import View
-from app.ui.wiring import Wiring
+from app.core.settings import Settings, ThemeChoice
+from app.drafting.document import Document
+from app.ui.framework.fade import FADE_MS
+from app.ui.shell.start import build
+from app.ui.shell.views import View
+from app.ui.shell.wiring import Wiring
+from app.ui.views.canvas.modes import CanvasTool
+from app.ui.views.canvas.view import View as CanvasView
 from tests.ui.traces import differences, traces
 
 SIZE = (1280, 800)

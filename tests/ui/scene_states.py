@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from app.ui.surfaces.scene_raster import ColourBy
-from app.ui.surfaces.scene_work import SceneState
-from app.ui.surfaces.surfaces_view import Look
-from app.ui.views import View
-from app.ui.wiring import Wiring
+from app.ui.shell.views import View
+from app.ui.shell.wiring import Wiring
+from app.ui.views.surfaces.scene_raster import ColourBy
+from app.ui.views.surfaces.scene_work import SceneState
+from app.ui.views.surfaces.surfaces_view import Look
 
 _PATIENCE = 600
 

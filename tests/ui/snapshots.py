@@ -19,10 +19,10 @@ from PySide6.QtCore import QEventLoop, QPoint, QTimer
 from PySide6.QtGui import QFontMetrics, QImage, QPainter, QPixmap
 from PySide6.QtWidgets import QApplication, QWidget
 
-from app.ui.memory import ThemeChoice, choose_theme
-from app.ui.start import build
-from app.ui.theme import text_font
-from app.ui.wiring import Wiring
+from app.ui.framework.theme import text_font
+from app.ui.shell.memory import ThemeChoice, choose_theme
+from app.ui.shell.start import build
+from app.ui.shell.wiring import Wiring
 from tests.ui.drawing_states import DrawingStates
 from tests.ui.scene_states import scene_states
 

@@ -7,16 +7,16 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QPainter, QPixmap
 from pytestqt.qtbot import QtBot
 
-from app.edit.meet import foot, meets, tangent_points
-from app.edit.touching import square_points
+from app.drafting.curves.meet import foot, meets, tangent_points
+from app.drafting.curves.touching import square_points
 from app.model.curves import Ellipse, Line, Spline
 from app.model.notes import Guide, Mark
 from app.model.part import Part
-from app.ui.canvas.aim import tidy
-from app.ui.canvas.modes import CanvasTool
-from app.ui.canvas.snap import CHOICES, SNAP_NAMES, SNAP_WORDS, USUAL, Snap, SnapKind
-from app.ui.canvas.snap_marks import paint_snap
-from app.ui.theme import LIGHT
+from app.ui.framework.theme import LIGHT
+from app.ui.views.canvas.aim import tidy
+from app.ui.views.canvas.modes import CanvasTool
+from app.ui.views.canvas.snap import CHOICES, SNAP_NAMES, SNAP_WORDS, USUAL, Snap, SnapKind
+from app.ui.views.canvas.snap_marks import paint_snap
 from tests.ui.test_canvas import Hand
 
 

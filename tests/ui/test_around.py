@@ -5,18 +5,18 @@ from dataclasses import replace
 import pytest
 from PySide6.QtCore import QPoint, Qt
 
-from app.edit.document import Document
+from app.drafting.document import Document
 from app.model.curves import Line
 from app.model.entry import Tabs
 from app.model.job import Copies, Job
 from app.model.operation import ContourOperation
 from app.model.part import Entity, Part
-from app.ui.canvas.canvas import Canvas
-from app.ui.canvas.marking import Marking
+from app.ui.framework.theme import LIGHT
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.operation_groups import BY_HAND
 from app.ui.panels.side_panel import SidePanel
-from app.ui.theme import LIGHT
+from app.ui.views.canvas.canvas import Canvas
+from app.ui.views.canvas.marking import Marking
 
 
 def square(x: float, y: float, side: float, layer: str, first: int) -> tuple[Entity, ...]:

@@ -7,11 +7,11 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QKeyEvent, QWheelEvent
 from pytestqt.qtbot import QtBot
 
-from app.edit.document import Document
+from app.drafting.document import Document
 from app.model.curves import Arc, Circle, Line
-from app.ui.canvas.canvas import Canvas, CanvasTool, Frame
-from app.ui.canvas.view import View
-from app.ui.theme import LIGHT
+from app.ui.framework.theme import LIGHT
+from app.ui.views.canvas.canvas import Canvas, CanvasTool, Frame
+from app.ui.views.canvas.view import View
 
 LEFT, RIGHT, MIDDLE = Qt.MouseButton.LeftButton, Qt.MouseButton.RightButton, Qt.MouseButton.MiddleButton
 

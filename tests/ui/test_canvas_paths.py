@@ -11,22 +11,22 @@ from PySide6.QtCore import QPointF
 from PySide6.QtGui import QColor, QPainter, QPixmap
 from pytestqt.qtbot import QtBot
 
-from app.edit.document import Document
-from app.files.dxf import read_dxf
+from app.drafting.document import Document
+from app.formats.dxf.dxf import read_dxf
 from app.model.curves import Circle
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program, Purpose
 from app.model.part import Contour, Entity, Part, Region
-from app.toolpath.compute import compute
-from app.toolpath.coverage import Place
-from app.ui.canvas.canvas import Canvas, CanvasMode, CanvasTool, ColourBy, PathLayers
-from app.ui.canvas.program_chunks import chunks, plunges, rapids, rapids_path
-from app.ui.canvas.program_geometry import shape_moves
-from app.ui.canvas.program_hover import nearest_move
-from app.ui.canvas.program_picture import ProgramPicture
-from app.ui.canvas.view import View
-from app.ui.theme import DARK, LIGHT, Theme
+from app.operations.compute import compute
+from app.toolpath.coverage.coverage import Place
+from app.ui.framework.theme import DARK, LIGHT, Theme
+from app.ui.views.canvas.canvas import Canvas, CanvasMode, CanvasTool, ColourBy, PathLayers
+from app.ui.views.canvas.program_chunks import chunks, plunges, rapids, rapids_path
+from app.ui.views.canvas.program_geometry import shape_moves
+from app.ui.views.canvas.program_hover import nearest_move
+from app.ui.views.canvas.program_picture import ProgramPicture
+from app.ui.views.canvas.view import View
 from tests.conftest import ROOT
 
 Row = tuple[MoveKind, Purpose, tuple[float, float, float], tuple[float, float], int]

@@ -9,14 +9,14 @@ from hypothesis import strategies as st
 from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QPainterPath
 
-from app.edit.sample import sample, spline_points
+from app.geometry.sample import sample, spline_points
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from app.model.part import Part
-from app.ui.canvas.curve_path import chain_path, curve_path
-from app.ui.canvas.grid import _text_at, grid_steps
-from app.ui.canvas.part_picture import PartPicture
-from app.ui.canvas.snap import Snap, SnapKind, best, snaps_of, to_grid
-from app.ui.canvas.view import LARGEST_SCALE, View, fitted, nice_step
+from app.ui.views.canvas.curve_path import chain_path, curve_path
+from app.ui.views.canvas.grid import _text_at, grid_steps
+from app.ui.views.canvas.part_picture import PartPicture
+from app.ui.views.canvas.snap import Snap, SnapKind, best, snaps_of, to_grid
+from app.ui.views.canvas.view import LARGEST_SCALE, View, fitted, nice_step
 
 AREA = QRectF(24, 24, 800, 600)
 SCALES = st.floats(0.01, 1000)

@@ -9,13 +9,13 @@ import pytest
 GRAB = """
 from PySide6.QtWidgets import QApplication
 app = QApplication([])
-from app.edit.document import Document
+from app.drafting.document import Document
 from app.model.curves import Line
 from app.model.job import Job
 from app.model.part import Part
-from app.ui.canvas.canvas import Canvas
-from app.ui.canvas.view import View
-from app.ui.theme import LIGHT
+from app.ui.views.canvas.canvas import Canvas
+from app.ui.views.canvas.view import View
+from app.ui.framework.theme import LIGHT
 canvas = Canvas(Document(Job(Part().with_curves([Line((20.0, 0.0), (20.0, 40.0))], "0"))), LIGHT)
 canvas.resize(400, 300)
 canvas.show()

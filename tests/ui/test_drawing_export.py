@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from app.files.drawing import read_drawing
+from app.formats.drawing import read_drawing
 from app.model.curves import Circle
 from app.model.notes import Mark
-from app.ui.drawing_export import FORMATS
+from app.ui.shell.drawing_export import FORMATS
 from tests.ui.conftest import WAIT_MS
 
 LINES = ("layer holes", 'colour holes "#d55e00"', "circle 10,10 4", "layer 0", "rect 0,0 60,40", "ellipse 30,20 40,20 5")

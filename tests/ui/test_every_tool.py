@@ -4,12 +4,12 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from app.edit.document import Document
+from app.drafting.document import Document
 from app.model.curves import Arc, Circle, Line
-from app.ui.canvas import form_tools as form
-from app.ui.canvas.asking import AskingTool
-from app.ui.canvas.drawing_tool import Desk, Pick
-from app.ui.canvas.modes import CanvasTool
+from app.ui.views.canvas import form_tools as form
+from app.ui.views.canvas.asking import AskingTool
+from app.ui.views.canvas.drawing_tool import Desk, Pick
+from app.ui.views.canvas.modes import CanvasTool
 from tests.ui.test_canvas import RIGHT, Hand
 
 ENTER = Qt.Key.Key_Return

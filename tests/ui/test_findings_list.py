@@ -7,9 +7,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QPushButton
 
 from app.model.finding import Finding, FindingKind
-from app.ui.computation import State
-from app.ui.views import View
-from app.ui.wiring import Wiring
+from app.ui.shell.computation import State
+from app.ui.shell.views import View
+from app.ui.shell.wiring import Wiring
 from tests.ui.conftest import WAIT_MS
 
 

@@ -9,9 +9,9 @@ from app.model.curves import Circle, Line
 from app.model.job import Job
 from app.model.notes import Dimension, Guide, Mark, Measure
 from app.model.part import Part
-from app.ui.canvas.gripping import CarryTool, PullTool
-from app.ui.canvas.modes import CanvasMode, CanvasTool
-from app.ui.canvas.view import View
+from app.ui.views.canvas.gripping import CarryTool, PullTool
+from app.ui.views.canvas.modes import CanvasMode, CanvasTool
+from app.ui.views.canvas.view import View
 from tests.ui.test_canvas import LEFT, Hand
 
 

@@ -3,9 +3,9 @@
 import pytest
 from PySide6.QtCore import Qt
 
-from app.resources import resource
-from app.ui.help_window import HelpWindow
-from app.ui.theme import DARK
+from app.core.resources import resource
+from app.ui.framework.theme import DARK
+from app.ui.shell.help_window import HelpWindow
 
 
 @pytest.fixture

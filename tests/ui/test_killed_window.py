@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from app.edit.document import Document
-from app.files.project import Project
-from app.files.project_files import save_project, stamp_of
-from app.files.recovery import recoveries
+from app.drafting.document import Document
+from app.formats.project.files import save_project, stamp_of
+from app.formats.project.project import Project
+from app.formats.project.recovery import recoveries
 from tests.conftest import ROOT
 
 PROMISED_S = 30.0

@@ -7,8 +7,8 @@ import sys
 import pytest
 from PySide6.QtCore import Qt
 
-from app.ui.canvas.modes import CanvasTool
-from app.ui.wiring import Wiring
+from app.ui.shell.wiring import Wiring
+from app.ui.views.canvas.modes import CanvasTool
 from tests.conftest import ROOT
 from tests.ui.one_window import OneWindow
 from tests.ui.traces import differences, traces

@@ -3,8 +3,8 @@
 import pytest
 from PySide6.QtCore import Qt
 
-from app.ui.fuzzy import fit
-from app.ui.palette import _ENTRY
+from app.ui.framework.fuzzy import fit
+from app.ui.shell.palette import _ENTRY
 
 
 def open_palette(qtbot, wiring):

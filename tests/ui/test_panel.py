@@ -8,17 +8,17 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication
 
-from app.edit.document import Document
+from app.drafting.document import Document
+from app.gcode.posts.posts import post_titles
 from app.model.entry import Lead, LeadKind, Tabs
 from app.model.job import Job, OriginXY
 from app.model.operation import OPERATION_KINDS, ContourOperation, Cut, DrillOperation, Order, PocketOperation, Side, kind_word
 from app.model.part import Part
 from app.model.tool import Tool
-from app.nc.posts import post_titles
-from app.ui import style
+from app.ui.framework import style
+from app.ui.framework.theme import LIGHT, TEXT_PX, text_font
 from app.ui.panels.changes import Subject, SubjectKind, with_tool
 from app.ui.panels.side_panel import WIDTH, SidePanel
-from app.ui.theme import LIGHT, TEXT_PX, text_font
 
 SCROLL_BAR_PX = 8
 

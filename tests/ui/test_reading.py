@@ -12,12 +12,12 @@ from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 from PySide6.QtWidgets import QLabel, QPushButton
 
-from app.files.project_files import load_project
+from app.formats.project.files import load_project
 from app.model.part import Units
 from app.model.read_options import ReadOptions
 from app.model.reading import Reading, Source
-from app.ui.translation import translate_all
-from app.ui.wiring import Wiring
+from app.ui.shell.translation import translate_all
+from app.ui.shell.wiring import Wiring
 from tests.ui.conftest import WAIT_MS
 from tests.ui.test_saving import save_to
 from tests.ui.test_translation import left_english, seen_texts

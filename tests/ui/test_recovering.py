@@ -5,13 +5,13 @@ from pathlib import Path
 
 import pytest
 
-from app.edit.document import Document
-from app.files.project import Look, Project, read_project
-from app.files.project_files import save_project, stamp_of
-from app.files.recovery import Edited, RecoveryFile
-from app.settings import state_folder
-from app.ui import start
-from app.ui.recovering import WAIT_S
+from app.core.settings import state_folder
+from app.drafting.document import Document
+from app.formats.project.files import save_project, stamp_of
+from app.formats.project.project import Look, Project, read_project
+from app.formats.project.recovery import Edited, RecoveryFile
+from app.ui.shell import start
+from app.ui.shell.recovering import WAIT_S
 from tests.ui.conftest import WAIT_MS
 
 

@@ -4,10 +4,10 @@ import time
 
 import pytest
 
-from app.edit.document import Document
-from app.ui import running_lines
-from app.ui.canvas.trials import Trial, Trials, keeps_the_window
-from app.ui.running_lines import AT_ONCE_S, RunningLines
+from app.drafting.document import Document
+from app.ui.shell import running_lines
+from app.ui.shell.running_lines import AT_ONCE_S, RunningLines
+from app.ui.views.canvas.trials import Trial, Trials, keeps_the_window
 
 LONG = "repeat 3000 as k; circle k,0 1; end"
 

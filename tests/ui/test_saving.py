@@ -7,12 +7,12 @@ import pytest
 from PySide6.QtCore import QMimeData, QPoint, Qt, QUrl
 from PySide6.QtGui import QDropEvent, QImage
 
-from app.files.project import Project, read_project
-from app.files.project_beside import Beside
-from app.files.project_files import load_project, save_project
+from app.formats.project.beside import Beside
+from app.formats.project.files import load_project, save_project
+from app.formats.project.project import Project, read_project
 from app.model.underlay import Underlay
-from app.ui.computation import State
-from app.ui.views import View
+from app.ui.shell.computation import State
+from app.ui.shell.views import View
 from tests.ui.conftest import WAIT_MS
 
 
@@ -247,7 +247,7 @@ def test_a_project_with_a_post_that_is_not_here_opens(qtbot, wiring, tmp_path):
 
 
 def test_backups_can_be_switched_off_and_that_is_remembered(qtbot, wiring, tmp_path):
-    from app.settings import load_settings
+    from app.core.settings import load_settings
 
     wiring.document.run("circle 0,0 5")
     wiring.window_.actions_["backups"].trigger()

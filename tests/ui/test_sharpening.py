@@ -7,13 +7,13 @@ import pytest
 from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
-from app.edit.document import Document
+from app.drafting.document import Document
 from app.model.curves import Arc, Curve, Line, Point
 from app.model.job import Job
 from app.model.part import Part
-from app.ui.canvas.canvas import Canvas
-from app.ui.canvas.view import View
-from app.ui.theme import LIGHT
+from app.ui.framework.theme import LIGHT
+from app.ui.views.canvas.canvas import Canvas
+from app.ui.views.canvas.view import View
 
 EDITS = ("line 30,30 60,55", "select 1", "select 1 2", "delete 3", "move @3,2 4", "select none", "circle 40,40 7", "undo")
 

@@ -3,10 +3,10 @@
 import pytest
 from PySide6.QtCore import Qt
 
-from app.settings import Settings, load_settings
-from app.ui.actions import MENUS
-from app.ui.keys_window import FIXED, KeysWindow
-from app.ui.shortcuts import Shortcuts
+from app.core.settings import Settings, load_settings
+from app.ui.shell.actions import MENUS
+from app.ui.shell.keys_window import FIXED, KeysWindow
+from app.ui.shell.shortcuts import Shortcuts
 
 
 @pytest.fixture

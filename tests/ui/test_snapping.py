@@ -1,8 +1,8 @@
 """The switches of aiming in the real window: what they switch, and that they are remembered."""
 
-from app.settings import load_settings
-from app.ui.canvas.snap import USUAL, SnapKind
-from app.ui.start import build
+from app.core.settings import load_settings
+from app.ui.shell.start import build
+from app.ui.views.canvas.snap import USUAL, SnapKind
 
 
 def test_kinds_are_switched_at_snap_and_remembered(qtbot, wiring):

@@ -3,9 +3,9 @@
 import pytest
 from PySide6.QtWidgets import QWidget
 
-from app.settings import ThemeChoice
-from app.ui.memory import choose_theme
-from app.ui.start import build
+from app.core.settings import ThemeChoice
+from app.ui.shell.memory import choose_theme
+from app.ui.shell.start import build
 from tests.ui.snapshots import FOLDER, KINDS, kept, letters, seen, share_changed, small, states, wait
 
 SAME, OTHER = 0.06, 0.30

@@ -43,7 +43,7 @@ def test_commands_go_to_the_command_line_without_the_window():
 CLOSE_WHILE_COMPUTING = """
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
-import app.ui.wiring as wiring
+import app.ui.shell.wiring as wiring
 plain = wiring.Wiring.__init__
 def watched(self, window):
     plain(self, window)
@@ -54,7 +54,7 @@ wiring.Wiring.__init__ = watched
 
 CLOSE_WHEN_SHOWN = """
 from PySide6.QtCore import QTimer
-import app.ui.nc.control as control
+import app.ui.views.nc.control as control
 plain = control.NcControl._on_foreign
 def watched(self, remember, shown):
     plain(self, remember, shown)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.ui.status_bar import StatusBar
+from app.ui.shell.status_bar import StatusBar
 
 
 @pytest.fixture

@@ -8,22 +8,22 @@ import numpy as np
 import pytest
 from PySide6.QtGui import QColor
 
-from app.edit.document import Document
+from app.drafting.document import Document
 from app.model.curves import Line
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Moves, Program, Purpose
 from app.model.operation import ContourOperation, Cut, PocketOperation, Side
 from app.model.part import Contour
 from app.model.tool import Tool
-from app.toolpath.compute import compute
-from app.toolpath.engagement import look
-from app.ui.canvas.canvas import Canvas
-from app.ui.canvas.engaged import colours
-from app.ui.canvas.modes import CanvasMode, ColourBy
-from app.ui.canvas.program_picture import ProgramPicture
-from app.ui.canvas.stretches import Stretches, steady_steps, stretches
-from app.ui.canvas.view import View
-from app.ui.theme import LIGHT
+from app.operations.compute import compute
+from app.toolpath.engagement.engagement import look
+from app.ui.framework.theme import LIGHT
+from app.ui.views.canvas.canvas import Canvas
+from app.ui.views.canvas.engaged import colours
+from app.ui.views.canvas.modes import CanvasMode, ColourBy
+from app.ui.views.canvas.program_picture import ProgramPicture
+from app.ui.views.canvas.stretches import Stretches, steady_steps, stretches
+from app.ui.views.canvas.view import View
 from tests.part_shapes import layered_part, square
 
 

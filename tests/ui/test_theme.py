@@ -5,11 +5,11 @@ import math
 import pytest
 from PySide6.QtGui import QColor, QFontMetrics
 
-from app.resources import resource
-from app.ui.actions import MENUS, SEPARATOR
-from app.ui.icons import pixmap
-from app.ui.style import style_sheet
-from app.ui.theme import DARK, LIGHT, text_font
+from app.core.resources import resource
+from app.ui.framework.icons import pixmap
+from app.ui.framework.style import style_sheet
+from app.ui.framework.theme import DARK, LIGHT, text_font
+from app.ui.shell.actions import MENUS, SEPARATOR
 
 LEAST_CONTRAST = 4.5
 

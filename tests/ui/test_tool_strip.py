@@ -4,10 +4,10 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from app.ui.actions import MENUS
-from app.ui.canvas.modes import CanvasTool
-from app.ui.tool_strip import GROUPS, SIDE
-from app.ui.views import View
+from app.ui.shell.actions import MENUS
+from app.ui.shell.tool_strip import GROUPS, SIDE
+from app.ui.shell.views import View
+from app.ui.views.canvas.modes import CanvasTool
 
 LEFT, RIGHT = Qt.MouseButton.LeftButton, Qt.MouseButton.RightButton
 ARCS = "tool_arc_three"

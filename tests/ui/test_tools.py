@@ -4,17 +4,17 @@ import math
 
 import pytest
 
-from app.edit.document import Document
+from app.drafting.document import Document
 from app.model.curves import Arc, Circle, Curve, Line
 from app.model.part import Part
-from app.ui.canvas.aim import AimRules, aim, rounded
-from app.ui.canvas.chain_tools import LineTool, PolylineTool
-from app.ui.canvas.modes import CanvasTool
-from app.ui.canvas.part_picture import PartPicture
-from app.ui.canvas.round_tools import ArcCentreTool, CircleTool
-from app.ui.canvas.running import ToolRunner
-from app.ui.canvas.snap import SnapKind
-from app.ui.canvas.tools import TOOLS, RectangleTool
+from app.ui.views.canvas.aim import AimRules, aim, rounded
+from app.ui.views.canvas.chain_tools import LineTool, PolylineTool
+from app.ui.views.canvas.modes import CanvasTool
+from app.ui.views.canvas.part_picture import PartPicture
+from app.ui.views.canvas.round_tools import ArcCentreTool, CircleTool
+from app.ui.views.canvas.running import ToolRunner
+from app.ui.views.canvas.snap import SnapKind
+from app.ui.views.canvas.tools import TOOLS, RectangleTool
 
 PLACES = {
     CanvasTool.LINE: [(0.0, 0.0), (10.0, 0.0)],

@@ -5,18 +5,18 @@ from dataclasses import replace
 
 import pytest
 
-from app.edit.document import Document
-from app.errors import ParameterError
+from app.core.errors import ParameterError
+from app.drafting.document import Document
 from app.model.job import Job
 from app.model.operation import OPERATION_KINDS, Cut, DrillOperation
 from app.model.tool import Tool, ToolKind
-from app.ui.computation import Computation, State
-from app.ui.labels import Elided
+from app.ui.framework.labels import Elided
+from app.ui.framework.worker import Worker
 from app.ui.panels.side_panel import SidePanel
-from app.ui.stages.reel import Wish, reel_of
-from app.ui.worker import Worker
-from app.workflow.bitmap_job import drawn_job
-from app.workflow.bitmap_options import BitmapSize
+from app.ui.shell.computation import Computation, State
+from app.ui.views.stages.reel import Wish, reel_of
+from app.usecases.bitmap_job import drawn_job
+from app.usecases.bitmap_options import BitmapSize
 from tests.part_shapes import circle, layered_part, square
 
 PART = layered_part({"a": [square(40), circle(3, 20, 20)]})

@@ -3,8 +3,8 @@
 import pytest
 from PySide6.QtCore import QPoint, QRect, Qt
 
-from app.settings import load_settings
-from app.ui.tour import SEEN, STEPS
+from app.core.settings import load_settings
+from app.ui.shell.tour import SEEN, STEPS
 
 
 @pytest.fixture

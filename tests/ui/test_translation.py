@@ -11,15 +11,15 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QWidget
 
-from app.resources import resource
-from app.settings import Language, load_settings
-from app.ui.actions import MENUS, plain
-from app.ui.canvas.asking import AskingTool
-from app.ui.canvas.tools import TOOLS
-from app.ui.panels.fields import LABEL_WIDTH, NumberField
-from app.ui.theme import TEXT_PX
-from app.ui.translation import code_of, translate_all
-from app.ui.words import Catalogue, catalogue, speak, tr
+from app.core.resources import resource
+from app.core.settings import Language, load_settings
+from app.ui.framework.fields import LABEL_WIDTH, NumberField
+from app.ui.framework.theme import TEXT_PX
+from app.ui.framework.words import Catalogue, catalogue, speak, tr
+from app.ui.shell.actions import MENUS, plain
+from app.ui.shell.translation import code_of, translate_all
+from app.ui.views.canvas.asking import AskingTool
+from app.ui.views.canvas.tools import TOOLS
 
 ENTRIES: dict[str, str] = tomllib.loads(resource("translations", "ja.toml").read_text("utf-8"))["words"]
 HOLE = re.compile(r"\{n?\}")

@@ -1,8 +1,8 @@
 """What a command would make is painted from paths that are built once."""
 
-from app.edit.difference import difference
-from app.edit.document import Document
-from app.ui.canvas.overlay import TrialPicture
+from app.drafting.difference import difference
+from app.drafting.document import Document
+from app.ui.views.canvas.overlay import TrialPicture
 
 
 def test_the_paths_of_a_trial_are_built_once_and_anew_for_another() -> None:

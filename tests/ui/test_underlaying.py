@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor, QImage
 
-from app.errors import InputError, ParameterError
+from app.core.errors import InputError, ParameterError
 from app.model.underlay import Underlay
-from app.ui.canvas import underlay
-from app.ui.canvas.underlay import read_picture
-from app.ui.canvas.view import View
-from app.ui.wiring import Wiring
+from app.ui.shell.wiring import Wiring
+from app.ui.views.canvas import underlay
+from app.ui.views.canvas.underlay import read_picture
+from app.ui.views.canvas.view import View
 
 NUMBERS = st.floats(-1e4, 1e4)
 

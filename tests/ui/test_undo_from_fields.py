@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtCore import Qt
 
 from app.ui.panels.changes import Subject, SubjectKind
-from app.ui.start import build
+from app.ui.shell.start import build
 
 CTRL = Qt.KeyboardModifier.ControlModifier
 

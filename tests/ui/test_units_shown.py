@@ -5,17 +5,17 @@ from collections.abc import Iterator
 import pytest
 from PySide6.QtCore import Qt
 
-from app.edit.document import Document
+from app.core.settings import ShownUnits, load_settings
+from app.drafting.document import Document
 from app.model.curves import Circle
-from app.settings import ShownUnits, load_settings
-from app.ui.canvas.describe import describe_entity
-from app.ui.canvas.grid import grid_steps
-from app.ui.canvas.modes import CanvasTool
-from app.ui.canvas.snap import to_grid
-from app.ui.canvas.view import View
-from app.ui.panels.fields import NumberField, Spec
-from app.ui.start import build
-from app.ui.wiring import Wiring
+from app.ui.framework.fields import NumberField, Spec
+from app.ui.shell.start import build
+from app.ui.shell.wiring import Wiring
+from app.ui.views.canvas.describe import describe_entity
+from app.ui.views.canvas.grid import grid_steps
+from app.ui.views.canvas.modes import CanvasTool
+from app.ui.views.canvas.snap import to_grid
+from app.ui.views.canvas.view import View
 
 
 @pytest.fixture

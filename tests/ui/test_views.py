@@ -3,13 +3,13 @@
 import pytest
 from PySide6.QtCore import Qt
 
-from app.edit.document import Document
-from app.ui.canvas.canvas import Canvas
-from app.ui.canvas.modes import ColourBy
-from app.ui.fade import FADE_MS
-from app.ui.samples import Sample
-from app.ui.theme import LIGHT
-from app.ui.views import View, Views
+from app.drafting.document import Document
+from app.ui.framework.fade import FADE_MS
+from app.ui.framework.samples import Sample
+from app.ui.framework.theme import LIGHT
+from app.ui.shell.views import View, Views
+from app.ui.views.canvas.canvas import Canvas
+from app.ui.views.canvas.modes import ColourBy
 
 
 @pytest.fixture

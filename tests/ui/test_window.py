@@ -8,16 +8,16 @@ from PySide6.QtCore import QMimeData, QPoint, QPointF, QRect, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication, QLabel, QWidget
 
-from app.resources import resource
-from app.settings import ThemeChoice, load_settings
-from app.ui.canvas.modes import CanvasTool, ColourBy
-from app.ui.computation import State
-from app.ui.files import FIRST_START
-from app.ui.memory import fit_onto
+from app.core.resources import resource
+from app.core.settings import ThemeChoice, load_settings
+from app.ui.framework.samples import Sample
+from app.ui.framework.theme import DARK, LIGHT
 from app.ui.panels.changes import Subject, SubjectKind
-from app.ui.samples import Sample
-from app.ui.theme import DARK, LIGHT
-from app.ui.views import View
+from app.ui.shell.computation import State
+from app.ui.shell.files import FIRST_START
+from app.ui.shell.memory import fit_onto
+from app.ui.shell.views import View
+from app.ui.views.canvas.modes import CanvasTool, ColourBy
 from tests.ui.conftest import WAIT_MS
 
 NO_UNITS = (

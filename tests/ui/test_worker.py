@@ -7,9 +7,9 @@ import weakref
 
 import pytest
 
-from app.errors import InputError
-from app.progress import Progress
-from app.ui.worker import Worker
+from app.core.errors import InputError
+from app.core.progress import Progress
+from app.ui.framework.worker import Worker
 
 
 @pytest.fixture

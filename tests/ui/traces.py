@@ -26,7 +26,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.ui.wiring import Wiring
+from app.ui.shell.wiring import Wiring
 
 _SIMPLE = (bool, int, float, str, bytes, Path, enum.Enum, type(None))
 _UNTOLD = {

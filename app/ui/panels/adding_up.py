@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from app.edit.sample import Box, bounds, union
-from app.edit.shapes import curve_length
-from app.model.curves import Curve
+from ...drafting.curves.shapes import curve_length
+from ...geometry.sample import Box, bounds, union
+from ...model.curves import Curve
 
 SLICE_S = 0.006
 """So long the window may be kept from answering."""

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLabel, QPushButton
 
-from app.model.tool import Tool
-from app.ui.figures import clock, counted, grouped
-from app.ui.icons import IconButton
-from app.ui.labels import muted
-from app.ui.panels.library import side_by_side
-from app.ui.panels.section import Row, Section, theme_children
-from app.ui.theme import Theme
+from ...model.tool import Tool
+from ..framework.figures import clock, counted, grouped
+from ..framework.icons import IconButton
+from ..framework.labels import muted
+from ..framework.section import Row, Section, theme_children
+from ..framework.theme import Theme
+from .library import side_by_side
 
 if TYPE_CHECKING:
-    from app.toolpath.advise import Advice, Choice, RegionAdvice, Spot
+    from ...toolpath.advice.advise import Advice, Choice, RegionAdvice, Spot
 
 DIAMETER_PX, SHARE_PX, LEFT_PX = 56, 64, 84
 ALL = 0.99995

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import Enum
 
-from app.errors import ParameterError
-from app.model.job import Job
-from app.model.operation import ContourOperation, Cut, Operation, Order, PocketOperation, RestOperation, Side, kind_word
-from app.model.tool import FeedRow, Tool
+from ...core.errors import ParameterError
+from ...model.job import Job
+from ...model.operation import ContourOperation, Cut, Operation, Order, PocketOperation, RestOperation, Side, kind_word
+from ...model.tool import FeedRow, Tool
 
 
 class SubjectKind(Enum):

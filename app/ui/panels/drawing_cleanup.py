@@ -10,12 +10,12 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QProgressBar, QPushButton, QWidget
 
-from app.model.curves import Point
-from app.tolerances import JOIN
-from app.ui.figures import counted, grouped
-from app.ui.labels import muted
-from app.ui.panels.fields import NumberField, Spec
-from app.ui.panels.section import Section
+from ...core.tolerances import JOIN
+from ...model.curves import Point
+from ..framework.fields import NumberField, Spec
+from ..framework.figures import counted, grouped
+from ..framework.labels import muted
+from ..framework.section import Section
 
 MOST = 200
 """Faults that are listed; the others are counted."""

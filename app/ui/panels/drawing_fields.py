@@ -8,9 +8,9 @@ from dataclasses import replace
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QWidget
 
-from app.model.curves import Point
-from app.ui.labels import Elided, muted
-from app.ui.panels.fields import LABEL_WIDTH, NumberField, Spec, reason_label
+from ...model.curves import Point
+from ..framework.fields import LABEL_WIDTH, NumberField, Spec, reason_label
+from ..framework.labels import Elided, muted
 
 COORDINATE_WIDTH = 72
 

@@ -6,10 +6,10 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QBrush, QResizeEvent
 from PySide6.QtWidgets import QListWidget, QListWidgetItem
 
-from app.edit.document import Document
-from app.ui.labels import muted
-from app.ui.panels.section import Section
-from app.ui.theme import LIGHT, Theme
+from ...drafting.document import Document
+from ..framework.labels import muted
+from ..framework.section import Section
+from ..framework.theme import LIGHT, Theme
 
 LEAST_PX = 120
 BEGINNING = "Beginning"

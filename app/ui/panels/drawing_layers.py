@@ -10,15 +10,15 @@ from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QContextMenuEvent, QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QFrame, QLineEdit, QMenu, QScrollArea, QVBoxLayout, QWidget
 
-from app.edit.document import Document
-from app.edit.words import name_text
-from app.model.part import Layer
-from app.ui.figures import counted, grouped
-from app.ui.icons import IconButton
-from app.ui.labels import Elided, muted
-from app.ui.panels.section import EDGE, Row, Section, theme_children
-from app.ui.panels.swatch import Swatch
-from app.ui.theme import Theme
+from ...drafting.document import Document
+from ...drafting.expressions.words import name_text
+from ...model.part import Layer
+from ..framework.figures import counted, grouped
+from ..framework.icons import IconButton
+from ..framework.labels import Elided, muted
+from ..framework.section import EDGE, Row, Section, theme_children
+from ..framework.theme import Theme
+from .swatch import Swatch
 
 ROW_PX = 28
 MOST_ROWS = 8

@@ -8,19 +8,19 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QLineEdit, QScrollArea, QVBoxLayout, QWidget
 
-from app.edit.document import Change, Document
-from app.edit.errors import reason_of
-from app.edit.sample import Box
-from app.errors import HitofudeError
-from app.ui.panels.drawing_cleanup import CleanUpSection
-from app.ui.panels.drawing_fields import PointField
-from app.ui.panels.drawing_history import HistorySection
-from app.ui.panels.drawing_layers import LayersSection
-from app.ui.panels.drawing_properties import PropertiesSection
-from app.ui.panels.fields import NumberField
-from app.ui.panels.reading_section import ReadingSection
-from app.ui.panels.section import Section, hairline
-from app.ui.panels.side_panel import WIDTH
+from ...core.errors import HitofudeError
+from ...drafting.document import Change, Document
+from ...drafting.expressions.errors import reason_of
+from ...geometry.sample import Box
+from ..framework.fields import NumberField
+from ..framework.section import Section, hairline
+from .drawing_cleanup import CleanUpSection
+from .drawing_fields import PointField
+from .drawing_history import HistorySection
+from .drawing_layers import LayersSection
+from .drawing_properties import PropertiesSection
+from .reading_section import ReadingSection
+from .side_panel import WIDTH
 
 
 class DrawingPage(QScrollArea):

@@ -10,26 +10,26 @@ from functools import partial
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from app.edit.area import enclosed_area
-from app.edit.dimension_lines import figure
-from app.edit.document import Document
-from app.edit.evaluate import length_of, number_of
-from app.edit.grammar import read_value
-from app.edit.properties import Kind, Property, Value, kind_name, properties_of
-from app.edit.sample import Box
-from app.edit.shapes import curve_length
-from app.edit.units import ANGLE_UNITS, LENGTH_UNITS
-from app.edit.words import ids_text, name_text, number_text, point_text
-from app.model.curves import Arc, Circle, Curve, Ellipse, Spline
-from app.model.notes import Dimension, Shape
-from app.model.part import Units
-from app.ui.figures import TIMES, counted, grouped
-from app.ui.labels import muted
-from app.ui.panels.adding_up import AddingUp
-from app.ui.panels.drawing_fields import COORDINATE_WIDTH, Figure, PointField
-from app.ui.panels.fields import ListField, NumberField, Spec
-from app.ui.panels.section import EDGE, Section
-from app.ui.shown_unit import clean, shown_name, shown_size
+from ...drafting.commands.properties import Kind, Property, Value, kind_name, properties_of
+from ...drafting.curves.area import enclosed_area
+from ...drafting.curves.shapes import curve_length
+from ...drafting.document import Document
+from ...drafting.expressions.evaluate import length_of, number_of
+from ...drafting.expressions.grammar import read_value
+from ...drafting.expressions.units import ANGLE_UNITS, LENGTH_UNITS
+from ...drafting.expressions.words import ids_text, name_text, number_text, point_text
+from ...geometry.dimension_lines import figure
+from ...geometry.sample import Box
+from ...model.curves import Arc, Circle, Curve, Ellipse, Spline
+from ...model.notes import Dimension, Shape
+from ...model.part import Units
+from ..framework.fields import ListField, NumberField, Spec
+from ..framework.figures import TIMES, counted, grouped
+from ..framework.labels import muted
+from ..framework.section import EDGE, Section
+from ..framework.shown_unit import clean, shown_name, shown_size
+from .adding_up import AddingUp
+from .drawing_fields import COORDINATE_WIDTH, Figure, PointField
 
 VARIOUS = "various"
 """What a field shows while what is selected differs in it."""

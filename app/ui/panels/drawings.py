@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from app.ui.panels.pictures import Sketch
+from .pictures import Sketch
 
 TOP, FLOOR = 14.0, 62.0
 

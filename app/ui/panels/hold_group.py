@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from app.files.holders import name_of_outline, named_holders
-from app.model.job import Job
-from app.model.tool import MOST_LENGTH, HolderPoint, Tool
-from app.ui.labels import muted
-from app.ui.panels import drawings
-from app.ui.panels.fields import ListField, Spec
-from app.ui.panels.form import Form
-from app.ui.panels.pictures import Picture
+from ...formats.tools.holders import name_of_outline, named_holders
+from ...model.job import Job
+from ...model.tool import MOST_LENGTH, HolderPoint, Tool
+from ..framework.fields import ListField, Spec
+from ..framework.form import Form
+from ..framework.labels import muted
+from . import drawings
+from .pictures import Picture
 
 Outline = tuple[HolderPoint, ...]
 EditTool = Callable[[Job, Callable[[Tool], Tool]], Job]

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from dataclasses import asdict, replace
 
-from app.model.job import LARGEST_JOIN, Copies, Job, OriginXY, OriginZ
-from app.model.operation import Order
-from app.model.part import Units
-from app.nc.posts import post_titles
-from app.ui.panels import drawings
-from app.ui.panels.changes import with_order
-from app.ui.panels.fields import ChoiceField, ListField, Spec
-from app.ui.panels.form import Form
-from app.ui.panels.pictures import Picture
+from ...gcode.posts.posts import post_titles
+from ...model.job import LARGEST_JOIN, Copies, Job, OriginXY, OriginZ
+from ...model.operation import Order
+from ...model.part import Units
+from ..framework.fields import ChoiceField, ListField, Spec
+from ..framework.form import Form
+from . import drawings
+from .changes import with_order
+from .pictures import Picture
 
 
 class JobForm(Form):

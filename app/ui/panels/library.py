@@ -9,16 +9,16 @@ from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QLineEdit, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
-from app.files.tool_library import ToolLibrary
-from app.model.tool import FeedRow, Tool
-from app.ui.figures import counted, grouped
-from app.ui.icons import IconButton, IconLabel
-from app.ui.labels import Elided, muted
-from app.ui.panels.changes import for_material, row_for
-from app.ui.panels.fields import ROW_HEIGHT, ListField
-from app.ui.panels.section import Row, Section, theme_children
-from app.ui.panels.tool_kinds import KINDS, icon_of, use_of
-from app.ui.theme import Theme
+from ...formats.tools.library import ToolLibrary
+from ...model.tool import FeedRow, Tool
+from ..framework.fields import ROW_HEIGHT, ListField
+from ..framework.figures import counted, grouped
+from ..framework.icons import IconButton, IconLabel
+from ..framework.labels import Elided, muted
+from ..framework.section import Row, Section, theme_children
+from ..framework.theme import Theme
+from .changes import for_material, row_for
+from .tool_kinds import KINDS, icon_of, use_of
 
 LEAST_ROWS, MOST_ROWS = 4, 14
 ROW_PX = 28

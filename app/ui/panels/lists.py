@@ -6,17 +6,17 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QLabel, QMenu
 
-from app.model.job import Job
-from app.model.operation import OPERATION_KINDS, ContourOperation, DrillOperation, Operation, RestOperation
-from app.model.tool import Tool
-from app.ui.figures import TIMES, clock, grouped
-from app.ui.icons import IconButton, IconLabel
-from app.ui.labels import Elided, muted
-from app.ui.panels.changes import Subject, SubjectKind, operation_name, refusal
-from app.ui.panels.section import Row, Section, theme_children
-from app.ui.panels.tool_kinds import KINDS, icon_of
-from app.ui.samples import LineSample, Sample, Switch
-from app.ui.theme import Theme
+from ...model.job import Job
+from ...model.operation import OPERATION_KINDS, ContourOperation, DrillOperation, Operation, RestOperation
+from ...model.tool import Tool
+from ..framework.figures import TIMES, clock, grouped
+from ..framework.icons import IconButton, IconLabel
+from ..framework.labels import Elided, muted
+from ..framework.samples import LineSample, Sample, Switch
+from ..framework.section import Row, Section, theme_children
+from ..framework.theme import Theme
+from .changes import Subject, SubjectKind, operation_name, refusal
+from .tool_kinds import KINDS, icon_of
 
 
 def sample_of(operation: Operation) -> Sample:

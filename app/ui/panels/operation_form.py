@@ -8,21 +8,21 @@ from dataclasses import replace
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
-from app.edit.numbers import length
-from app.errors import HitofudeError
-from app.model.job import Job
-from app.model.operation import ContourOperation, Direction, DrillOperation, Operation, PocketOperation, RestOperation, Side
-from app.model.tool import Tool
-from app.ui.figures import counted
-from app.ui.icons import IconButton
-from app.ui.labels import muted
-from app.ui.panels import drawings
-from app.ui.panels.changes import operation_name, refusal, with_operation
-from app.ui.panels.fields import ChoiceField, ListField, NumberField, Spec
-from app.ui.panels.form import Form
-from app.ui.panels.operation_groups import GROUPS, OperationGroup
-from app.ui.panels.pictures import Picture
-from app.ui.samples import StepoverDrawing
+from ...core.errors import HitofudeError
+from ...drafting.expressions.numbers import length
+from ...model.job import Job
+from ...model.operation import ContourOperation, Direction, DrillOperation, Operation, PocketOperation, RestOperation, Side
+from ...model.tool import Tool
+from ..framework.fields import ChoiceField, ListField, NumberField, Spec
+from ..framework.figures import counted
+from ..framework.form import Form
+from ..framework.icons import IconButton
+from ..framework.labels import muted
+from ..framework.samples import StepoverDrawing
+from . import drawings
+from .changes import operation_name, refusal, with_operation
+from .operation_groups import GROUPS, OperationGroup
+from .pictures import Picture
 
 MILLS = (PocketOperation, RestOperation, ContourOperation)
 RINGS = (PocketOperation, RestOperation)

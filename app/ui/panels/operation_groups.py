@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING, Protocol
 
 from PySide6.QtWidgets import QPushButton
 
-from app.model.entry import MOST_OVERLAP, EntryKind, LeadKind
-from app.model.job import Job
-from app.model.operation import ContourOperation, DrillOperation, Operation, Side
-from app.model.tool import Tool
-from app.ui.labels import muted
-from app.ui.panels import drawings
-from app.ui.panels.fields import ChoiceField, ListField, Spec
-from app.ui.panels.form import SwitchField
-from app.ui.panels.pictures import Picture
+from ...model.entry import MOST_OVERLAP, EntryKind, LeadKind
+from ...model.job import Job
+from ...model.operation import ContourOperation, DrillOperation, Operation, Side
+from ...model.tool import Tool
+from ..framework.fields import ChoiceField, ListField, Spec
+from ..framework.form import SwitchField
+from ..framework.labels import muted
+from . import drawings
+from .pictures import Picture
 
 if TYPE_CHECKING:
-    from app.ui.panels.operation_form import OperationForm
+    from .operation_form import OperationForm
 
 
 BY_HAND = "Put tabs by hand"

@@ -9,7 +9,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
-from app.ui.theme import LIGHT, Theme
+from ..framework.theme import LIGHT, Theme
 
 WIDE, HIGH = 150, 70
 

@@ -9,15 +9,15 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QPushButton, QSizePolicy, QWidget
 
-from app.edit.document import Document
-from app.files.reading_question import NO_CHOICE, UNIT_WORDS, Contents
-from app.model.part import Units
-from app.model.read_options import LEAST_PER_INCH, MOST_PER_INCH
-from app.model.reading import AS_THE_FILE_SAYS, Reading
-from app.ui.labels import Elided, muted
-from app.ui.panels.fields import LABEL_WIDTH, ROW_HEIGHT, ListField, NumberField, Spec, reason_label
-from app.ui.panels.form import SwitchField
-from app.ui.panels.section import Section
+from ...drafting.document import Document
+from ...formats.reading_question import NO_CHOICE, UNIT_WORDS, Contents
+from ...model.part import Units
+from ...model.read_options import LEAST_PER_INCH, MOST_PER_INCH
+from ...model.reading import AS_THE_FILE_SAYS, Reading
+from ..framework.fields import LABEL_WIDTH, ROW_HEIGHT, ListField, NumberField, Spec, reason_label
+from ..framework.form import SwitchField
+from ..framework.labels import Elided, muted
+from ..framework.section import Section
 
 MODEL_SPACE, NOTHING, ALL_SHOWN = "Model space", "none", "all that are shown"
 PER_INCH = Spec("Per inch", "", LEAST_PER_INCH, MOST_PER_INCH, 3, False,

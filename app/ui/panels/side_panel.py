@@ -9,22 +9,22 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QScrollArea, QVBoxLayout, QWidget
 
-from app.edit.document import Change, Document
-from app.errors import HitofudeError
-from app.files.tool_library import load_libraries
-from app.model.job import Job
-from app.model.operation import PocketOperation
-from app.model.tool import Tool
-from app.ui.panels import changes
-from app.ui.panels.advice import AdviceSection
-from app.ui.panels.changes import Subject, SubjectKind
-from app.ui.panels.fields import NumberField
-from app.ui.panels.job_form import JobForm
-from app.ui.panels.library import LibrarySection
-from app.ui.panels.lists import JobSection, OperationSection, ToolSection
-from app.ui.panels.operation_form import OperationForm
-from app.ui.panels.section import hairline
-from app.ui.panels.tool_form import ToolForm
+from ...core.errors import HitofudeError
+from ...drafting.document import Change, Document
+from ...formats.tools.library import load_libraries
+from ...model.job import Job
+from ...model.operation import PocketOperation
+from ...model.tool import Tool
+from ..framework.fields import NumberField
+from ..framework.section import hairline
+from . import changes
+from .advice import AdviceSection
+from .changes import Subject, SubjectKind
+from .job_form import JobForm
+from .library import LibrarySection
+from .lists import JobSection, OperationSection, ToolSection
+from .operation_form import OperationForm
+from .tool_form import ToolForm
 
 WIDTH = 328
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QStackedWidget, QToolButton, QVBoxLayout, QWidget
 
-from app.ui.panels.section import EDGE, hairline
+from ..framework.section import EDGE, hairline
 
 HEIGHT = 36
 

@@ -8,8 +8,8 @@ from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QFrame, QGridLayout, QLineEdit, QToolButton, QWidget
 
-from app.ui.panels.fields import restyle
-from app.ui.theme import LIGHT, Theme
+from ..framework.fields import restyle
+from ..framework.theme import LIGHT, Theme
 
 HUES = {
     "": "ink", "#e69f00": "orange", "#56b4e9": "sky blue", "#009e73": "green", "#f0e442": "yellow", "#0072b2": "blue",

@@ -8,13 +8,13 @@ from dataclasses import replace
 
 from PySide6.QtWidgets import QLabel
 
-from app.model.job import Job
-from app.model.tool import LEAST_RATE, Tool, ToolKind, shape_keys
-from app.ui.panels.changes import for_material, material_of, with_tool
-from app.ui.panels.fields import ListField, NumberField, Spec
-from app.ui.panels.form import Form
-from app.ui.panels.hold_group import HoldGroup
-from app.ui.panels.tool_kinds import KINDS, USUAL_ANGLES
+from ...model.job import Job
+from ...model.tool import LEAST_RATE, Tool, ToolKind, shape_keys
+from ..framework.fields import ListField, NumberField, Spec
+from ..framework.form import Form
+from .changes import for_material, material_of, with_tool
+from .hold_group import HoldGroup
+from .tool_kinds import KINDS, USUAL_ANGLES
 
 
 class ToolForm(Form):

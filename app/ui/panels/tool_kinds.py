@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from app.model.tool import ToolKind
+from ...model.tool import ToolKind
 
 KINDS: dict[ToolKind, str] = {
     ToolKind.FLAT: "Flat end mill", ToolKind.BULL: "Bull-nose mill", ToolKind.BALL: "Ball end mill", ToolKind.TAPER: "Tapered ball mill",

@@ -7,13 +7,13 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 
-from app.fit.correction import Select
-from app.fit.effective_points import Ends, PointState
-from app.nc.read.dialect import Dialect
-from app.nc.read.options import ReadOptions
-from app.nc.read.reader import read_program
-from app.ui.nc.motion_shapes import Side
-from app.ui.views import View
+from app.fitting.point_curves.correction import Select
+from app.fitting.point_curves.effective_points import Ends, PointState
+from app.gcode.interpreter.dialect import Dialect
+from app.gcode.interpreter.options import ReadOptions
+from app.gcode.interpreter.reader import read_program
+from app.ui.shell.views import View
+from app.ui.views.nc.motion_shapes import Side
 from tests.ui.curves.facets import facets
 from tests.ui.nc.opened import WAIT_MS, open_file
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.ui.cut.picture import CutMoves, CutPaths, CutPicture
-from app.ui.nc.motion_shapes import Look
+from app.ui.views.cut.picture import CutMoves, CutPaths, CutPicture
+from app.ui.views.nc.motion_shapes import Look
 
 SIDE = 100.0
 FLOOR, TOP = -20.0, 0.0

@@ -9,10 +9,10 @@ from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QApplication, QMainWindow, QStackedWidget, QWidget
 
 from app.model.tool import Tool, ToolKind
-from app.ui.cut.cut_view import CutView
-from app.ui.cut.surface import GlSurface
-from app.ui.cut.zooming import Followed, Zooming
-from app.ui.theme import DARK, LIGHT
+from app.ui.framework.theme import DARK, LIGHT
+from app.ui.views.cut.cut_view import CutView
+from app.ui.views.cut.surface import GlSurface
+from app.ui.views.cut.zooming import Followed, Zooming
 from tests.ui.cut.made_up import made_up
 from tests.ui.cut.real_cut import real_shown
 

@@ -5,14 +5,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.errors import HitofudeError
-from app.ui.cut.camera import Camera
-from app.ui.cut.colouring import CutColour, Inks, colouring
-from app.ui.cut.frame import Frame
-from app.ui.cut.picture import CutPicture
-from app.ui.cut.relief import GAIN, LIMIT
-from app.ui.cut.scene import CutScene
-from app.ui.cut.stage import CutLook
+from app.core.errors import HitofudeError
+from app.ui.views.cut.camera import Camera
+from app.ui.views.cut.colouring import CutColour, Inks, colouring
+from app.ui.views.cut.frame import Frame
+from app.ui.views.cut.picture import CutPicture
+from app.ui.views.cut.relief import GAIN, LIMIT
+from app.ui.views.cut.scene import CutScene
+from app.ui.views.cut.stage import CutLook
 
 CANVAS, STOCK, METAL = (0.0, 0.0, 0.25), (100, 100, 100), (200, 200, 200)
 LIGHT = np.array([-0.45, 0.62, 0.64]) / np.linalg.norm([-0.45, 0.62, 0.64])
@@ -28,7 +28,7 @@ SIZE = (320, 240)
 
 def without_a_screen():
     """An OpenGL context without a screen; where there is none the test is skipped, and says why."""
-    from app.graphics import standalone_context
+    from app.simulation.gpu.graphics import standalone_context
 
     try:
         context = standalone_context()

@@ -4,18 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.dexel.workpiece import BoxStock
-from app.edit.document import Document
+from app.drafting.document import Document
+from app.gcode.interpreter.reader import read_program
 from app.model.motion_path import anchored
 from app.model.operation import Cut, PocketOperation
 from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
-from app.nc.read.reader import read_program
-from app.toolpath.compute import regions_of
-from app.ui.cut.colouring import CutColour
-from app.ui.cut.shown_cut import ProgramFile, shown_cut
-from app.workflow.cut import CutOptions, CutSetup, cut
-from app.workflow.parts import FlatPart
+from app.operations.compute import regions_of
+from app.simulation.field.workpiece import BoxStock
+from app.ui.views.cut.colouring import CutColour
+from app.ui.views.cut.shown_cut import ProgramFile, shown_cut
+from app.usecases.cut import CutOptions, CutSetup, cut
+from app.verify.parts import FlatPart
 
 TEXT = """G21 G17 G90 G54
 T1 M6

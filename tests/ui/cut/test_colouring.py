@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from app.ui.cut.colouring import OUT_OF_REACH, STOCK, CutColour, colouring, possible
-from app.ui.cut.picture import CutMoves, CutPicture
-from app.ui.cut.relief import corner_light, relief
+from app.ui.views.cut.colouring import OUT_OF_REACH, STOCK, CutColour, colouring, possible
+from app.ui.views.cut.picture import CutMoves, CutPicture
+from app.ui.views.cut.relief import corner_light, relief
 from tests.ui.cut.pictures import INKS
 
 MOVE = np.array([[-1, 0], [1, 2]], np.int32)

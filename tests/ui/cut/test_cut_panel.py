@@ -5,10 +5,10 @@ from dataclasses import replace
 import pytest
 from PySide6.QtCore import Qt
 
-from app.ui.cut.colouring import CutColour
-from app.ui.cut.entries import EntryColour
-from app.ui.verdict import Level, Verdict
-from app.ui.views import View
+from app.ui.framework.verdict import Level, Verdict
+from app.ui.shell.views import View
+from app.ui.views.cut.colouring import CutColour
+from app.ui.views.cut.entries import EntryColour
 from tests.ui.cut.real_cut import real_shown
 
 WAIT_MS = 20_000

@@ -8,15 +8,15 @@ from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
-from app.ui.cut.camera import StandardView
-from app.ui.cut.colouring import CutColour
-from app.ui.cut.cut_legend import Side
-from app.ui.cut.cut_view import CutView
-from app.ui.cut.picture import CutPaths
-from app.ui.cut.surface import ImageSurface, widgets_have_opengl
-from app.ui.samples import Sample
-from app.ui.theme import DARK, LIGHT
-from app.ui.views import View
+from app.ui.framework.samples import Sample
+from app.ui.framework.theme import DARK, LIGHT
+from app.ui.shell.views import View
+from app.ui.views.cut.camera import StandardView
+from app.ui.views.cut.colouring import CutColour
+from app.ui.views.cut.cut_legend import Side
+from app.ui.views.cut.cut_view import CutView
+from app.ui.views.cut.picture import CutPaths
+from app.ui.views.cut.surface import ImageSurface, widgets_have_opengl
 from tests.ui.cut.made_up import made_up
 from tests.ui.cut.pictures import without_a_screen
 

@@ -4,9 +4,9 @@ import numpy as np
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.ui.computation import State
-from app.ui.views import View
-from app.ui.wiring import Wiring
+from app.ui.shell.computation import State
+from app.ui.shell.views import View
+from app.ui.shell.wiring import Wiring
 
 
 def test_the_sample_is_cut_and_forgotten_with_its_drawing(qtbot: QtBot, wiring: Wiring) -> None:

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.ui.cut.camera import Camera, StandardView
-from app.ui.cut.colouring import CutColour, colouring, values_of
-from app.ui.cut.frame import Frame
-from app.ui.cut.picking import Section
-from app.ui.cut.picture import CutPicture
-from app.ui.cut.scene import CutScene
+from app.ui.views.cut.camera import Camera, StandardView
+from app.ui.views.cut.colouring import CutColour, colouring, values_of
+from app.ui.views.cut.frame import Frame
+from app.ui.views.cut.picking import Section
+from app.ui.views.cut.picture import CutPicture
+from app.ui.views.cut.scene import CutScene
 from tests.ui.cut import pictures
 from tests.ui.cut.pictures import INKS, LOOK, SIZE, flat_picture, seen
 

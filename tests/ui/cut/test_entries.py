@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.ui.cut.entries import EntryColour, certified, entries_of, level_of, sentences_of, title_of
-from app.ui.verdict import Level, Verdict
-from app.workflow.judgement import Certificate
+from app.ui.framework.verdict import Level, Verdict
+from app.ui.views.cut.entries import EntryColour, certified, entries_of, level_of, sentences_of, title_of
+from app.verify.judgement import Certificate
 from tests.ui.cut.real_cut import TOOL, real_shown
 
 

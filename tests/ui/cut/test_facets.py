@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.ui.cut.camera import Camera
-from app.ui.cut.colouring import CutColour, colouring
-from app.ui.cut.frame import Frame
-from app.ui.cut.scene import CutScene
-from app.workflow.wedges_picture import WedgesPicture
+from app.exhibits.wedges_picture import WedgesPicture
+from app.ui.views.cut.camera import Camera
+from app.ui.views.cut.colouring import CutColour, colouring
+from app.ui.views.cut.frame import Frame
+from app.ui.views.cut.scene import CutScene
 from tests.ui.cut import pictures
 from tests.ui.cut.pictures import INKS, LOOK, SIZE, flat_picture
 

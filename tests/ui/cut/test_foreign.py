@@ -5,8 +5,8 @@ import pytest
 from PySide6.QtCore import Qt
 
 from app.model.tool import Tool, ToolKind
-from app.ui.cut.setup_form import as_kind
-from app.ui.views import View
+from app.ui.shell.views import View
+from app.ui.views.cut.setup_form import as_kind
 from tests.ui.conftest import WAIT_MS
 
 TOLD = "(T1 D=4 - flat end mill)\n"
@@ -122,6 +122,6 @@ def test_the_line_of_the_metal_is_shown_in_the_nc_view(qtbot, opened):
 
 @pytest.mark.parametrize("kind", ToolKind)
 def test_any_kind_can_be_chosen_and_is_a_shape(kind):
-    from app.dexel.cutter import cutter_of
+    from app.simulation.cutter import cutter_of
 
     assert cutter_of(as_kind(Tool(1, 6.0), kind)).radius == pytest.approx(3.0)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from PySide6.QtCore import QBuffer, QByteArray
 from PySide6.QtGui import QImage, QImageReader
 
-from app.ui.cut.gif import changed, gif_chunks
+from app.ui.views.cut.gif import changed, gif_chunks
 from tests.examples import examples
 
 WIDTH, HEIGHT = 90, 70

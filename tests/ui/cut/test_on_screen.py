@@ -23,7 +23,7 @@ def test_without_any_opengl_the_view_says_what_to_do():
     code = """
 from PySide6.QtWidgets import QApplication
 application = QApplication([])
-from app.ui.cut.cut_view import CutView
+from app.ui.views.cut.cut_view import CutView
 from tests.ui.cut.made_up import made_up
 view = CutView()
 view.show()

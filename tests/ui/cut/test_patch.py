@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.ui.cut.camera import Camera
-from app.ui.cut.colouring import CutColour, colouring, values_of
-from app.ui.cut.frame import Frame
-from app.ui.cut.patch import Patch, patch_of
-from app.ui.cut.picture import CutPicture
-from app.ui.cut.relief import REACH, relief, relief_part
-from app.ui.cut.scene import CutScene
+from app.ui.views.cut.camera import Camera
+from app.ui.views.cut.colouring import CutColour, colouring, values_of
+from app.ui.views.cut.frame import Frame
+from app.ui.views.cut.patch import Patch, patch_of
+from app.ui.views.cut.picture import CutPicture
+from app.ui.views.cut.relief import REACH, relief, relief_part
+from app.ui.views.cut.scene import CutScene
 from tests.examples import examples
 from tests.ui.cut import pictures
 from tests.ui.cut.pictures import INKS, LOOK, SIZE

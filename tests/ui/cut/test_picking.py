@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from app.ui.cut.camera import Camera, Ray, StandardView
-from app.ui.cut.picking import Section, pick
-from app.ui.cut.picture import CutPicture
-from app.ui.cut.profile import profile
+from app.ui.views.cut.camera import Camera, Ray, StandardView
+from app.ui.views.cut.picking import Section, pick
+from app.ui.views.cut.picture import CutPicture
+from app.ui.views.cut.profile import profile
 
 SIZE = (640, 480)
 

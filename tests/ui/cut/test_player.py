@@ -10,19 +10,19 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from app.ui.cut.colouring import CutColour, values_of
-from app.ui.cut.entries import EntryColour
-from app.ui.cut.player import RANGES, Mark, Pace
-from app.ui.cut.record_sheet import RecordForm, RecordPlan
-from app.ui.cut.relief import relief
-from app.ui.cut.time_plot import exact_clock
-from app.ui.cut.transport import notch_of, speed_of
-from app.ui.views import View
-from app.workflow.cut import CutOptions
-from app.workflow.cut import cut as cut_of
-from app.workflow.timeline import Moment
+from app.ui.shell.views import View
+from app.ui.views.cut.colouring import CutColour, values_of
+from app.ui.views.cut.entries import EntryColour
+from app.ui.views.cut.player import RANGES, Mark, Pace
+from app.ui.views.cut.record_sheet import RecordForm, RecordPlan
+from app.ui.views.cut.relief import relief
+from app.ui.views.cut.time_plot import exact_clock
+from app.ui.views.cut.transport import notch_of, speed_of
+from app.usecases.cut import CutOptions
+from app.usecases.cut import cut as cut_of
+from app.usecases.timeline import Moment
 from tests.ui.cut.pictures import without_a_screen
-from tests.workflow.test_playback import from_start
+from tests.usecases.test_playback import from_start
 
 NONE, SHIFT = Qt.KeyboardModifier.NoModifier, Qt.KeyboardModifier.ShiftModifier
 

@@ -7,12 +7,12 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
-from app.errors import HitofudeError
-from app.ui.computation import State
-from app.ui.cut import player as player_file
-from app.ui.cut.player import Pace
-from app.ui.views import View
-from app.workflow.timeline import Timeline
+from app.core.errors import HitofudeError
+from app.ui.shell.computation import State
+from app.ui.shell.views import View
+from app.ui.views.cut import player as player_file
+from app.ui.views.cut.player import Pace
+from app.usecases.timeline import Timeline
 from tests.ui.cut.test_player import page, settle
 
 __all__ = ["page"]

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.exhibits.wedges_picture import wedges_picture
 from app.model.tool import Tool, ToolKind
-from app.ui.cut.colouring import CutColour
-from app.ui.cut.cut_view import CutView
-from app.ui.cut.patch import patch_of
-from app.ui.cut.scene import CutScene
-from app.ui.theme import DARK, LIGHT
-from app.workflow.wedges_picture import wedges_picture
+from app.ui.framework.theme import DARK, LIGHT
+from app.ui.views.cut.colouring import CutColour
+from app.ui.views.cut.cut_view import CutView
+from app.ui.views.cut.patch import patch_of
+from app.ui.views.cut.scene import CutScene
 from tests.ui.cut.made_up import made_up
 from tests.ui.cut.pictures import without_a_screen
 from tests.ui.cut.test_cut_view import on_screen, pixels

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 
-from app.ui.cut.cut_view import CutView
-from app.ui.theme import DARK
+from app.ui.framework.theme import DARK
+from app.ui.views.cut.cut_view import CutView
 from tests.ui.cut.made_up import made_up
 from tests.ui.cut.pictures import without_a_screen
 

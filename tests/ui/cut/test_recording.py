@@ -13,19 +13,19 @@ import cv2
 import numpy as np
 import pytest
 
-from app.atomic import sweep, waiting_prefix
-from app.errors import Cancelled, InputError
+from app.core.atomic import sweep, waiting_prefix
+from app.core.errors import Cancelled, InputError
+from app.core.progress import Progress
+from app.core.settings import Settings
 from app.model.tool import Tool
-from app.progress import Progress
-from app.settings import Settings
-from app.ui.cut.camera import Camera
-from app.ui.cut.colouring import CutColour, colouring
-from app.ui.cut.frame import Frame
-from app.ui.cut.patch import patch_of
-from app.ui.cut.recording import Reel, Shot, Whole, record, rendered, write_gif, write_pictures
-from app.ui.cut.scene import CutScene
-from app.ui.cut.tool_outline import DrawnTool, outline_of
-from app.ui.start import places
+from app.ui.shell.start import places
+from app.ui.views.cut.camera import Camera
+from app.ui.views.cut.colouring import CutColour, colouring
+from app.ui.views.cut.frame import Frame
+from app.ui.views.cut.patch import patch_of
+from app.ui.views.cut.recording import Reel, Shot, Whole, record, rendered, write_gif, write_pictures
+from app.ui.views.cut.scene import CutScene
+from app.ui.views.cut.tool_outline import DrawnTool, outline_of
 from tests.conftest import ROOT
 from tests.ui.cut.pictures import INKS, LOOK, flat_picture, without_a_screen
 
@@ -165,7 +165,7 @@ KILLED = """
 import os, signal, sys
 from pathlib import Path
 import numpy as np
-from app.ui.cut.recording import Reel, write_pictures
+from app.ui.views.cut.recording import Reel, write_pictures
 
 def frames():
     yield np.zeros((4, 4, 3), np.uint8)

@@ -6,14 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.ui.cut.camera import Camera, StandardView
-from app.ui.cut.colouring import CutColour
-from app.ui.cut.frame import Frame, section_ends
-from app.ui.cut.path_ribbons import rows_of, thinned
-from app.ui.cut.picking import Section
-from app.ui.cut.picture import CutMoves, CutPaths
-from app.ui.cut.scene import CutScene
-from app.ui.nc.motion_shapes import Look
+from app.ui.views.cut.camera import Camera, StandardView
+from app.ui.views.cut.colouring import CutColour
+from app.ui.views.cut.frame import Frame, section_ends
+from app.ui.views.cut.path_ribbons import rows_of, thinned
+from app.ui.views.cut.picking import Section
+from app.ui.views.cut.picture import CutMoves, CutPaths
+from app.ui.views.cut.scene import CutScene
+from app.ui.views.nc.motion_shapes import Look
 from tests.ui.cut import pictures
 from tests.ui.cut.pictures import (
     AMBIENT,

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from app.model.tool import Tool, ToolKind
-from app.ui.cut.camera import Camera, StandardView
-from app.ui.cut.colouring import CutColour, colouring
-from app.ui.cut.frame import Frame
-from app.ui.cut.picking import Section
-from app.ui.cut.scene import CutScene
-from app.ui.cut.tool_outline import DrawnTool, Part, outline_of
+from app.ui.views.cut.camera import Camera, StandardView
+from app.ui.views.cut.colouring import CutColour, colouring
+from app.ui.views.cut.frame import Frame
+from app.ui.views.cut.picking import Section
+from app.ui.views.cut.scene import CutScene
+from app.ui.views.cut.tool_outline import DrawnTool, Part, outline_of
 from tests.ui.cut import pictures
 from tests.ui.cut.pictures import INKS, LOOK, SIZE, flat_picture, seen
 

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from app.dexel.cutter import cutter_of
 from app.model.tool import Tool, ToolKind
-from app.ui.cut.tool_outline import Part, outline_of
+from app.simulation.cutter import cutter_of
+from app.ui.views.cut.tool_outline import Part, outline_of
 from tests.examples import examples
 
 HOLDER = ((0.0, 10.0), (20.0, 10.0), (20.0, 16.0), (32.0, 16.0))

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from app.ui.cut.camera import Camera, StandardView
-from app.ui.cut.picking import Section, pick, pick_finest
-from app.ui.cut.picture import CutPicture
-from app.ui.cut.window import GAIN, LEAST_PITCH, Sighted, serves, wanted
+from app.ui.views.cut.camera import Camera, StandardView
+from app.ui.views.cut.picking import Section, pick, pick_finest
+from app.ui.views.cut.picture import CutPicture
+from app.ui.views.cut.window import GAIN, LEAST_PITCH, Sighted, serves, wanted
 
 SIZE, CELLS = (600, 400), 200
 

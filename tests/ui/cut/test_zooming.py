@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPointF
 
-from app.ui.cut.camera import StandardView
-from app.ui.cut.colouring import CutColour
-from app.ui.cut.cut_view import CutView
-from app.ui.cut.zooming import Followed, Zooming
-from app.ui.theme import LIGHT
+from app.ui.framework.theme import LIGHT
+from app.ui.views.cut.camera import StandardView
+from app.ui.views.cut.colouring import CutColour
+from app.ui.views.cut.cut_view import CutView
+from app.ui.views.cut.zooming import Followed, Zooming
 from tests.ui.cut.pictures import without_a_screen
 from tests.ui.cut.real_cut import detailed_heights, real_shown
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.ui.language.blocks import block_words, family, indent_after, names_in, switched_remarks
+from app.ui.views.language.blocks import block_words, family, indent_after, names_in, switched_remarks
 
 LINES = ["repeat 3 as k", "  if k > 1", "    circle k,0 1", "  else", "    line 0,0 1,1", "  end", "end", "slot 0,0 1,1 2  # end",
          'layer "end"']

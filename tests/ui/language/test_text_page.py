@@ -4,10 +4,10 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QTextCharFormat
 
-from app.edit.document import Document
-from app.edit.write import draw_text
-from app.files.draw import read_draw
-from app.resources import resource
+from app.core.resources import resource
+from app.drafting.document import Document
+from app.drafting.language.write import draw_text
+from app.formats.draw import read_draw
 
 CONTROL = Qt.KeyboardModifier.ControlModifier
 SAMPLE = resource("samples", "plate.draw").read_text(encoding="utf-8")

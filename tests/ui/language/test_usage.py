@@ -2,12 +2,12 @@
 
 import pytest
 
-from app.edit.functions import FUNCTIONS
-from app.edit.language import ALIASES, COMMANDS
-from app.ui.language.completion import offers, word_before
-from app.ui.language.highlight import Ink, inks, pieces
-from app.ui.language.usage import Kind, usage_of
-from app.ui.theme import DARK, LIGHT, mixed
+from app.drafting.expressions.functions import FUNCTIONS
+from app.drafting.language.language import ALIASES, COMMANDS
+from app.ui.framework.theme import DARK, LIGHT, mixed
+from app.ui.views.language.completion import offers, word_before
+from app.ui.views.language.highlight import Ink, inks, pieces
+from app.ui.views.language.usage import Kind, usage_of
 from tests.ui.test_theme import contrast
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from app.gcode.interpreter.program import ModalState, NcProgram, Problem
 from app.model.motion import MotionKind, Motions, Plane
-from app.nc.read.program import ModalState, NcProgram, Problem
 
 
 def motions_of(rows: list[tuple], start=(0.0, 0.0, 0.0)) -> Motions:

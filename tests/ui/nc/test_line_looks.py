@@ -2,15 +2,15 @@
 
 import pytest
 
+from app.gcode.interpreter.reader import read_program
 from app.model.motion import MotionKind
-from app.nc.read.reader import read_program
-from app.ui.nc.line_looks import CUT, NOTHING, PLUNGE, RAPID, kind_of, line_looks
-from app.ui.nc.motion_picture import PathColour, motion_colour, tool_colour
-from app.ui.nc.motion_shapes import shape_motions
-from app.ui.nc.program_text import program_text
-from app.ui.nc.text_paint import LINE_PX
-from app.ui.nc.text_view import NcTextView
-from app.ui.theme import LIGHT
+from app.ui.framework.theme import LIGHT
+from app.ui.views.nc.line_looks import CUT, NOTHING, PLUNGE, RAPID, kind_of, line_looks
+from app.ui.views.nc.motion_picture import PathColour, motion_colour, tool_colour
+from app.ui.views.nc.motion_shapes import shape_motions
+from app.ui.views.nc.program_text import program_text
+from app.ui.views.nc.text_paint import LINE_PX
+from app.ui.views.nc.text_view import NcTextView
 
 PROGRAM = b"G21 G90 G17\nT2 M6\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX40\nG0 Z5\nT1 M6\nG0 X0\nG1 Z-1\nG3 X0 Y20 J10\nG1 X9 Z5\nM2\n"
 

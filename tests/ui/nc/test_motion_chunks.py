@@ -7,17 +7,17 @@ import pytest
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QImage, QPainter
 
+from app.gcode.interpreter.dialect import Dialect
+from app.gcode.interpreter.notes_operation import contour_motions
+from app.gcode.interpreter.options import ReadOptions
+from app.gcode.interpreter.reader import read_program
 from app.model.motion_path import anchored
-from app.nc.read.dialect import Dialect
-from app.nc.read.notes_operation import contour_motions
-from app.nc.read.options import ReadOptions
-from app.nc.read.reader import read_program
-from app.ui.canvas.view import View
-from app.ui.nc.motion_hover import describe_motion, nearest_motion
-from app.ui.nc.motion_picture import MotionPicture, PathColour, PathPaint
-from app.ui.nc.motion_shapes import Side, shape_motions
-from app.ui.nc.state_words import state_items
-from app.ui.theme import LIGHT
+from app.ui.framework.theme import LIGHT
+from app.ui.views.canvas.view import View
+from app.ui.views.nc.motion_hover import describe_motion, nearest_motion
+from app.ui.views.nc.motion_picture import MotionPicture, PathColour, PathPaint
+from app.ui.views.nc.motion_shapes import Side, shape_motions
+from app.ui.views.nc.state_words import state_items
 
 START = "G21 G90\nT1 M6\nG0 X0 Y5 Z5\nG1 Z0 F100\n"
 

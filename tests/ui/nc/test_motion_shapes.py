@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pytest
 
+from app.gcode.interpreter.program import ModalState, NcProgram
+from app.gcode.interpreter.reader import read_program
 from app.model.motion import MotionKind, Nurbs, Plane
-from app.nc.read.program import ModalState, NcProgram
-from app.nc.read.reader import read_program
-from app.ui.canvas.curve_path import ELEMENT
-from app.ui.nc.motion_hover import describe_motion, nearest_motion, outline
-from app.ui.nc.motion_picture import MotionPicture
-from app.ui.nc.motion_shapes import Look, Side, shape_motions
+from app.ui.views.canvas.curve_path import ELEMENT
+from app.ui.views.nc.motion_hover import describe_motion, nearest_motion, outline
+from app.ui.views.nc.motion_picture import MotionPicture
+from app.ui.views.nc.motion_shapes import Look, Side, shape_motions
 from tests.ui.nc.hand_made import motions_of, program_of
 
 CCW, CW, LINE, RAPID = MotionKind.ARC_CCW, MotionKind.ARC_CW, MotionKind.LINE, MotionKind.RAPID

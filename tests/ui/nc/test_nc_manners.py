@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, Qt
 
-from app.ui.nc.motion_shapes import Side
-from app.ui.views import View
+from app.ui.shell.views import View
+from app.ui.views.nc.motion_shapes import Side
 from tests.ui.measure_window import Gaps
 from tests.ui.nc.hand_made import long_program
 from tests.ui.nc.opened import SMALL, WAIT_MS, nc_of, open_file
@@ -85,7 +85,7 @@ def test_a_long_path_that_is_painted_in_portions_is_whole_in_the_end(qtbot, wiri
 
 
 def test_a_long_path_lets_the_window_listen_before_it_is_whole(qtbot, wiring, tmp_path, monkeypatch):
-    monkeypatch.setattr("app.ui.nc.path_view._AT_ONCE_S", 0.0)
+    monkeypatch.setattr("app.ui.views.nc.path_view._AT_ONCE_S", 0.0)
     path = tmp_path / "long.ngc"
     path.write_bytes(long_program(60_000)[0])
     nc = open_file(qtbot, wiring, path)

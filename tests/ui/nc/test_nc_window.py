@@ -9,12 +9,12 @@ from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication
 
-from app.nc.read.dialect import Dialect
-from app.settings import load_settings
-from app.ui.computation import State
-from app.ui.nc.motion_picture import PathColour
-from app.ui.nc.motion_shapes import Side
-from app.ui.views import View
+from app.core.settings import load_settings
+from app.gcode.interpreter.dialect import Dialect
+from app.ui.shell.computation import State
+from app.ui.shell.views import View
+from app.ui.views.nc.motion_picture import PathColour
+from app.ui.views.nc.motion_shapes import Side
 from tests.ui.nc.hand_made import long_program
 from tests.ui.nc.opened import SMALL, WAIT_MS, nc_of, open_file
 

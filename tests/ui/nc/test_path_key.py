@@ -3,14 +3,14 @@
 import pytest
 from PySide6.QtCore import QRectF
 
+from app.gcode.interpreter.notes_operation import contour_motions
+from app.gcode.interpreter.reader import read_program
 from app.model.motion import MotionKind
-from app.nc.read.notes_operation import contour_motions
-from app.nc.read.reader import read_program
-from app.ui.nc.motion_picture import MotionPicture, PathColour, PathPaint
-from app.ui.nc.motion_shapes import Side, shape_motions
-from app.ui.nc.path_key import Corner, KeyMark, beside_key, cuts_within, key_place, key_size
-from app.ui.nc.path_view import PathView
-from app.ui.theme import DARK, LIGHT
+from app.ui.framework.theme import DARK, LIGHT
+from app.ui.views.nc.motion_picture import MotionPicture, PathColour, PathPaint
+from app.ui.views.nc.motion_shapes import Side, shape_motions
+from app.ui.views.nc.path_key import Corner, KeyMark, beside_key, cuts_within, key_place, key_size
+from app.ui.views.nc.path_view import PathView
 from tests.ui.nc.hand_made import program_of
 
 RAPID, LINE, CCW = MotionKind.RAPID, MotionKind.LINE, MotionKind.ARC_CCW

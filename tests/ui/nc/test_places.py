@@ -1,10 +1,10 @@
 """Rows of problems and differences, and the lines that they mark."""
 
-from app.nc.compare import compare
-from app.nc.read.program import Problem, Severity
-from app.nc.read.reader import read_program
-from app.ui.nc.places import difference_places, differing_rows, in_order, problem_places, rows_of
-from app.ui.nc.places_panel import PlacesPanel, Weight
+from app.gcode.interpreter.program import Problem, Severity
+from app.gcode.interpreter.reader import read_program
+from app.gcode.rework.compare import compare
+from app.ui.views.nc.places import difference_places, differing_rows, in_order, problem_places, rows_of
+from app.ui.views.nc.places_panel import PlacesPanel, Weight
 
 FIRST = b"G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F100\nG1 X40\nG1 Y20\nM2\n"
 

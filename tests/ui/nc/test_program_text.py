@@ -4,9 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.nc.read.text import Text
-from app.ui.nc.program_text import program_text
-from app.ui.nc.syntax import Part, spans
+from app.gcode.interpreter.text import Text
+from app.ui.views.nc.program_text import program_text
+from app.ui.views.nc.syntax import Part, spans
 
 
 @given(st.text(alphabet="G1 Xx\n\r(é刃\u2028;", max_size=60))

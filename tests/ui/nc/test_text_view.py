@@ -7,12 +7,12 @@ from PySide6.QtCore import QEvent, QPoint, Qt
 from PySide6.QtGui import QColor, QGuiApplication, QHelpEvent
 from PySide6.QtWidgets import QApplication, QToolTip
 
-from app.nc.read.program import Problem, Severity
-from app.ui.nc.line_looks import line_looks
-from app.ui.nc.program_text import program_text
-from app.ui.nc.text_paint import LINE_PX, MARKS_PX
-from app.ui.nc.text_view import NcTextView
-from app.ui.theme import DARK, LIGHT
+from app.gcode.interpreter.program import Problem, Severity
+from app.ui.framework.theme import DARK, LIGHT
+from app.ui.views.nc.line_looks import line_looks
+from app.ui.views.nc.program_text import program_text
+from app.ui.views.nc.text_paint import LINE_PX, MARKS_PX
+from app.ui.views.nc.text_view import NcTextView
 
 LINES = b"".join(b"G1 X%d Y2 F300\n" % k for k in range(500))
 

@@ -4,18 +4,18 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QApplication, QLabel
 
-from app.edit.document import Document
-from app.edit.sample import bounds, union
-from app.edit.shapes import curve_length
+from app.drafting.curves.shapes import curve_length
+from app.drafting.document import Document
+from app.geometry.sample import bounds, union
 from app.model.curves import Arc, Circle, Line
 from app.model.notes import Dimension, Measure
 from app.model.part import Part
-from app.ui import style
-from app.ui.figures import TIMES
+from app.ui.framework import style
+from app.ui.framework.figures import TIMES
+from app.ui.framework.theme import DARK, LIGHT
 from app.ui.panels.drawing_page import DrawingPage
 from app.ui.panels.side_panel import WIDTH
 from app.ui.panels.swatch import HUES, Palette
-from app.ui.theme import DARK, LIGHT
 
 SCROLL_BAR_PX = 8
 

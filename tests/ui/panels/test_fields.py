@@ -7,9 +7,9 @@ from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QApplication, QLabel
 
-from app.errors import HitofudeError
-from app.ui.panels.fields import Spec
-from app.ui.panels.section import Row
+from app.core.errors import HitofudeError
+from app.ui.framework.fields import Spec
+from app.ui.framework.section import Row
 
 _CONTROL, _ALT, _NONE = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.AltModifier, Qt.KeyboardModifier.NoModifier
 

@@ -7,8 +7,8 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 
-from app.edit.document import Document
-from app.files.holders import named_holders, outline_of
+from app.drafting.document import Document
+from app.formats.tools.holders import named_holders, outline_of
 from app.model.job import Job
 from app.model.part import Part
 from app.ui.panels.changes import Subject, SubjectKind

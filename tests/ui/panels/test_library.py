@@ -6,22 +6,22 @@ from itertools import groupby
 import pytest
 from PySide6.QtCore import Qt
 
-from app.dexel.cutter import cutter_of
-from app.edit.document import Document
-from app.files.tool_files import read_tools, write_tools
-from app.files.tool_library import ToolLibrary, load_libraries, own_folder
+from app.core.resources import resource
+from app.core.settings import Settings
+from app.drafting.document import Document
+from app.formats.tools.files import read_tools, write_tools
+from app.formats.tools.library import ToolLibrary, load_libraries, own_folder
 from app.model.job import Job
 from app.model.operation import Cut, DrillOperation
 from app.model.part import Part, Units
 from app.model.tool import FeedRow, Tool, ToolKind, shape_keys
-from app.resources import resource
-from app.settings import Settings
-from app.ui.icons import IconLabel
-from app.ui.main_window import MainWindow
+from app.simulation.cutter import cutter_of
+from app.ui.framework.icons import IconLabel
 from app.ui.panels.changes import Subject, SubjectKind, for_material, material_of
 from app.ui.panels.side_panel import SidePanel
 from app.ui.panels.tool_kinds import KINDS, USUAL_ANGLES, icon_of, use_of
-from app.ui.wiring import Wiring
+from app.ui.shell.main_window import MainWindow
+from app.ui.shell.wiring import Wiring
 
 
 @pytest.fixture

@@ -12,10 +12,10 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 
-from app.errors import HitofudeError
-from app.files.plot_page import Paper
-from app.ui.plot.panel import read_scale
-from app.ui.views import View
+from app.core.errors import HitofudeError
+from app.formats.plot.page import Paper
+from app.ui.shell.views import View
+from app.ui.views.plot.panel import read_scale
 
 
 def pdf_subpaths(data: bytes) -> list[list[tuple[float, float]]]:

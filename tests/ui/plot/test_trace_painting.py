@@ -6,14 +6,14 @@ import cv2
 import numpy as np
 import pytest
 
-from app.edit.transform import Similarity
-from app.files.plot_flat import dashes
-from app.files.plot_layout import Plot
-from app.files.plot_page import Ink, Page, Pen, Trace
-from app.files.surface_plot import DASHES
+from app.formats.plot.flat import dashes
+from app.formats.plot.layout import Plot
+from app.formats.plot.page import Ink, Page, Pen, Trace
+from app.formats.plot.surface_plot import DASHES
+from app.geometry.transform import Similarity
 from app.model.scene import LineType
-from app.ui.plot.painting import sheets
-from app.ui.plot.writing import png_bytes
+from app.ui.views.plot.painting import sheets
+from app.ui.views.plot.writing import png_bytes
 
 X = np.linspace(5.0, 95.0, 451)
 FINE = np.column_stack([X, np.full_like(X, 10.0)])

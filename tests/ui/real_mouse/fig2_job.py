@@ -11,10 +11,10 @@ from pathlib import Path
 
 from PySide6.QtWidgets import QApplication
 
-from app.edit.write import draw_text
-from app.ui.computation import State
-from app.ui.start import build
-from app.ui.views import View
+from app.drafting.language.write import draw_text
+from app.ui.shell.computation import State
+from app.ui.shell.start import build
+from app.ui.shell.views import View
 from tests.ui.real_mouse.hand import Hand
 
 OUTLINE = ("6,6", "60,6", "68,14", "68,30", "a", "76,38", "68,46", "68,60", "60,60", "60,70", "44,70", "a", "36,62", "28,70",

@@ -13,7 +13,7 @@ from PySide6.QtCore import QObject, QPoint, QPointF, Qt, Signal
 from PySide6.QtWidgets import QApplication, QToolButton, QWidget
 
 from app.model.curves import Point
-from app.ui.wiring import Wiring
+from app.ui.shell.wiring import Wiring
 
 T = TypeVar("T")
 PATIENCE_S = 120.0

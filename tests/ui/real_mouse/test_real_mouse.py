@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from app.edit.write import curve_text
-from app.files.drawing import read_drawing
+from app.drafting.language.write import curve_text
+from app.formats.drawing import read_drawing
+from app.gcode.interpreter.options import ReadOptions
+from app.gcode.interpreter.reader import read_program
 from app.model.curves import Circle, Curve
 from app.model.part import Part
-from app.nc.read.options import ReadOptions
-from app.nc.read.reader import read_program
 
 MOST_CLICKS = 60
 

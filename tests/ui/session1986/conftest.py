@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import Qt
 
-from app.ui.session1986.questions import Ask
+from app.ui.views.session1986.questions import Ask
 from tests.ui.conftest import WAIT_MS
 
 

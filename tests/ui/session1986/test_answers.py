@@ -4,14 +4,14 @@ from dataclasses import replace
 
 import pytest
 
-from app.errors import InputError
+from app.core.errors import InputError
 from app.model.job import Job
 from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.model.part import Part
 from app.model.tool import Tool, ToolKind
-from app.ui.session1986.answers import Offsets, amount, job_of, offered
-from app.ui.session1986.draft import Draft
-from app.ui.session1986.screen import BOTTOM, TOP
+from app.ui.views.session1986.answers import Offsets, amount, job_of, offered
+from app.ui.views.session1986.draft import Draft
+from app.ui.views.session1986.screen import BOTTOM, TOP
 
 
 def test_the_job_s_own_tools_are_offered() -> None:

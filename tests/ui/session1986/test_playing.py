@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QObject
 
-from app.ui.session1986.playing import LEAST_MS, LONGEST_S, Listing, Playing
-from app.ui.session1986.screen import Screen
-from app.ui.session1986.stills import Still
+from app.ui.views.session1986.playing import LEAST_MS, LONGEST_S, Listing, Playing
+from app.ui.views.session1986.screen import Screen
+from app.ui.views.session1986.stills import Still
 
 
 def still(number: int) -> Still:

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from app.bitmap.codes import PixelCode
-from app.bitmap.steps import Stage
-from app.bitmap.trace import Chain, trace
-from app.ui.session1986.glyphs import CELL, line_bits, spoken, wrapped
-from app.ui.session1986.screen import BOTTOM, COLUMNS, HEAD_PX, MARGIN_PX, PAGE_LINES, TALK_LINES, TOP, Screen, card
-from app.ui.session1986.stills import DASH, GAP, still_of
+from app.raster.codes import PixelCode
+from app.raster.steps import Stage
+from app.raster.trace import Chain, trace
+from app.ui.views.session1986.glyphs import CELL, line_bits, spoken, wrapped
+from app.ui.views.session1986.screen import BOTTOM, COLUMNS, HEAD_PX, MARGIN_PX, PAGE_LINES, TALK_LINES, TOP, Screen, card
+from app.ui.views.session1986.stills import DASH, GAP, still_of
 
 CHARACTERS = "".join(chr(code) for code in range(32, 96))
 

@@ -6,10 +6,10 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 
-from app.settings import Phosphor, Settings, ThemeChoice, load_settings, save_settings
-from app.ui.session1986.questions import Ask
-from app.ui.session1986.screen import BOTTOM, LINE_PX
-from app.ui.start import build
+from app.core.settings import Phosphor, Settings, ThemeChoice, load_settings, save_settings
+from app.ui.shell.start import build
+from app.ui.views.session1986.questions import Ask
+from app.ui.views.session1986.screen import BOTTOM, LINE_PX
 from tests.conftest import ROOT
 
 SNAPSHOTS = ROOT / "tests" / "data" / "session1986"

@@ -16,24 +16,24 @@ import numpy as np
 from PySide6.QtGui import QColor, QImage
 from PySide6.QtWidgets import QApplication
 
-from app.bitmap.codes import PixelCode
-from app.bitmap.levels import SAFE_PX
-from app.edit.document import Document
-from app.files.drawing import read_drawing
-from app.geometry.offset import offset_levels
+from app.core.resources import resource
+from app.drafting.document import Document
+from app.formats.drawing import read_drawing
+from app.geometry.offset.offset import offset_levels
 from app.geometry.primitives import pack
 from app.model.job import Job
-from app.resources import resource
-from app.ui import style
-from app.ui.stages.inks import inks, table
-from app.ui.stages.pixel_paint import Pixels
-from app.ui.stages.reel import Wish, reel_of
-from app.ui.stages.rose import Rose
-from app.ui.stages.stages_view import StagesView
-from app.ui.theme import LIGHT
-from app.workflow.bitmap_options import BitmapSize
-from app.workflow.make import job_from_drawing
-from app.workflow.options import MakeOptions
+from app.raster.codes import PixelCode
+from app.raster.levels import SAFE_PX
+from app.ui.framework import style
+from app.ui.framework.theme import LIGHT
+from app.ui.views.stages.inks import inks, table
+from app.ui.views.stages.pixel_paint import Pixels
+from app.ui.views.stages.reel import Wish, reel_of
+from app.ui.views.stages.rose import Rose
+from app.ui.views.stages.stages_view import StagesView
+from app.usecases.bitmap_options import BitmapSize
+from app.usecases.make import job_from_drawing
+from app.usecases.options import MakeOptions
 
 FOLDER = Path(__file__).resolve().parents[2] / "data" / "figures"
 _SIDE, _SMALL = 560, 32

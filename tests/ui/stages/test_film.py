@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from app.bitmap.codes import PixelCode
-from app.edit.document import Document
-from app.ui.stages.film import Projector, chain_at
-from app.ui.stages.reel import Wish, reel_of
-from app.workflow.bitmap_job import drawn_job
-from app.workflow.bitmap_options import BitmapSize
-from app.workflow.bitmap_way import compute_on_bitmap
-from app.workflow.stages import Variant, stages
+from app.drafting.document import Document
+from app.exhibits.stages import Variant, stages
+from app.raster.codes import PixelCode
+from app.ui.views.stages.film import Projector, chain_at
+from app.ui.views.stages.reel import Wish, reel_of
+from app.usecases.bitmap_job import drawn_job
+from app.usecases.bitmap_options import BitmapSize
+from app.usecases.bitmap_way import compute_on_bitmap
 
 SIZE = BitmapSize(120)
 

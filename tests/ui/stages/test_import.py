@@ -10,18 +10,18 @@ from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication
 
-from app.bitmap.codes import PixelCode
-from app.bitmap.picture import Shows
-from app.ui.computation import State
-from app.ui.figures import TIMES
-from app.ui.stages.import_panel import By, See
-from app.ui.stages.inks import inks
-from app.ui.stages.pixel_paint import pixel_at
-from app.ui.stages.preview import Measure
-from app.ui.theme import LIGHT
-from app.ui.views import View
-from app.ui.worker import Answer
-from tests.bitmap.test_doubts import plate
+from app.raster.codes import PixelCode
+from app.raster.picture import Shows
+from app.ui.framework.figures import TIMES
+from app.ui.framework.theme import LIGHT
+from app.ui.framework.worker import Answer
+from app.ui.shell.computation import State
+from app.ui.shell.views import View
+from app.ui.views.stages.import_panel import By, See
+from app.ui.views.stages.inks import inks
+from app.ui.views.stages.pixel_paint import pixel_at
+from app.ui.views.stages.preview import Measure
+from tests.raster.test_doubts import plate
 from tests.ui.conftest import WAIT_MS
 from tests.ui.stages.conftest import show_stages
 from tests.ui.stages.scan import DARK_INK, PAPER, scan

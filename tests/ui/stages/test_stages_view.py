@@ -8,15 +8,15 @@ from PySide6.QtCore import QPoint, QPointF, QRect, QSize, Qt
 from PySide6.QtGui import QGuiApplication, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
-from app.bitmap.codes import PixelCode
-from app.bitmap.steps import STEPS
-from app.settings import ThemeChoice
-from app.ui.stages.inks import step_inks
-from app.ui.stages.pixel_paint import LETTER_PX, RASTER_PX
-from app.ui.stages.stages_panel import Rules
-from app.ui.stages.words import note
-from app.ui.theme import LIGHT
-from app.ui.views import View
+from app.core.settings import ThemeChoice
+from app.raster.codes import PixelCode
+from app.raster.steps import STEPS
+from app.ui.framework.theme import LIGHT
+from app.ui.shell.views import View
+from app.ui.views.stages.inks import step_inks
+from app.ui.views.stages.pixel_paint import LETTER_PX, RASTER_PX
+from app.ui.views.stages.stages_panel import Rules
+from app.ui.views.stages.words import note
 from tests.ui.conftest import WAIT_MS
 from tests.ui.stages.conftest import show_stages
 

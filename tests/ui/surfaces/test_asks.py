@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from app.files.scene_edit import with_table, with_value
-from app.files.scene_toml import read_scene, sources_of
+from app.formats.scene.edit import with_table, with_value
+from app.formats.scene.toml import read_scene, sources_of
 from app.model.curves import Arc, Circle, Line, Spline
 from app.model.part import Entity, Part
-from app.ui.surfaces.asks import Kind, passes_asks, scene_asks, surface_asks, tool_asks
-from app.ui.surfaces.fresh import FROM_CURVES, KINDS, NEW_SCENE, fresh_passes, fresh_surface, fresh_tool, surface_from_curves
-from app.workflow.drawn_sections import drawn_sections
-from app.workflow.surface import compute
+from app.ui.views.surfaces.asks import Kind, passes_asks, scene_asks, surface_asks, tool_asks
+from app.ui.views.surfaces.fresh import FROM_CURVES, KINDS, NEW_SCENE, fresh_passes, fresh_surface, fresh_tool, surface_from_curves
+from app.usecases.drawn_sections import drawn_sections
+from app.usecases.surface import compute
 from tests.conftest import ROOT
 
 SAMPLES = ROOT / "resources" / "samples"

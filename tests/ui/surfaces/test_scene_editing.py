@@ -8,14 +8,14 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QTextCursor
 from PySide6.QtTest import QTest
 
-from app.files.scene_toml import read_scene
+from app.core.resources import resource
+from app.formats.scene.toml import read_scene
 from app.model.finding import Finding, FindingKind
-from app.resources import resource
-from app.ui.surfaces.ask_fields import VectorField
-from app.ui.surfaces.scene_document import SceneDocument
-from app.ui.surfaces.scene_work import SceneState
-from app.ui.verdict import Level
-from app.ui.views import View
+from app.ui.framework.verdict import Level
+from app.ui.shell.views import View
+from app.ui.views.surfaces.ask_fields import VectorField
+from app.ui.views.surfaces.scene_document import SceneDocument
+from app.ui.views.surfaces.scene_work import SceneState
 
 WAIT_MS = 60_000
 SPHERES = resource("samples", "spheres.toml")

@@ -5,13 +5,13 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from app.resources import resource
-from app.ui.surfaces.scene_raster import ColourBy, Layer
-from app.ui.surfaces.scene_work import SceneState
-from app.ui.surfaces.shown_scene import is_scene
-from app.ui.surfaces.surfaces_view import Look
-from app.ui.views import View
-from app.workflow.strands import Role
+from app.core.resources import resource
+from app.ui.shell.views import View
+from app.ui.views.surfaces.scene_raster import ColourBy, Layer
+from app.ui.views.surfaces.scene_work import SceneState
+from app.ui.views.surfaces.shown_scene import is_scene
+from app.ui.views.surfaces.surfaces_view import Look
+from app.usecases.strands import Role
 
 WAIT_MS = 60_000
 COMPOUND = resource("samples", "compound.toml")

@@ -1,0 +1,81 @@
+"""`hitofude figure11`: the published comparison of software and depth buffer, measured again on this machine."""
+
+from __future__ import annotations
+
+import json
+import re
+import threading
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from ...core.atomic import write_together
+from ...core.errors import InputError
+from ...exhibits.die_programs import PROGRAMS
+from ...exhibits.figure_eleven import FigureOptions, figure_eleven
+from ..files import check_outputs, shown_progress
+from ..output import helped, tell
+from ..parser import OptionParser, typed
+from ..signals import undisturbed
+
+LEAST_CELLS, MOST_CELLS, MOST_RUNS = 16, 4096, 100
+_USUAL = FigureOptions()
+EPILOG = """\
+Cuts zigzags over a curved die of 100 mm, A and B with the moves and radii that were printed, C with more and finer ones, in every way
+there is, one after the other in one process, and prints how long the best run of each took. Other work on the machine shows in the
+times; ratios between the columns suffer less. Exit status 0: done; 2: something cannot be used; 130: cancelled.
+"""
+
+
+def figure11_command(argv: Sequence[str], stopped: threading.Event) -> int:
+    """Run `figure11` and return its exit status, 0.
+
+    Args:
+        argv: the arguments behind `figure11`.
+        stopped: set when the user wants it to stop.
+
+    Raises:
+        HitofudeError: bad usage; nothing was written.
+        Cancelled: by Ctrl+C.
+    """
+    if helped(argv, _parser):
+        return 0
+    arguments = _parser().parse_args(argv)
+    if arguments.report is not None:
+        check_outputs({"report": arguments.report}, [])
+    done = figure_eleven(FigureOptions(arguments.programs, arguments.grid, arguments.repeat), shown_progress(arguments.quiet, stopped))
+    if arguments.report is not None:
+        with undisturbed():
+            write_together({arguments.report: (json.dumps(done.report(), indent=2, allow_nan=False) + "\n").encode()})
+    if not arguments.quiet:
+        tell(done.text())
+    return 0
+
+
+def _parser() -> OptionParser:
+    about = "Measure how long plain software, the published depth buffer, and this program's engines take for the same cuts."
+    parser = OptionParser("figure11", ("", ""), about, EPILOG)
+    parser.add_argument("--programs", metavar="A,B,C", type=typed(_programs), default=tuple(PROGRAMS), help="which (default all)")
+    parser.add_argument("--grid", metavar="N", type=typed(_whole("cells", LEAST_CELLS, MOST_CELLS)), default=_USUAL.cells,
+                        help=f"cells along each side, {LEAST_CELLS} to {MOST_CELLS} (default {_USUAL.cells})")
+    parser.add_argument("--repeat", metavar="N", type=typed(_whole("runs", 1, MOST_RUNS)), default=_USUAL.repeat,
+                        help=f"runs, of which the best one counts, 1 to {MOST_RUNS} (default {_USUAL.repeat})")
+    parser.add_argument("--report", metavar="R.json", type=Path, help="everything that was measured, as JSON")
+    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
+    return parser
+
+
+def _programs(text: str) -> tuple[str, ...]:
+    names = tuple(name.strip().upper() for name in text.split(","))
+    wrong = next((name for name in names if name not in PROGRAMS), None)
+    if wrong is not None or len(set(names)) < len(names):
+        raise InputError(f"'{text}' names no programs; write some of {','.join(PROGRAMS)}, each once")
+    return names
+
+
+def _whole(what: str, least: int, most: int) -> Callable[[str], int]:
+    def read(text: str) -> int:
+        if not re.fullmatch(r"\d{1,6}", text.strip()) or not least <= int(text) <= most:
+            raise InputError(f"'{text}' is no number of {what}; write a whole number from {least} to {most}")
+        return int(text)
+
+    return read

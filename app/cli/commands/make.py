@@ -1,0 +1,89 @@
+"""`hitofude make`: reads the files, runs the make workflow, writes the files."""
+
+from __future__ import annotations
+
+import argparse
+import threading
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from ...core.atomic import write_together
+from ...core.errors import InputError
+from ...usecases.make import Made, make
+from ...usecases.options import MakeOptions
+from ..files import check_outputs, identity, read_input, shown_progress
+from ..make_options import make_options, make_parser, read_arguments
+from ..output import finding_lines, helped, tell
+from ..signals import undisturbed
+from ..timings import StageTimes
+
+
+def make_command(argv: Sequence[str], stopped: threading.Event) -> int:
+    """Run `make` and return its exit status: 0 clean, 1 with findings.
+
+    Args:
+        argv: the arguments behind `make`.
+        stopped: set when the user wants it to stop.
+
+    Raises:
+        HitofudeError: bad usage or input; nothing was written.
+        Cancelled: by Ctrl+C.
+    """
+    if helped(argv, make_parser):
+        return 0
+    arguments = read_arguments(argv)
+    outputs = _check_outputs(arguments)
+    options = _with_job(make_options(arguments), arguments.job)
+    times = StageTimes() if arguments.timings else None
+    progress = shown_progress(arguments.quiet, stopped)
+    made = make(arguments.drawing.name, read_input(arguments.drawing), options, times.watch(progress) if times else progress)
+    if times:
+        made = replace(made, report=made.report.with_timings(times.seconds()))
+    names = [file.named(arguments.output) for file in made.files]
+    _write(made, outputs, names)
+    if not arguments.quiet:
+        _summary(made, names)
+        if times:
+            tell("\n".join(times.lines()))
+    return 0 if made.clean else 1
+
+
+def _with_job(options: MakeOptions, path: Path | None) -> MakeOptions:
+    """Return the options with the job file read, where there is one."""
+    if path is None:
+        return options
+    from ...formats.job.toml import read_job
+
+    file = read_job(path.name, read_input(path))
+    return replace(options, job=file.job, units=options.units or file.units)
+
+
+def _check_outputs(arguments: argparse.Namespace) -> dict[str, Path]:
+    """Return the files to write by what they hold, checked before any work is done."""
+    outputs = {name: path for name in ("output", "report", "image") if (path := getattr(arguments, name)) is not None}
+    if "image" in outputs and outputs["image"].suffix.lower() not in (".svg", ".png"):
+        raise InputError(f"--image {outputs['image']}: a picture is .svg or .png; change the name")
+    check_outputs(outputs, [path for path in (arguments.drawing, arguments.job) if path is not None])
+    return outputs
+
+
+def _write(made: Made, outputs: dict[str, Path], names: list[Path]) -> None:
+    """Make every picture and text first, then write all files together."""
+    texts = {"report": made.report.text().encode()}
+    if "image" in outputs:
+        from ...formats.plot.plot import plot
+        from ...usecases.picture import picture_of
+
+        texts["image"] = plot(picture_of(made.job.part.name, made.program, made.coverage), outputs["image"].suffix.lower())
+    others = {outputs[name]: text for name, text in texts.items() if name in outputs}
+    if {identity(path) for path in names} & {identity(path) for path in others}:
+        raise InputError(f"--output {outputs['output']} makes {', '.join(map(str, names))}, and one of these is another output; "
+                         "give every file its own name")
+    with undisturbed():
+        write_together(others | {name: file.nc.text.encode("ascii") for name, file in zip(names, made.files, strict=True)})
+
+
+def _summary(made: Made, names: list[Path]) -> None:
+    """Say in a few lines what was made and what there is to know about it, the first few of each kind."""
+    tell("\n".join([made.report.summary(", ".join(map(str, names))), *finding_lines(made.findings)]))

@@ -1,0 +1,115 @@
+"""`hitofude surface`: tool paths over the surfaces of a scene, told apart by surface: NC, plot, table of points, report."""
+
+from __future__ import annotations
+
+import argparse
+import threading
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from ...core.atomic import write_together
+from ...core.errors import InputError
+from ...formats.plot.surface_plot import VIEWS, Look
+from ...formats.scene.toml import read_scene, sources_of
+from ...usecases.surface import Computed, compute
+from ...usecases.surface_loop import closed_loop
+from ...usecases.surface_nc import WrittenScene, write_scene_nc
+from ...usecases.surface_plot import FORMATS, Drawn, PlotScene, plot_surface
+from ...usecases.surface_points import scene_points_csv
+from ...usecases.surface_report import surface_report
+from ..files import check_outputs, read_input, shown_progress
+from ..output import finding_lines, helped, tell
+from ..parser import OptionParser, number
+from ..signals import undisturbed
+
+EPILOG = """\
+The scene tells surfaces, stock, tools and families of passes; resources/docs/scene.md explains every key. On each cutting plane the
+topmost of all surfaces is followed; where the path passes from one to another, the boundary point is solved for. Every move of the
+written program is read back and proven to go nowhere deeper into a surface than 0.0001 mm. Files that the scene names are looked for
+beside it. Exit status 0: done and proven; 1: with findings, or a move could not be proven; 2: bad input; 130: cancelled.
+"""
+
+
+def surface_command(argv: Sequence[str], stopped: threading.Event) -> int:
+    """Run `surface` and return its exit status: 0 done and proven, 1 with findings.
+
+    Args:
+        argv: the arguments behind `surface`.
+        stopped: set when the user wants it to stop.
+
+    Raises:
+        HitofudeError: bad usage or input; nothing was written.
+        Cancelled: by Ctrl+C.
+    """
+    if helped(argv, _parser):
+        return 0
+    arguments = _parser().parse_args(argv)
+    outputs = _outputs(arguments)
+    progress = shown_progress(arguments.quiet, stopped)
+    path: Path = arguments.scene
+    scene = read_scene(path.name, read_input(path))
+    sources = sources_of(lambda name: read_input(path.parent / name))
+    computed = compute(scene, sources, progress.part(0.0, 0.5))
+    written = write_scene_nc(computed, progress.part(0.5, 0.7)) if "output" in outputs or arguments.loop is not None else None
+    report = surface_report(computed, written)
+    if written is not None and arguments.loop is not None:
+        report.data["loop"] = closed_loop(written, sources, arguments.loop, progress.part(0.7, 1.0))
+    texts = dict(_texts(arguments, outputs, computed, written))
+    if "report" in outputs:
+        texts[outputs["report"]] = report.text().encode()
+    progress.step(1.0)
+    with undisturbed():
+        write_together(texts)
+    if not arguments.quiet:
+        tell("\n".join([report.summary(), *finding_lines(report.findings)]))
+    return 1 if any(finding.counts for finding in report.findings) else 0
+
+
+def _parser() -> OptionParser:
+    about = "Compute tool paths over the surfaces of a scene, told apart by surface, and prove that they go into none of them."
+    parser = OptionParser("surface", ("scene", "the scene and -o OUT.ngc"), about, EPILOG)
+    parser.add_argument("scene", metavar="SCENE.toml", type=Path, help="surfaces, stock, tools and passes")
+    parser.add_argument("-o", "--output", metavar="OUT.ngc", type=Path, help="the NC program; one a tool where the control changes none")
+    parser.add_argument("--plot", metavar="OUT.svg|pdf|hpgl", type=Path,
+                        help="the paths drawn in the order of generation, by surface; also .plt and .png")
+    parser.add_argument("--view", choices=list(VIEWS), default="isometric", help="from where the plot is seen (default isometric)")
+    parser.add_argument("--look", choices=[look.value for look in Look], default=Look.COLOURS.value,
+                        help="what tells parts of the plot apart: colours of surfaces (default), line types of surfaces, or tools")
+    parser.add_argument("--draw", choices=[drawn.value for drawn in Drawn], default=Drawn.PATHS.value,
+                        help="what is plotted: the cutters' paths (default), the compound surface, or both")
+    parser.add_argument("--points", metavar="OUT.csv", type=Path, help="the compound surface and its boundary points as a table")
+    parser.add_argument("--report", metavar="R.json", type=Path, help="everything that was computed and proven, as JSON")
+    parser.add_argument("--loop", metavar="T", type=number("loop"),
+                        help="with --report: the program is cut, smoothed within T mm and cut again, all told in the report")
+    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
+    return parser
+
+
+def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
+    """Return the files to write by their option, checked before any work is done."""
+    outputs = {name: path for name in ("output", "plot", "points", "report") if (path := getattr(arguments, name)) is not None}
+    if not outputs:
+        raise InputError("surface has nothing to write; add -o OUT.ngc, --plot OUT.svg, --points OUT.csv or --report R.json")
+    if "plot" in outputs and outputs["plot"].suffix.lower() not in FORMATS:
+        raise InputError(f"--plot {outputs['plot']}: a plot is one of {', '.join(FORMATS)}; change the name")
+    if arguments.loop is not None and "report" not in outputs:
+        raise InputError("--loop tells what it finds in the report; add --report R.json")
+    check_outputs(outputs, [arguments.scene])
+    return outputs
+
+
+def _texts(
+    arguments: argparse.Namespace, outputs: dict[str, Path], computed: Computed, written: WrittenScene | None,
+) -> Iterator[tuple[Path, bytes]]:  # fmt: skip
+    """Yield what to write, by file."""
+    if "points" in outputs:
+        yield outputs["points"], scene_points_csv(computed)
+    if "plot" in outputs:
+        path = outputs["plot"]
+        what = PlotScene(VIEWS[arguments.view], Look(arguments.look), Drawn(arguments.draw))
+        sheets = plot_surface(computed, path.suffix, what)
+        for number, sheet in enumerate(sheets, 1):
+            yield path if len(sheets) == 1 else path.with_name(f"{path.stem}_{number}{path.suffix}"), sheet
+    if written is not None and "output" in outputs:
+        for file in written.files:
+            yield file.named(outputs["output"]), file.nc.text.encode()

@@ -1,0 +1,1 @@
+"""What everything else stands on: errors, progress, tolerances, files, threads, compiled kernels. Knows nothing of parts."""

@@ -1,0 +1,158 @@
+"""The decorator: a kernel knows its signature and its code, and is loaded or compiled when it is first called."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from functools import cached_property, update_wrapper
+from types import FunctionType
+from typing import Any
+
+from ..errors import HitofudeError
+from . import numba_door
+from .fingerprint import digest, named_globals
+from .store import Store, store
+
+Compiled = Callable[..., Any]
+"""A kernel as its callers see it: its types are those of its signature, which mypy does not read."""
+
+REGISTERED: list[Kernel] = []
+"""All kernels of the modules that were imported so far, in the order of import: what a command may want."""
+
+_COMPILING = threading.RLock()
+
+
+class Kernel:
+    """A function compiled for one signature.
+
+    Importing its module costs nothing; the first call finds the machine code in the store, or has it compiled. A name that
+    begins with an underscore is called by kernels alone.
+
+    Attributes:
+        signature: in numba's words.
+        counts: whether it counts who holds an array.
+    """
+
+    def __init__(self, function: FunctionType, signature: str, counts: bool) -> None:
+        update_wrapper(self, function)
+        self.function, self.signature, self.counts = function, signature, counts
+        self._for_callers: Any = None
+        self._call: Compiled = self._first_call
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Run it."""
+        return self._call(*arguments)
+
+    def __repr__(self) -> str:
+        return f"<kernel {self.name}>"
+
+    @property
+    def name(self) -> str:
+        """The module's name, a colon, its own."""
+        return f"{self.function.__module__}:{self.function.__name__}"
+
+    @property
+    def inner(self) -> bool:
+        """Whether only kernels call it."""
+        return self.function.__name__.startswith("_")
+
+    @cached_property
+    def digest(self) -> str:
+        """Of all that its machine code depends on but compiler and processor."""
+        return digest(f"{self.name} {self.signature} {self.counts} {self.inner}", self.function)
+
+    @cached_property
+    def entry(self) -> str:
+        """The name of its entry in the store."""
+        return f"{self.name.removeprefix('app.').replace(':', '.')}-{self.digest[:20]}"
+
+    @cached_property
+    def callees(self) -> tuple[Kernel, ...]:
+        """The kernels that it names."""
+        named = (self.function.__globals__[name] for name in sorted(named_globals(self.function)))
+        return tuple(value for value in named if isinstance(value, Kernel) and value is not self)
+
+    @property
+    def _numba_type_(self) -> Any:
+        """How numba sees it in the code of another kernel: ready to be called."""
+        return self.for_callers()._numba_type_
+
+    def for_callers(self) -> Any:
+        """Return numba's object for it, loaded or compiled here, that kernels can be linked with.
+
+        Raises:
+            HitofudeError: it cannot be compiled.
+        """
+        with _COMPILING:
+            if self._for_callers is None:
+                self._for_callers = self._loaded(numba_door.load_for_callers) or self._compiled()
+            return self._for_callers
+
+    def _ready(self) -> Any:
+        """Return numba's object for it, loaded or compiled here, that Python can call."""
+        with _COMPILING:
+            return self._for_callers or self._loaded(numba_door.load) or self.for_callers()
+
+    def _loaded(self, load: Callable[[Any, bytes], None]) -> Any:
+        """Return it as it is in the store; None where it is not there, or not whole."""
+        code = _store().read(self.entry)
+        if code is None:
+            return None
+        made = self._dispatcher()
+        try:
+            load(made, code)
+        except Exception:  # whole by its check sum, but of no use: whatever numba says, it is compiled anew
+            _store().drop(self.entry)
+            return None
+        return made
+
+    def _compiled(self) -> Any:
+        """Compile it on this thread and keep it in the store."""
+        with _COMPILING:
+            made = self._dispatcher()
+            try:
+                code = numba_door.compile_to(made, self.signature)
+            except Exception as error:
+                cause = " ".join(str(error).split())[:200]
+                raise HitofudeError(f"{self.name} cannot be compiled, so what needs it will not work: "
+                                    f"{type(error).__name__}: {cause}") from error
+            if _store().folder is not None:
+                _store().write(self.entry, code())
+            return made
+
+    def _dispatcher(self) -> Any:
+        return numba_door.dispatcher(self.function, self.counts, called_from_python=not self.inner)
+
+    def _first_call(self, *arguments: Any) -> Any:
+        from .compilers import compilers
+
+        if self.inner:
+            raise TypeError(f"{self.name} is called by kernels alone; name it without underscore to call it from Python")
+        if not _store().has(self.entry) and self._for_callers is None:
+            compilers().demand(self)
+            if why := compilers().why(self):
+                raise HitofudeError(why)
+        self._call = self._ready()
+        return self._call(*arguments)
+
+
+def _store() -> Store:
+    return store(numba_door.version())
+
+
+def kernel(signature: str, counts: bool = True) -> Callable[[Compiled], Compiled]:
+    """Have a function compiled for the given numba signature; it releases the GIL.
+
+    Args:
+        signature: such as "float64(float64[:, ::1], int64)".
+        counts: whether it counts who holds an array, as it must if it makes one. Where an array goes through a short loop and a call
+            or two, counting takes longer than these; its caller holds it anyhow.
+    """
+
+    def registered(function: Compiled) -> Compiled:
+        assert isinstance(function, FunctionType)
+        made = Kernel(function, signature, counts)
+        REGISTERED.append(made)
+        return made
+
+    return registered

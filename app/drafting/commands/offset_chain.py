@@ -1,0 +1,184 @@
+"""The parallel of a whole chain of curves: corners joined, arcs stay arcs, and what would come too near is cut out.
+
+Every line and arc is moved aside, and every corner that opens is bridged by an arc about it. All these are cut where they meet,
+and a piece stays where nothing of the chain is nearer than the distance; at last corners are made sharp where there is room.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from itertools import chain as flattened
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.tolerances import RIDGE, WELD
+from ...geometry.sample import bounds
+from ...model.curves import Arc, Circle, Curve, Line, Point, reversed_curve
+from ..curves.chains import Chain, chained
+from ..curves.meet import foot, meets
+from ..curves.shapes import curve_length, middle_of
+from .explode import simple
+from .moved import Moved, direction
+from .sharp_corners import sharpened
+from .split import split
+
+_NEAR = 1e-8
+"""By so much, mm, a piece may come nearer than the distance."""
+
+_SLIGHT = 2e-3
+"""A turn, rad, so slight that what two parallels overlap there could not be told from what stays."""
+
+
+def chain_parallel(contour: Chain, away: float, side: Point, rounded: bool = False) -> list[tuple[int, Line | Arc]]:
+    """Return the parallel of a chain at a distance, on the side of a point; empty where nothing is that far from it.
+
+    Args:
+        contour: ellipses and splines are followed within 1 µm.
+        away: mm, > 0.
+        side: decides by the place of the chain nearest to it.
+        rounded: corners that open stay arcs; else their sides go on until they meet, up to five times the distance.
+
+    Returns:
+        Pairs of the number of the curve that the piece goes along, and the piece, in the chain's direction.
+    """
+    pieces = _pieces(contour)
+    if not pieces:
+        return []
+    left = _is_left(pieces, contour.closed, side)
+    pieces = pieces if left else _turned(pieces)
+    found = _kept(pieces, contour.closed, away)
+    groups = [[found[number] for number in each.numbers] for each in chained(dict(enumerate(m.curve for m in found))) if not _thin(each)]
+    made = list(flattened.from_iterable(groups)) if rounded else sharpened(groups, away, lambda a, b: _near(_boxes(a), _boxes(b)))
+    return [(m.source, m.curve) for m in (made if left else _turned(made))]
+
+
+def _pieces(contour: Chain) -> list[Moved]:
+    """Return a chain as lines and arcs that meet exactly."""
+    found = list[Moved]()
+    for number, curve in zip(contour.numbers, contour.curves, strict=True):
+        for piece in simple(curve):
+            if not isinstance(piece, Circle) and (made := _between(piece, found[-1].curve.end if found else piece.start, piece.end)):
+                found.append(Moved(made, number))
+    if contour.closed and found and (made := _between(found[-1].curve, found[-1].curve.start, found[0].curve.start)):
+        found[-1] = Moved(made, found[-1].source)
+    return found
+
+
+def _between(piece: Line | Arc, start: Point, end: Point) -> Line | Arc | None:
+    """Return a line or arc from and to points that lie within WELD of its ends; None where it is shorter than that."""
+    from ...geometry.chaining.pieces import equally_far, straightened  # not when the window opens
+
+    if math.dist(start, end) <= WELD:
+        return None
+    if isinstance(piece, Line):
+        return Line(start, end)
+    made = straightened(Arc(start, end, equally_far(start, end, piece.centre), piece.ccw))
+    return made if isinstance(made, Line | Arc) else None
+
+
+def _turned(pieces: Sequence[Moved]) -> list[Moved]:
+    back = [(reversed_curve(m.curve), m) for m in reversed(pieces)]
+    return [Moved(curve, m.source, m.corner) for curve, m in back if isinstance(curve, Line | Arc)]
+
+
+def _is_left(pieces: Sequence[Moved], closed: bool, side: Point) -> bool:
+    """Return whether a point lies left of a chain, as seen from the place nearest to it."""
+    feet = [foot(m.curve, side) for m in pieces]
+    best = min(range(len(feet)), key=lambda k: math.dist(feet[k], side))
+    at, curve = feet[best], pieces[best].curve
+    way = direction(curve, at)
+    for end, other in ((curve.start, best - 1), (curve.end, best + 1)):
+        if math.dist(at, end) <= WELD and (closed or 0 <= other < len(pieces)):
+            way += direction(pieces[other % len(pieces)].curve, end)
+    return (way.conjugate() * complex(side[0] - at[0], side[1] - at[1])).imag >= 0
+
+
+def _kept(pieces: Sequence[Moved], closed: bool, away: float) -> list[Moved]:
+    """Return what of the parallels to the left keeps the distance from all of a chain."""
+    raw = _raw(pieces, closed, away)
+    edges: list[Curve] = [m.curve for m in (*raw, *_raw(_turned(pieces), closed, away))]
+    if not closed:
+        edges += [Circle(pieces[0].curve.start, away), Circle(pieces[-1].curve.end, away)]
+    cuts: dict[int, list[Point]] = {}
+    known: dict[tuple[int, int], list[Point]] = {}
+    for i, j in _near(_boxes(m.curve for m in raw), _boxes(edges)):
+        if i != j:
+            pair = (i, j) if i < j else (j, i)
+            if pair not in known:
+                known[pair] = meets(edges[pair[0]], edges[pair[1]])
+            cuts.setdefault(i, []).extend(known[pair] or _ends_on(raw[i].curve, edges[j]))
+    parts = [(m, piece) for k, m in enumerate(raw) for piece in split(m.curve, cuts.get(k, ()))]
+    middles = np.array([middle_of(piece) for _, piece in parts]).reshape(-1, 2)
+    around = np.hstack([middles - away, middles + away])
+    gone = set[int]()
+    for k, source in _near(around, _boxes(m.curve for m in pieces)):
+        middle = (float(middles[k, 0]), float(middles[k, 1]))
+        if k not in gone and math.dist(foot(pieces[source].curve, middle), middle) < away - _NEAR:
+            gone.add(k)
+    return [Moved(piece, m.source, m.corner if piece == m.curve else None) for k, (m, piece) in enumerate(parts)
+            if k not in gone and isinstance(piece, Line | Arc)]  # fmt: skip
+
+
+def _raw(pieces: Sequence[Moved], closed: bool, away: float) -> list[Moved]:
+    """Return the parallels to the left of lines and arcs, and arcs about the corners that open there."""
+    moved = [_aside(m.curve, away) for m in pieces]
+    corners = list[Moved]()
+    for k, (a, b) in enumerate(pairwise([*pieces, pieces[0]] if closed else pieces)):
+        following = (k + 1) % len(pieces)
+        one, other = moved[k], moved[following]
+        before, after = direction(a.curve, a.curve.end), direction(b.curve, b.curve.start)
+        turn = math.atan2((before.conjugate() * after).imag, (before.conjugate() * after).real)
+        start, end = _beside(a.curve.end, before, away), _beside(b.curve.start, after, away)
+        if (turn < 0 or abs(turn) > math.pi - 1e-9) and math.dist(start, end) > WELD:
+            corners.append(Moved(Arc(start, end, a.curve.end, ccw=False), a.source, a.curve.end))
+            continue
+        if one is None or other is None or k == following or turn > _SLIGHT:
+            continue
+        to = min([*meets(one, other, extended=True), end], key=lambda p: math.dist(p, end))
+        moved[k], moved[following] = _between(one, one.start, to), _between(other, to, other.end)
+    return [*(Moved(curve, m.source) for curve, m in zip(moved, pieces, strict=True) if curve is not None), *corners]
+
+
+def _aside(curve: Line | Arc, away: float) -> Line | Arc | None:
+    """Return a line or arc moved to its left; None for an arc that is as narrow as that."""
+    start, end = _beside(curve.start, direction(curve, curve.start), away), _beside(curve.end, direction(curve, curve.end), away)
+    if isinstance(curve, Line):
+        return Line(start, end)
+    inside = curve.ccw and curve.radius <= away + WELD
+    return None if inside or math.dist(start, end) <= WELD else Arc(start, end, curve.centre, curve.ccw)
+
+
+def _beside(point: Point, way: complex, away: float) -> Point:
+    return (point[0] - way.imag * away, point[1] + way.real * away)
+
+
+def _ends_on(curve: Curve, edge: Curve) -> list[Point]:
+    """Return the ends of an edge that lie on a curve: of two that run along one another these are where to cut."""
+    return [p for p in (edge.start, edge.end) if not isinstance(edge, Circle) and math.dist(foot(curve, p), p) < WELD / 10]
+
+
+def _boxes(curves: Iterable[Curve]) -> NDArray[np.float64]:
+    return np.array([bounds(curve) for curve in curves]).reshape(-1, 4)
+
+
+def _near(boxes: NDArray[np.float64], others: NDArray[np.float64]) -> list[tuple[int, int]]:
+    """Return the pairs of boxes, one of each list, that meet."""
+    import shapely  # not when the window opens
+
+    tree = shapely.STRtree(shapely.box(*others.T))
+    pairs = tree.query(shapely.box(*(boxes + [-WELD, -WELD, WELD, WELD]).T))
+    return [(int(i), int(j)) for i, j in pairs.T]
+
+
+def _thin(each: Chain) -> bool:
+    """Return whether a chain is a loop without width: walls as far apart as twice the distance leave such."""
+    from ...geometry.primitives import contour_rows, signed_area
+    from ...model.part import Contour
+
+    length = sum(map(curve_length, each.curves))
+    if not each.closed:
+        return length <= 10 * WELD
+    return abs(signed_area(contour_rows(Contour(each.curves)))) <= RIDGE * length / 2  # type: ignore[arg-type]

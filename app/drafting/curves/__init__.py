@@ -1,0 +1,1 @@
+"""Questions to drawn curves: where they meet, what they enclose."""

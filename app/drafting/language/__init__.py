@@ -1,0 +1,1 @@
+"""The shape language: a drawing in words, a command a line."""

@@ -1,0 +1,155 @@
+"""Commands that change what is drawn, choose it, or put it on layers: what their arguments mean."""
+
+from __future__ import annotations
+
+import re
+
+from ...core.errors import InputError
+from ...geometry.transform import Similarity, mirroring, scaling, shift, turn
+from ...model.curves import reversed_curve
+from ..commands.chosen import chosen_curves
+from ..commands.command import Delete, Rework, Session, SetLayer, SetLook, Transform
+from ..commands.select import By, How, Select
+from ..curves.chains import chained
+from ..expressions.arguments import Arguments
+from ..expressions.values import wrong
+from .read_draw import box
+
+MOST_COPIES = 10_000
+_COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
+
+
+def _chosen(words: Arguments, session: Session, verb: str) -> frozenset[int]:
+    ids = frozenset(words.ids()) or session.selection
+    if not ids:
+        raise InputError(f"Nothing is selected; select what to {verb}, or write its numbers after the command.")
+    return ids
+
+
+def delete(words: Arguments, session: Session) -> Delete:
+    """Take curves away."""
+    return Delete(_chosen(words, session, "delete"))
+
+
+def move(words: Arguments, session: Session) -> Transform:
+    """Shift curves."""
+    by = words.shift("the shift @dx,dy")
+    return Transform(_chosen(words, session, "move"), (shift(by),), "Move")
+
+
+def copy(words: Arguments, session: Session) -> Transform:
+    """Put copies of curves a shift away, several in a row where a number is given."""
+    by = words.shift("the shift @dx,dy")
+    count = words.count("the number of copies", 1, MOST_COPIES) if words.accept("times") else 1
+    maps = tuple(shift((k * by[0], k * by[1])) for k in range(1, count + 1))
+    return Transform(_chosen(words, session, "copy"), maps, "Copy", keep=True)
+
+
+def rotate(words: Arguments, session: Session) -> Transform:
+    """Turn curves about a centre."""
+    centre = words.point("the centre x,y")
+    return _mapped(words, session, turn(centre, words.angle("the angle")), "Rotate")
+
+
+def scale(words: Arguments, session: Session) -> Transform:
+    """Make curves larger or smaller about a centre."""
+    centre = words.point("the centre x,y")
+    return _mapped(words, session, scaling(centre, words.number("the factor")), "Scale")
+
+
+def mirror(words: Arguments, session: Session) -> Transform:
+    """Mirror curves about the line through two points."""
+    a, b = words.point("a point of the mirror line"), words.point("another point of the mirror line")
+    return _mapped(words, session, mirroring(a, b), "Mirror")
+
+
+def _mapped(words: Arguments, session: Session, to: Similarity, name: str) -> Transform:
+    keep = bool(words.accept("copy"))
+    return Transform(_chosen(words, session, name.lower()), (to,), name, keep)
+
+
+def array(words: Arguments, session: Session) -> Transform:
+    """Put copies of curves in rows and columns, or round a centre."""
+    if words.accept("polar"):
+        centre = words.point("the centre x,y")
+        count = words.count("the number of places", 2, MOST_COPIES)
+        span = words.angle("the angle") if words.accept("over") else 360.0
+        step = span / count if span % 360 == 0 else span / (count - 1)
+        maps = tuple(turn(centre, k * step) for k in range(1, count))
+    else:
+        columns = words.count("the number of columns", 1, MOST_COPIES)
+        rows = words.count("the number of rows", 1, MOST_COPIES)
+        dx, dy = words.shift("the shift from column to column and row to row @dx,dy")
+        if not 1 < columns * rows <= MOST_COPIES:
+            raise words.wrong(f"{columns} by {rows} are {columns * rows} places; an array has 2 to {MOST_COPIES}.")
+        maps = tuple(shift((i * dx, j * dy)) for j in range(rows) for i in range(columns))[1:]
+    return Transform(_chosen(words, session, "repeat"), maps, "Array", keep=True)
+
+
+def reverse(words: Arguments, session: Session) -> Rework:
+    """Let curves run the other way; those that join end to end all against the way of the first of them."""
+    curves = chosen_curves(words, session, "reverse")
+    turned = {number: reversed_curve(curve) for chain in chained(curves) for number, curve in zip(chain.numbers, chain.curves, strict=True)}
+    pieces = {number: (curve,) for number, curve in turned.items() if curve != curves[number]}
+    already = len(curves) - len(pieces)
+    return Rework(pieces, "Reverse", f"{len(pieces)} reversed" + (f", {already} ran that way." if already else "."))
+
+
+def layer(words: Arguments, session: Session) -> SetLayer:
+    """Draw on a layer, put curves on it, or say how it looks."""
+    name = words.name("the name of a layer").strip()
+    if not name:
+        raise words.wrong("The name of the layer is empty; write a name.")
+    return SetLayer(name, frozenset(words.ids()))
+
+
+def hide(words: Arguments, session: Session) -> SetLook:
+    """Hide a layer: its curves are neither seen nor machined."""
+    name = words.name("the name of a layer")
+    return SetLook(name, {"visible": False}, f"Layer {name} is hidden.")
+
+
+def show(words: Arguments, session: Session) -> SetLook:
+    """Show a layer again."""
+    name = words.name("the name of a layer")
+    return SetLook(name, {"visible": True}, f"Layer {name} is shown.")
+
+
+def lock(words: Arguments, session: Session) -> SetLook:
+    """Lock a layer: its curves are not selected."""
+    name = words.name("the name of a layer")
+    return SetLook(name, {"locked": True}, f"Layer {name} is locked.")
+
+
+def unlock(words: Arguments, session: Session) -> SetLook:
+    """Unlock a layer."""
+    name = words.name("the name of a layer")
+    return SetLook(name, {"locked": False}, f"Layer {name} is unlocked.")
+
+
+def colour(words: Arguments, session: Session) -> SetLook:
+    """Give a layer a colour, or the ink's again."""
+    name = words.name("the name of a layer")
+    if words.accept("none"):
+        return SetLook(name, {"colour": ""}, f"Layer {name} has the colour of ink.")
+    place, value = words.place, words.name('a colour such as "#d55e00", or none')
+    if not _COLOUR.fullmatch(value):
+        raise wrong(f'\'{value}\' is no colour; write one such as "#d55e00", or none.', place)
+    return SetLook(name, {"colour": value.lower()}, f"Layer {name} has a colour.")
+
+
+def select(words: Arguments, session: Session) -> Select:
+    """Choose curves."""
+    how = How(words.accept("add", "remove"))
+    kind = words.accept("all", "none", "window", "crossing", "layer", "chain")
+    if kind in ("window", "crossing"):
+        return Select(By(kind), how, box=box(words.point("a corner x,y"), words.point("the opposite corner x,y")))
+    if kind == "layer":
+        return Select(By.LAYER, how, layer=words.name("the name of a layer"))
+    if kind == "chain":
+        return Select(By.CHAIN, how, _chosen(words, session, "follow"))
+    if kind:
+        return Select(By(kind), how)
+    if not words.more:
+        raise words.wrong("Write what to select: all, none, window, crossing, layer, or entity numbers.")
+    return Select(By.IDS, how, frozenset(words.ids()))

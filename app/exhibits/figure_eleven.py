@@ -1,0 +1,254 @@
+"""The published comparison, its figure 11, measured again: how long each way to compute heights takes, in one process, side by side."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from dataclasses import dataclass
+from enum import Enum
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..core.errors import Cancelled, HitofudeError
+from ..core.progress import NO_PROGRESS, Progress
+from ..simulation.engines import Graphics
+from ..simulation.field.differences import Apart, apart
+from ..simulation.field.workpiece import Heights, Workpiece
+from ..simulation.gpu.depth_buffer import DepthBuffer, published
+from ..simulation.gpu.graphics import is_software, renderer_of
+from ..simulation.gpu.polyhedron import facet_error
+from ..simulation.gpu.quads import quad_heights
+from ..simulation.gpu.wedges import PolygonCounts, polygon_counts
+from ..simulation.sweeps.sweeps import WORKERS
+from ..simulation.sweeps.trim import trim
+from ..usecases.cut import GRAPHICS
+from .die_programs import PROGRAMS, SIZE, DieProgram, block
+
+if TYPE_CHECKING:
+    import moderngl
+
+PORTIONS = 16
+"""Parts in which the plain way is done, so that it can be stopped."""
+
+PRINTED = ("As printed, 1024 x 1024 cells on a workstation of 195 MHz: 9,542 moves, radius 5 mm, 16.83 s by software, 0.99 s by depth "
+           "buffer; 35,391 moves, radius 3 mm, 15.93 s and 1.65 s.")  # fmt: skip
+
+
+class Way(Enum):
+    """A way to compute heights; the value is its key in reports."""
+
+    PLAIN = "plain"
+    PUBLISHED = "published"
+    QUADS = "quads"
+    RECORD = "record"
+
+
+WAYS = {
+    Way.PLAIN: "plain software: one thread, every cell of each move's box",
+    Way.PUBLISHED: "as published: cylinders and wedges in facets of two cells, drawn into the depth buffer",
+    Way.QUADS: "a quad a move, the exact height in each cell, the least stays",
+    Way.RECORD: "the engine of record, on the processor",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class FigureOptions:
+    """What is measured.
+
+    Attributes:
+        programs: names out of `PROGRAMS`. cells: along each side of the block. repeat: runs, of which the best one counts.
+    """
+
+    programs: tuple[str, ...] = tuple(PROGRAMS)
+    cells: int = 1024
+    repeat: int = 3
+
+
+@dataclass(frozen=True, eq=False)
+class FigureRow:
+    """A program.
+
+    Attributes:
+        name, program: which.
+        seconds: of the best run, by way; ways that need OpenGL are missing where there is none.
+        apart: how far heights are from those of the engine of record, by way.
+        polygons: of the published way. error: how far its facets are at most from the surface, mm.
+    """
+
+    name: str
+    program: DieProgram
+    seconds: dict[Way, float]
+    apart: dict[Way, Apart]
+    polygons: PolygonCounts
+    error: float
+
+    def ratio(self, slower: Way, faster: Way) -> float | None:
+        """Return how many times as long one way takes as another; None where one is missing."""
+        if slower not in self.seconds or faster not in self.seconds:
+            return None
+        return self.seconds[slower] / self.seconds[faster]
+
+
+@dataclass(frozen=True, eq=False)
+class FigureEleven:
+    """The table.
+
+    Attributes:
+        options: what was asked for. rows: one a program.
+        renderer: name of what draws; empty where there is no OpenGL. fault: why there is none, or what has failed.
+    """
+
+    options: FigureOptions
+    rows: tuple[FigureRow, ...]
+    renderer: str
+    fault: str
+
+    def report(self) -> dict[str, Any]:
+        """Return everything as plain values, units in the names."""
+        return {
+            "cells": self.options.cells, "pitch_mm": SIZE / self.options.cells, "repeat": self.options.repeat, "threads": WORKERS,
+            "renderer": self.renderer or None, "software": is_software(self.renderer) if self.renderer else None,
+            "fault": self.fault or None,
+            "ways": {way.value: text for way, text in WAYS.items()}, "programs": [_plain(row) for row in self.rows], "printed": PRINTED,
+        }  # fmt: skip
+
+    def text(self) -> str:
+        """Return the table for people."""
+        return "\n".join(_lines(self))
+
+
+def figure_eleven(options: FigureOptions = FigureOptions(), progress: Progress = NO_PROGRESS,
+                  graphics: Graphics = GRAPHICS) -> FigureEleven:  # fmt: skip
+    """Measure every way on every program that is asked for.
+
+    Raises:
+        HitofudeError: the cells do not fit into memory. Cancelled: the job was asked to stop.
+    """
+    rows, renderer, faults = [], "", list[str]()
+    with ExitStack() as stack:
+        context = None
+        try:
+            context = stack.enter_context(graphics.current())
+            renderer = renderer_of(context)
+        except HitofudeError as error:
+            faults.append(str(error))
+        for k, name in enumerate(options.programs):
+            rows.append(_row(name, options, context, faults, progress.part(k / len(options.programs), (k + 1) / len(options.programs))))
+    progress.step(1.0)
+    return FigureEleven(options, tuple(rows), renderer, " ".join(faults))
+
+
+Run = Callable[[Progress], Heights]
+
+
+def _row(name: str, options: FigureOptions, context: moderngl.Context | None, faults: list[str], progress: Progress) -> FigureRow:
+    program, piece = PROGRAMS[name], block(options.cells)
+    progress.step(0.0, f"Making program {name}")
+    course, cutters = program.course(), program.cutters
+    with ExitStack() as stack:
+        seconds, heights = {}, {}
+        ways = _ways(program, piece, context, stack)
+        for k, (way, run) in enumerate(ways.items()):
+            share = 0.05 + 0.9 * k / len(ways), 0.05 + 0.9 * (k + 1) / len(ways)
+            try:
+                seconds[way], heights[way] = _best(run, options.repeat, progress.part(*share))
+            except (HitofudeError, Cancelled):
+                raise
+            except Exception as trouble:  # whatever a driver comes up with; the other ways are worth telling
+                if way not in (Way.QUADS, Way.PUBLISHED):
+                    raise
+                faults.append(f"{way.value} fails on program {name}: {' '.join(str(trouble).split())[:200] or type(trouble).__name__}")
+    found: dict[Way, Apart] = {way: apart(heights[Way.RECORD], other) for way, other in heights.items() if way is not Way.RECORD}
+    facet = published(piece.grid).facet
+    return FigureRow(name, program, seconds, found, polygon_counts(course, cutters, facet), facet_error(cutters[1], facet))
+
+
+def _ways(program: DieProgram, piece: Workpiece, context: moderngl.Context | None, stack: ExitStack) -> dict[Way, Run]:
+    """Return what computes heights, by way; the stack gives back what they hold."""
+    course, cutters, cells = program.course(), program.cutters, piece.grid.cols
+    ways: dict[Way, Run] = {Way.RECORD: lambda told: trim(piece, course, cutters, progress=told).heights,
+                            Way.PLAIN: lambda told: plain_heights(program, cells, told)}  # fmt: skip
+    if context is None:
+        return ways
+    engine = DepthBuffer(context, published(piece.grid))
+    stack.callback(engine.release)
+    return ways | {Way.QUADS: lambda told: quad_heights(context, piece, course, cutters, told),
+                   Way.PUBLISHED: lambda told: engine.heights(piece, course, cutters, told)}  # fmt: skip
+
+
+def _best(run: Run, repeat: int, progress: Progress) -> tuple[float, Heights]:
+    """Return the seconds of the best run, after one to warm up, and what it has computed."""
+    best, heights = np.inf, None
+    for k in range(repeat + 1):
+        part = progress.part(k / (repeat + 1), (k + 1) / (repeat + 1))
+        begun = time.perf_counter()
+        heights = run(part)
+        best = min(best, time.perf_counter() - begun) if k else best
+    assert heights is not None
+    return float(best), heights
+
+
+def plain_heights(program: DieProgram, cells: int, progress: Progress = NO_PROGRESS) -> Heights:
+    """Return what a program leaves, the plain way.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    from ..simulation.sweeps.plain_kernels import plain_trim
+
+    heights, motions = np.zeros((cells, cells)), program.course().motions
+    bounds = np.linspace(0, len(motions), PORTIONS + 1).astype(int).tolist()
+    for k in range(PORTIONS):
+        part = slice(bounds[k], bounds[k + 1])
+        plain_trim(heights, motions.start[part].copy(), motions.end[part].copy(), program.radius, SIZE / cells)
+        progress.step((k + 1) / PORTIONS, "Cutting the plain way")
+    return heights.astype(np.float32)
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _plain(row: FigureRow) -> dict[str, Any]:
+    """Return a row as plain values."""
+    ratios = {f"{slower.value}_by_{faster.value}": row.ratio(slower, faster) for slower, faster in _RATIOS}
+    return {
+        "program": row.name, "moves": row.program.moves, "radius_mm": row.program.radius,
+        "seconds": {way.value: row.seconds.get(way) for way in Way}, "ratios": ratios,
+        "apart_from_record_mm": {way.value: _finite(found.largest) for way, found in row.apart.items()}, "published_error_mm": row.error,
+        "polygons": {"spheres": row.polygons.spheres, "spheres_culled": row.polygons.spheres_down, "wedges": row.polygons.wedges,
+                     "wedges_culled": row.polygons.drawn},
+    }  # fmt: skip
+
+
+_RATIOS = ((Way.PLAIN, Way.PUBLISHED), (Way.PLAIN, Way.RECORD), (Way.PUBLISHED, Way.QUADS), (Way.PUBLISHED, Way.RECORD))
+
+
+def _lines(figure: FigureEleven) -> Iterator[str]:
+    """Yield the lines of the table."""
+    options, renderer = figure.options, figure.renderer
+    drawn = f"drawn by {renderer} ({'software' if is_software(renderer) else 'hardware'})" if renderer else "nothing drawn"
+    yield (f"Figure 11: {options.cells} x {options.cells} cells of {SIZE / options.cells:.4g} mm, best of {options.repeat}, "
+           f"{WORKERS} threads; {drawn}")
+    columns = [f"{way.value:>12}" for way in Way] + [f"{slower.value + '/' + faster.value:>18}" for slower, faster in _RATIOS]
+    yield f"{'':2}{'moves':>8}{'radius':>8}" + "".join(columns)
+    for row in figure.rows:
+        times = "".join(f"{row.seconds[way]:>10.3f} s" if way in row.seconds else f"{'-':>12}" for way in Way)
+        ratios = "".join(f"{ratio:>17.1f}x" if (ratio := row.ratio(*pair)) is not None else f"{'-':>18}" for pair in _RATIOS)
+        yield f"{row.name:2}{row.program.moves:>8,}{row.program.radius:>5g} mm{times}{ratios}"
+    yield "Polygons of the published way, and how far its facets are at most inside the surface:"
+    yield f"{'':2}{'whole spheres':>15}{'half left away':>16}{'wedges':>14}{'half left away':>16}{'error':>13}"
+    for row in figure.rows:
+        counts = row.polygons
+        yield (f"{row.name:2}{counts.spheres:>15,}{counts.spheres_down:>16,}{counts.wedges:>14,}{counts.drawn:>16,}{row.error:>10.5f} mm")
+    yield "How far heights are at most from those of the engine of record (cells on walls may fall to either side):"
+    for row in figure.rows:
+        yield f"{row.name:2}" + ", ".join(f"{way.value} {found.largest:.2g} mm" for way, found in row.apart.items())
+    yield from (f"{way.value}: {text}" for way, text in WAYS.items())
+    if figure.fault:
+        yield figure.fault
+    yield PRINTED
+

@@ -1,0 +1,212 @@
+"""The bitmap way step by step, as the workstation's display memory showed it: for a class to watch, one stage at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from ..fitting.corner_smoothing.smoothed import PieceKind
+from ..geometry.primitives import Rows
+from ..model.job import Job
+from ..model.operation import ContourOperation
+from ..raster.border import borders_of, mark
+from ..raster.codes import PixelCode, Plane
+from ..raster.fill import fill
+from ..raster.peel import correct_by_circles, peels
+from ..raster.published import published_marks, published_scan, wrong_pixels
+from ..raster.steps import Stage
+from ..raster.trace import Chain, chain_rows
+from ..raster.walls import Mask
+from ..usecases.bitmap_part import BitmapPart
+from ..usecases.bitmap_way import OperationPaths, PixelPath
+
+_CODES = {
+    PieceKind.CIRCLE: PixelCode.CIRCLE, PieceKind.LONG_LINE: PixelCode.LONG_LINE, PieceKind.SHORT_LINE: PixelCode.SHORT_LINE,
+    PieceKind.ARC: PixelCode.ARC, PieceKind.SPLINE: PixelCode.SPLINE,
+}  # fmt: skip
+
+
+class Variant(Enum):
+    """Which rules mark R in the fill (step 206): those that are always right, or the text's."""
+
+    SETTLED = "settled"
+    PUBLISHED = "published"
+
+
+@dataclass(frozen=True)
+class _Scene:
+    """What all stages of one walk share."""
+
+    part: BitmapPart
+    variant: Variant
+
+
+def stages(job: Job, part: BitmapPart, paths: Sequence[OperationPaths], variant: Variant = Variant.SETTLED) -> Iterator[Stage]:
+    """Yield the display memory after every step, in the text's order; each is made when it is asked for.
+
+    Args:
+        job: that the paths were made for; its first contour and pocket operation are shown.
+        part: the pixels.
+        paths: of each operation, as `compute_on_bitmap` gives them.
+        variant: of the fill; the paths are those of the settled one.
+    """
+    scene = _Scene(part, variant)
+    contour = next((each for each in paths if isinstance(job.operations[each.index], ContourOperation)), None)
+    pocket = next((each for each in paths if each is not contour and not isinstance(job.operations[each.index], ContourOperation)), None)
+    yield Stage(110, (part.drawn != PixelCode.EMPTY).astype(np.uint8))
+    shown = contour or pocket
+    if shown is None:
+        return
+    outline = tuple(border.chain for border in borders_of(shown.area))
+    plane = np.zeros_like(part.drawn)
+    _put(plane, outline, PixelCode.CONTOUR)
+    yield Stage(120, plane, outline)
+    yield from _fill(scene, outline)
+    if pocket is not None:
+        yield from _frames(scene, pocket)
+        yield from _inner_paths(scene, pocket)
+    yield Stage(140, _all_paths(part, contour, pocket))
+    yield from _smoothing(part, [path for each in (contour, pocket) if each is not None for level in each.levels[:1] for path in level])
+
+
+def _put(plane: Plane, chains: Sequence[Chain], code: PixelCode) -> None:
+    for chain in chains:
+        plane[tuple(chain.pixels().T)] = code
+
+
+def _fill(scene: _Scene, outline: tuple[Chain, ...]) -> Iterator[Stage]:
+    """Steps 201-208 and 130."""
+    frame = scene.part.frame
+    seen: dict[int, Plane] = {}
+    settled = fill(frame, chain_rows(frame, outline), seen.__setitem__).plane
+    wrong, chains = None, outline
+    if scene.variant is Variant.PUBLISHED:
+        seen[206], chains = published_marks(seen[201])
+        seen[208] = published_scan(seen[206])
+        seen[130] = (seen[208] != PixelCode.EMPTY).astype(np.uint8)
+        wrong = wrong_pixels(seen[208], settled)
+    found = np.where(seen[206] == PixelCode.R, PixelCode.VERTEX, seen[203]).astype(np.uint8)
+    yield Stage(201, seen[201])
+    yield Stage(202, seen[202])
+    yield Stage(203, seen[203], chains)
+    yield Stage(204, seen[203].copy())
+    yield Stage(205, found)
+    yield Stage(206, seen[206])
+    yield Stage(207, seen[206].copy())
+    yield Stage(208, seen[208], wrong=wrong)
+    yield Stage(130, seen[130], wrong=wrong)
+
+
+def _frames(scene: _Scene, pocket: OperationPaths) -> Iterator[Stage]:
+    """Steps 141-144: the outermost frames of all regions, one region after the other."""
+    plane = pocket.area.astype(np.uint8)
+    for region in scene.part.regions:
+        area = pocket.area & (scene.part.label == region.number)
+        if area.any():
+            yield from _shrink(plane, area, (region.number, pocket.steps.first, scene.variant is Variant.PUBLISHED))
+            yield from _frame(plane, area, pocket, region.number)
+    frames = [path for level in pocket.levels[:1] for path in level]
+    yield Stage(144, plane.copy(), tuple(path.chain for path in frames), _rows(frames))
+
+
+def _shrink(plane: Plane, area: Mask, about: tuple[int, float, bool]) -> Iterator[Stage]:
+    """Steps 301-307 on one region; the plane goes along."""
+    region, radius, keep_ends = about
+    left, first = area, borders_of(area)
+    for turn, (left, borders) in enumerate(peels(area, int(radius), keep_ends=keep_ends), 1):
+        traced = plane.copy()
+        mark(traced, borders, PixelCode.TRACED)
+        chains = tuple(border.chain for border in borders)
+        yield Stage(301, traced, chains, region=region, turn=turn)
+        yield Stage(302, traced.copy(), region=region, turn=turn)
+        if turn == 1:
+            yield Stage(303, traced.copy(), chains, region=region)
+        plane[area & ~left] = PixelCode.PROCESSED
+        yield Stage(304, plane.copy(), region=region, turn=turn)
+        yield Stage(305, plane.copy(), region=region, turn=turn)
+    read = plane.copy()
+    mark(read, first, PixelCode.FRAME)
+    yield Stage(306, read, tuple(border.chain for border in first), region=region)
+    plane[area & ~correct_by_circles(left, area, radius)] = PixelCode.PROCESSED
+    yield Stage(307, plane.copy(), region=region)
+
+
+def _frame(plane: Plane, area: Mask, pocket: OperationPaths, region: int) -> Iterator[Stage]:
+    """Steps 141-143 on one region: what is left, its border, and the overlap."""
+    inside = area & (pocket.pixels >= 1)
+    plane[area & ~inside] = PixelCode.PROCESSED
+    yield Stage(141, plane.copy(), region=region)
+    frames = [path for level in pocket.levels[:1] for path in level if area[path.chain.start]]
+    chains = tuple(path.chain for path in frames)
+    _put(plane, chains, PixelCode.FRAME)
+    yield Stage(142, plane.copy(), chains, _rows(frames), region)
+    _mark_overlap(plane, area & (pocket.pixels == 1))
+    yield Stage(143, plane.copy(), region=region)
+
+
+def _mark_overlap(plane: Plane, band: Mask) -> None:
+    """Mark what lies within a step of a path, the path itself excepted: the next one begins behind it."""
+    plane[band & (plane == PixelCode.CONTOUR)] = PixelCode.PROCESSED
+
+
+def _inner_paths(scene: _Scene, pocket: OperationPaths) -> Iterator[Stage]:
+    """Steps 145-148: path after path, in all regions."""
+    plane = np.where(pocket.area, np.where(pocket.pixels >= 1, PixelCode.CONTOUR, PixelCode.PROCESSED), PixelCode.EMPTY).astype(np.uint8)
+    _put(plane, [path.chain for level in pocket.levels[:1] for path in level], PixelCode.FRAME)
+    _mark_overlap(plane, pocket.pixels == 1)
+    for level in range(2, len(pocket.levels) + 1):
+        chains = tuple(path.chain for path in pocket.levels[level - 1])
+        _put(plane, chains, PixelCode.TRACED)
+        yield Stage(145, plane.copy(), chains, turn=level - 1)
+        _put(plane, chains, PixelCode.RING)
+        yield Stage(146, plane.copy(), chains, _rows(pocket.levels[level - 1]), turn=level - 1)
+        _mark_overlap(plane, pocket.pixels == level)
+        yield Stage(147, plane.copy(), turn=level - 1)
+    plane[plane == PixelCode.CONTOUR] = PixelCode.PROCESSED
+    yield Stage(148, plane.copy())
+
+
+def _rows(paths: Sequence[PixelPath]) -> Rows:
+    return np.concatenate([np.zeros((0, 8)), *(path.rows for path in paths)])
+
+
+def _all_paths(part: BitmapPart, contour: OperationPaths | None, pocket: OperationPaths | None) -> Plane:
+    plane = np.zeros_like(part.drawn)
+    for each, codes in ((contour, (PixelCode.CONTOUR, PixelCode.CONTOUR)), (pocket, (PixelCode.FRAME, PixelCode.RING))):
+        for depth, level in enumerate(each.levels if each is not None else ()):
+            _put(plane, [path.chain for path in level], codes[min(depth, 1)])
+    return plane
+
+
+def _smoothing(part: BitmapPart, paths: Sequence[PixelPath]) -> Iterator[Stage]:
+    """Steps 401-407 on some paths."""
+    plane = np.zeros_like(part.drawn)
+    _put(plane, [path.chain for path in paths], PixelCode.CONTOUR)
+    done: list[Rows] = [np.zeros((0, 8))]
+    for number in (401, 402, 403, 404, 405, 406, 407):
+        for path in paths:
+            if number == 404:
+                _mark_vertices(plane, path)
+            chosen = path.smoothed.kinds == number
+            _mark_pieces(plane, path, chosen)
+            done.append(path.rows[chosen])
+        yield Stage(number, plane.copy(), rows=np.concatenate(done))
+
+
+def _mark_pieces(plane: Plane, path: PixelPath, chosen: Mask) -> None:
+    """Write the codes of some pieces into their pixels, vertices excepted."""
+    pixels = path.chain.pixels()[:-1] if len(path.chain.directions) else path.chain.pixels()
+    for k in np.flatnonzero(chosen).tolist():
+        first, last = path.smoothed.ends[k : k + 2]
+        own = pixels[np.arange(first, last + 1) % len(pixels)]
+        own = own[plane[tuple(own.T)] != PixelCode.VERTEX]
+        plane[tuple(own.T)] = _CODES[PieceKind(path.smoothed.kinds[k])]
+
+
+def _mark_vertices(plane: Plane, path: PixelPath) -> None:
+    pixels = path.chain.pixels()[:-1] if len(path.chain.directions) else path.chain.pixels()
+    corners = path.smoothed.ends[:-1][~path.smoothed.tangent & (path.smoothed.kinds != PieceKind.SPLINE)]
+    plane[tuple(pixels[corners % len(pixels)].T)] = PixelCode.VERTEX

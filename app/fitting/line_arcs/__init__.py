@@ -1,0 +1,1 @@
+"""Points become as few lines and arcs as keep within a proven distance."""

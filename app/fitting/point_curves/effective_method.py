@@ -1,0 +1,80 @@
+"""Method D as a whole: which points of a path the final curve goes by (first embodiment), or where they are moved to (second)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...model.motion import Floats
+from .correction import CorrectionOptions, Curve, Move, Select, corrected
+from .effective_points import EffectiveOptions, PointState, effective_points
+
+_DEFAULTS = CorrectionOptions()
+
+
+@dataclass(frozen=True, eq=False)
+class PointClasses:
+    """What n points of a path are to the final curve.
+
+    Attributes:
+        state: (n,) PointState.
+        places: (n, 3) mm: where the curve is asked to go by; those left out are where they were.
+        off: how far the points lie from the path by these places at most, mm.
+    """
+
+    state: NDArray[np.uint8]
+    places: Floats
+    off: float
+
+    @property
+    def passed(self) -> Floats:
+        """The places (m, 3) that the final curve goes by, mm."""
+        return without_repeats(self.places[self.state != PointState.INVALID])
+
+
+@dataclass(frozen=True)
+class EffectiveMethod:
+    """Curves go by the points that lie on the true shape, and not by those within facets.
+
+    Attributes:
+        choose: which points these are.
+        correct: how the others, and these, are moved first (second embodiment); None: the others are left out (first).
+    """
+
+    choose: EffectiveOptions
+    correct: CorrectionOptions | None = None
+
+    def classes(self, points: Floats, corners: NDArray[np.int64]) -> PointClasses:
+        """Return what the points (n, 3) of a path are, its corners by number being effective and unmoved."""
+        effective = effective_points(points, self.choose, corners.tolist())
+        if self.correct is None:
+            return PointClasses(effective.state, points, self.choose.epsilon)
+        moved = corrected(points, effective.state, self.correct, corners.tolist())
+        return PointClasses(moved.state, moved.places, self.choose.epsilon + float(moved.moved.max()))
+
+
+def second_embodiment(
+    select: tuple[Select, float] | None = None, before: int | None = None, after: int | None = None, move: Move = Move.NEAREST
+) -> CorrectionOptions:
+    """Return how points are corrected as users ask for it: to cubics near the effective points, which move these too (S23).
+
+    Args:
+        select: which points, and the limit; None: all.
+        before, after: effective points about a gap; None: as many as is usual.
+        move: where to on the curve.
+
+    Raises:
+        ParameterError: it cannot be so.
+    """
+    kind, limit = select or (_DEFAULTS.select, _DEFAULTS.limit)
+    return CorrectionOptions(
+        limit, kind, _DEFAULTS.before if before is None else before, _DEFAULTS.after if after is None else after, Curve.NEAR, move
+    )
+
+
+def without_repeats(points: Floats) -> Floats:
+    """Return points (n, 3), none twice in a row."""
+    kept = np.concatenate([[True], np.any(np.diff(points, axis=0) != 0, axis=1)])
+    return np.ascontiguousarray(points[kept])

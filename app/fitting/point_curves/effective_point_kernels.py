@@ -1,0 +1,104 @@
+"""Compiled: ranges of points along one segment of a polygon (S111-S117), in one go over the points.
+
+Directions from a range's first point that pass every point between within epsilon form a cone about each; one cone within
+all of them is kept. A next point whose direction lies in it is let in at once; otherwise every point between is looked at.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...core.jit import kernel
+
+_GUARD = 1e-11
+"""So much inside the cone a direction must be, rad: what rounding may add up to."""
+
+
+@kernel("boolean(float64[:, ::1], int64, int64, int64, float64)", counts=False)
+def within(points, i, j, k, epsilon):  # type: ignore[no-untyped-def]
+    """Return whether point j lies within epsilon of the segment from point i to point k."""
+    along, size = 0.0, 0.0
+    for axis in range(3):
+        along += (points[k, axis] - points[i, axis]) * (points[j, axis] - points[i, axis])
+        size += (points[k, axis] - points[i, axis]) ** 2
+    share = min(max(along / size, 0.0), 1.0) if size > 0.0 else 0.0
+    away = 0.0
+    for axis in range(3):
+        away += (points[j, axis] - points[i, axis] - share * (points[k, axis] - points[i, axis])) ** 2
+    return away <= epsilon * epsilon
+
+
+@kernel("float64(float64[:, ::1], int64, int64, float64[::1])", counts=False)
+def _angle(points, i, k, axis):  # type: ignore[no-untyped-def]
+    """Return the angle between a unit direction and that from point i to point k."""
+    x, y, z = points[k, 0] - points[i, 0], points[k, 1] - points[i, 1], points[k, 2] - points[i, 2]
+    cross = math.sqrt((axis[1] * z - axis[2] * y) ** 2 + (axis[2] * x - axis[0] * z) ** 2 + (axis[0] * y - axis[1] * x) ** 2)
+    return math.atan2(cross, axis[0] * x + axis[1] * y + axis[2] * z)
+
+
+@kernel("float64(float64[:, ::1], int64, int64)", counts=False)
+def _size(points, i, k):  # type: ignore[no-untyped-def]
+    return math.sqrt((points[k, 0] - points[i, 0]) ** 2 + (points[k, 1] - points[i, 1]) ** 2 + (points[k, 2] - points[i, 2]) ** 2)
+
+
+@kernel("void(float64[:, ::1], int64, int64, float64, float64[::1])", counts=False)
+def _narrow(points, i, k, epsilon, cone):  # type: ignore[no-untyped-def]
+    """Keep of a cone (axis, half angle, reach) a cone of directions from point i that also pass point k."""
+    size = _size(points, i, k)
+    cone[4] = max(cone[4], size)
+    if size <= epsilon or cone[3] < 0.0:
+        return
+    half = math.asin(epsilon / size)
+    turn = _angle(points, i, k, cone)
+    if cone[3] > math.pi or turn + half <= cone[3]:  # any direction yet, or the new cone is within the old
+        for axis in range(3):
+            cone[axis] = (points[k, axis] - points[i, axis]) / size
+        cone[3] = half
+    elif turn + cone[3] > half:
+        lean = (turn - half + cone[3]) / 2
+        cone[3] = (half + cone[3] - turn) / 2
+        one, two = math.sin(turn - lean) / math.sin(turn), math.sin(lean) / math.sin(turn) / size
+        for axis in range(3):
+            cone[axis] = one * cone[axis] + two * (points[k, axis] - points[i, axis])
+
+
+@kernel("boolean(float64[:, ::1], int64, int64, float64, float64[::1])", counts=False)
+def _all_within(points, i, k, epsilon, cone):  # type: ignore[no-untyped-def]
+    """Return whether all points between lie within epsilon of the segment; if so the cone is made anew about it."""
+    for j in range(i + 1, k):
+        if not within(points, i, j, k, epsilon):
+            return False
+    length = _size(points, i, k)
+    if length > 0.0:
+        for axis in range(3):
+            cone[axis] = (points[k, axis] - points[i, axis]) / length
+        cone[3] = 4.0
+        for j in range(i + 1, k):
+            size = _size(points, i, j)
+            if size > epsilon:
+                cone[3] = min(cone[3], math.asin(epsilon / size) - _angle(points, i, j, cone))
+    return True
+
+
+@kernel("int64(float64[:, ::1], float64, boolean[::1], int64[:, ::1])")
+def ranges(points, epsilon, stop, found):  # type: ignore[no-untyped-def]
+    """Write first and last point of each range (n, 2), and return their number; no range goes beyond a stop."""
+    n, count, i = len(points), 0, 0
+    cone = np.empty(5)
+    while i < n - 1:
+        cone[:] = 0.0
+        cone[3] = 4.0
+        k = i + 1
+        while k < n - 1 and not stop[k]:
+            _narrow(points, i, k, epsilon, cone)
+            free = cone[3] > math.pi  # all are about the first point
+            clear = cone[3] > 0.0 and _angle(points, i, k + 1, cone) <= cone[3] * (1 - 1e-6) - _GUARD
+            if not (free or (clear and _size(points, i, k + 1) >= cone[4]) or _all_within(points, i, k + 1, epsilon, cone)):
+                break
+            k += 1
+        found[count, 0], found[count, 1] = i, k
+        count += 1
+        i = k
+    return count

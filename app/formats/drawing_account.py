@@ -1,0 +1,226 @@
+"""What every reader of drawings does with its curves: to mm, numbered, chosen by layer, and an account of the rest."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..core import tolerances
+from ..core.errors import InputError
+from ..geometry.affine import Affine, transformed
+from ..geometry.chaining.pieces import FARTHEST, straightened, within_reach
+from ..geometry.sample import bounds, union
+from ..model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
+from ..model.finding import Finding, FindingKind
+from ..model.part import Entity, Part, Units
+from ..model.reading import Reading
+from .reading_question import Question, Size, about_strays
+
+MOST_CURVES = 500_000
+"""A drawing that unfolds to more curves than this is refused before it fills the memory."""
+
+BEYOND = "curve beyond 1 km or without a place"
+MOVE = "move the drawing to zero in the CAD program, or say --to-zero (in the window: File, Reading options) and it is done on reading"
+_GONE = {True: "is missing from the part", False: "are missing from the part"}
+_COUNTABLE = 1e10
+"""mm; beyond, neighbouring doubles are further apart than WELD, so that no shape is left to be moved."""
+
+
+@dataclass(frozen=True)
+class Taken:
+    """What of some curves can be machined.
+
+    Attributes:
+        entities: those that have a length and a place, mm, numbered from 1.
+        nothing: places of curves without length, None where there is no place.
+        far: places and layers of curves that lie beyond 1 km, mm. placeless: how many have no place at all.
+        moved: how far everything was moved, mm; None = not.
+    """
+
+    entities: tuple[Entity, ...]
+    nothing: list[Point | None]
+    far: list[tuple[Point, str]]
+    placeless: int = 0
+    moved: Point | None = None
+
+    @property
+    def missing(self) -> Counter[str]:
+        """Curves that are lost, by what they are called in an account."""
+        return +Counter({BEYOND: len(self.far) + self.placeless})
+
+
+def taken(
+    curves: Iterable[tuple[Curve, str]], to_mm: Affine | None, anchors: Callable[[str], bool] | None = None, strokes: int = 0,
+) -> Taken:  # fmt: skip
+    """Return all curves that have a length, in mm.
+
+    Args:
+        curves: with the names of their layers.
+        to_mm: from the curves' units; None: they are in mm.
+        anchors: tells whether a layer counts for where the drawing lies, which is then moved to zero; None: it stays.
+        strokes: so many of the last ones are strokes of letters.
+    """
+    placed = [(transformed(curve, to_mm) if to_mm is not None else curve, layer) for curve, layer in curves]
+    moved = None if anchors is None else _shift([curve for curve, layer in placed if curve is not None and anchors(layer)])
+    shift = None if moved is None else Affine(x0=moved[0], y0=moved[1])
+    found = Taken((), [], [], 0, moved)
+    entities: list[Entity] = []
+    lost = 0
+    for left, (curve, layer) in zip(range(len(placed), 0, -1), placed, strict=True):
+        drawn = None if curve is None else straightened(transformed(curve, shift) or curve if shift is not None else curve)
+        if drawn is None or (within_reach(drawn) and not has_length(drawn)):
+            found.nothing.append(None if drawn is None else drawn.start)
+        elif within_reach(drawn):
+            entities.append(Entity(len(entities) + 1, drawn, layer, left <= strokes))
+        elif all(map(math.isfinite, (*drawn.start, *drawn.end))):
+            found.far.append((drawn.start, layer))
+        else:
+            lost += 1
+    return replace(found, entities=tuple(entities), placeless=lost)
+
+
+def strays_or_none(found: Taken, reading: Reading, placed: Callable[[bool], Taken]) -> Question | None:
+    """Return what to ask where some curves lie beyond 1 km that would not when the drawing is moved to zero.
+
+    Args:
+        reading: by which they were found. placed: returns what there is when it is moved to zero, or not.
+    """
+    if not found.far or found.moved is not None or placed(True).missing:
+        return None
+    return about_strays(len(found.far), reading)
+
+
+def size_of(part: Part, layers: tuple[str, ...] = ()) -> Size:
+    """Return width and height of what is machined of a part, mm: what is on some layers, or else on all that are shown."""
+    wanted = {layer.casefold() for layer in layers} or {layer.name.casefold() for layer in part.layers if layer.visible}
+    box = union([bounds(entity.curve) for entity in part.entities if entity.layer.casefold() in wanted])
+    return (0.0, 0.0) if box is None else (box[2] - box[0], box[3] - box[1])
+
+
+def _shift(curves: list[Curve]) -> Point | None:
+    """Return how far to move curves for their lower left corner to lie in zero, mm; None where none has a place.
+
+    What lies more than 1 km from the middle one of all is a stray and counts for nothing.
+    """
+    boxes = [box for curve in curves if has_place(curve) for box in [bounds(curve)]]
+    if not boxes:
+        return None
+    x, y = np.median([((box[0] + box[2]) / 2, (box[1] + box[3]) / 2) for box in boxes], axis=0)
+    near = [box for box in boxes if abs(box[0] - x) <= FARTHEST and abs(box[1] - y) <= FARTHEST]
+    return (-min(box[0] for box in near), -min(box[1] for box in near)) if near else None
+
+
+def has_place(curve: Curve) -> bool:
+    """Return False for a curve with a coordinate that is no number, or so large that none beside it can be told from it."""
+    return all(abs(v) < _COUNTABLE for v in _numbers(curve))
+
+
+def _numbers(curve: Curve) -> Iterator[float]:
+    if isinstance(curve, Circle | Arc | Ellipse):
+        yield from curve.centre
+    if isinstance(curve, Circle):
+        yield curve.radius
+    elif isinstance(curve, Ellipse):
+        yield from curve.major
+    for point in curve.control_points if isinstance(curve, Spline) else (curve.start, curve.end):
+        yield from point
+
+
+def about_place(found: Taken) -> Iterator[Finding]:
+    """Say that the drawing was moved, and what of it is lost because it lies nowhere or too far away."""
+    if found.moved is not None:
+        x, y = found.moved
+        yield remark(f"The drawing was moved by ({x:.3f}, {y:.3f}) mm, so that its lower left corner is zero.", math.hypot(x, y))
+    if found.far:
+        (x, y), layer = found.far[0]
+        what = "1 curve lies" if len(found.far) == 1 else f"{len(found.far)} curves lie"
+        where = f"at ({x:.3f}, {y:.3f}) on layer {layer}" if len(found.far) == 1 else f"the first at ({x:.3f}, {y:.3f}) on layer {layer}"
+        todo = MOVE if found.moved is None else "delete what lies so far away, or check the units"
+        yield Finding(FindingKind.LEFT_OUT, f"{what} beyond 1 km, {where}, and {_GONE[len(found.far) == 1]}; {todo}.",
+                      amount=float(len(found.far)))
+    if found.placeless:
+        what = "1 curve has" if found.placeless == 1 else f"{found.placeless} curves have"
+        yield Finding(FindingKind.LEFT_OUT, f"{what} a coordinate that is no number and {_GONE[found.placeless == 1]}; draw it again.",
+                      amount=float(found.placeless))
+
+
+def has_length(curve: Curve) -> bool:
+    """Return True for a curve that is longer than WELD."""
+    if isinstance(curve, Line):
+        return math.dist(curve.start, curve.end) >= tolerances.WELD
+    if isinstance(curve, Arc):  # one that is nearly a circle has its ends close together
+        return curve.start != curve.end and abs(curve.sweep) * curve.radius >= tolerances.WELD
+    if isinstance(curve, Circle):
+        return curve.radius >= tolerances.WELD
+    if isinstance(curve, Ellipse):
+        return math.hypot(*curve.major) * (curve.end_parameter - curve.start_parameter) >= tolerances.WELD
+    points = np.array(curve.control_points)
+    return bool(np.hypot(*(points - points[0]).T).max() >= tolerances.WELD)
+
+
+def on_layers(part: Part, layers: tuple[str, ...], name: str) -> Part:
+    """Return the part with only the curves on some layers, named in any case; empty = all.
+
+    Raises:
+        InputError: there is no such layer, or nothing on it.
+    """
+    if not layers:
+        return part
+    known = {layer.name.casefold() for layer in part.layers}
+    missing = [layer for layer in layers if layer.casefold() not in known]
+    if missing:
+        raise InputError(f"{name}: there is no layer {missing[0]}; the drawing has {', '.join(layer.name for layer in part.layers)}.")
+    wanted = {layer.casefold() for layer in layers}
+    kept = tuple(entity for entity in part.entities if entity.layer.casefold() in wanted)
+    if not kept:
+        raise InputError(f"{name}: layer {', '.join(layers)} has no lines, arcs or curves; choose another.")
+    return Part(kept, part.layers, part.units, part.name)
+
+
+def remark(text: str, amount: float | None = None) -> Finding:
+    """Return a finding on what was left out that counts for nothing."""
+    return Finding(FindingKind.LEFT_OUT, text, counts=False, amount=amount)
+
+
+def other_units(given: Units | None, shown: Units) -> Iterator[Finding]:
+    """Say that the units given are not those that the drawing names."""
+    if given is not None and given is not shown:
+        yield remark(f"The drawing names its own units, {shown.name.lower()}; the units given, {given.name.lower()}, are not used.")
+
+
+def without_length(places: list[Point | None]) -> Iterator[Finding]:
+    """Count what has no length, and say where the first is."""
+    if places:
+        known = [p for p in places if p is not None and all(map(math.isfinite, p))]
+        x, y = known[0] if known else (None, None)
+        where = f", the first at ({x:.3f}, {y:.3f})" if known else ""
+        what = "1 entity has" if len(places) == 1 else f"{len(places)} entities have"
+        yield Finding(FindingKind.TINY_ENTITY, f"{what} no length{where}; left out.", x, y, False, (), float(len(places)))
+
+
+def switched_off(part: Part, asked: tuple[str, ...]) -> Iterator[Finding]:
+    """Name the layers that have curves but are not shown, unless layers were asked for by name."""
+    hidden = {layer.name for layer in part.layers if not layer.visible}
+    curves = Counter(entity.layer for entity in part.entities if entity.layer in hidden)
+    if asked or not curves:
+        return
+    count = curves.total()
+    who = f"Layers {', '.join(curves)} are" if len(curves) > 1 else f"Layer {next(iter(curves))} is"
+    what = f"{count} curves on {'them' if len(curves) > 1 else 'it'} are" if count > 1 else "1 curve on it is"
+    advice = f"Say --layer {next(iter(curves))} to machine {'one' if len(curves) > 1 else 'it'}."
+    yield remark(f"{who} switched off or frozen; {what} not machined. {advice}", float(count))
+
+
+def all_left_out(left_out: Counter[str]) -> Iterator[Finding]:
+    """Count what is no curve, by type."""
+    if left_out:
+        yield remark(f"{listed(left_out, 'Left out: ')}.", float(left_out.total()))
+
+
+def listed(left_out: Counter[str], before: str) -> str:
+    """Return "before 2 TEXT, 1 IMAGE", or nothing."""
+    return before + ", ".join(f"{count} {kind}" for kind, count in sorted(left_out.items())) if left_out else ""

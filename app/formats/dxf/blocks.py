@@ -1,0 +1,291 @@
+"""Walk a DXF space: curves of its entities and of all blocks inserted in it, nested, turned, mirrored, in rows and columns."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from math import cos, isfinite, radians, sin
+from typing import Any
+
+from ...core.errors import HitofudeError, InputError
+from ...geometry.affine import Affine, transformed
+from ...model.curves import Curve, Point
+from ..drawing_account import MOST_CURVES
+from .curves import NegativeRadiusError, NoLengthError, curves_of, heights_of, plane_of
+from .fonts import Fonts
+from .hatch import Hatch, hatch_of
+from .letters import LeftOutError, Lettering
+from .mtext import mtext_lettering
+from .text import text_lettering
+
+_TEXTS = ("TEXT", "MTEXT", "ATTRIB")
+DEEPEST = 64
+"""Blocks nested deeper than this are refused."""
+
+
+@dataclass(frozen=True)
+class Hidden:
+    """An inserted block that no CAD program shows, since the layer that it is inserted on is frozen.
+
+    Attributes:
+        layer: that is frozen. block: its name. at: its place, drawing units, None where it has none.
+        curves: layers of the curves that are not drawn for it.
+    """
+
+    layer: str
+    block: str
+    at: Point | None
+    curves: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Negative:
+    """A circle or an arc with a radius below 0; lengths in drawing units."""
+
+    at: Point
+    radius: float
+    layer: str
+
+
+@dataclass
+class Sheet:
+    """What a space or a block draws.
+
+    Attributes:
+        curves: (curve, layer) in the sheet's own coordinates, drawing units.
+        letterings: what its texts draw. hatches: boundaries of its hatches.
+        left_out: entities that are no curves, by type.
+        without_length: places of entities that draw nothing, None where there is no place.
+        hidden: blocks inserted on frozen layers.
+        negative: circles and arcs that nobody knows how to draw.
+        heights: least and greatest Z seen, drawing units.
+    """
+
+    curves: list[tuple[Curve, str]] = field(default_factory=list)
+    letterings: list[Lettering] = field(default_factory=list)
+    hatches: list[Hatch] = field(default_factory=list)
+    left_out: Counter[str] = field(default_factory=Counter)
+    without_length: list[Point | None] = field(default_factory=list)
+    hidden: list[Hidden] = field(default_factory=list)
+    negative: list[Negative] = field(default_factory=list)
+    heights: tuple[float, float] = (0.0, 0.0)
+    any_height: bool = False
+    _more: int = 0
+
+    @property
+    def size(self) -> int:
+        """How many curves there are, with those of texts and hatches."""
+        return len(self.curves) + self._more
+
+    @property
+    def is_empty(self) -> bool:
+        """True where nothing is drawn, and nothing is to be said of a place."""
+        return not (self.size or self.letterings or self.without_length or self.hidden or self.negative)
+
+    def more(self) -> Iterator[Lettering | Hatch]:
+        """Yield its texts and hatches."""
+        yield from self.letterings
+        yield from self.hatches
+
+    def layers(self) -> Iterator[str]:
+        """Yield the layer of every curve."""
+        yield from (layer for _, layer in self.curves)
+        for each in self.more():
+            yield from (each.layer for _ in range(each.size))
+
+    def add(self, made: Lettering | Hatch) -> None:
+        """Note what a text or a hatch draws, if it does; one of which letters are missing alone counts as a curve."""
+        if not made.size and not (isinstance(made, Lettering) and made.lacking):
+            return
+        if isinstance(made, Hatch):
+            self.hatches.append(made)
+        else:
+            self.letterings.append(made)
+        self._more += max(made.size, 1)
+
+    def see(self, heights: Iterable[float]) -> None:
+        """Note some Z."""
+        for z in heights:
+            self.heights = (min(self.heights[0], z), max(self.heights[1], z)) if self.any_height else (z, z)
+            self.any_height = True
+
+
+class Walker:
+    """Reads spaces of one document; every block is read once."""
+
+    def __init__(self, document: Any, name: str, asked: tuple[str, ...] = (), without: tuple[str, ...] = ()) -> None:
+        """Make a reader.
+
+        Args:
+            document: of the library. name: of the file, for messages.
+            asked: layers that are machined even where they are frozen.
+            without: types of entities to leave out, in any case.
+        """
+        self._name = name
+        wanted = {layer.casefold() for layer in asked}
+        self._frozen = {layer.dxf.name.casefold() for layer in document.layers if layer.is_frozen()} - wanted
+        self._without = {kind.upper() for kind in without}
+        self._fonts = Fonts(document.styles)
+        self._blocks: dict[str, Sheet] = {}
+        self._open: list[str] = []
+        self.types: set[str] = set()
+        """Types of the entities that were met, also of those that were left out."""
+        self._read: dict[str, None] = {}  # types of texts that are
+
+    def sheet(self, entities: Iterable[Any]) -> Sheet:
+        """Return what some entities draw.
+
+        Raises:
+            InputError: blocks insert themselves, are nested too deep, or unfold to too many curves.
+        """
+        sheet = Sheet()
+        for entity in entities:
+            kind = entity.dxftype()
+            self.types.add(kind)
+            try:
+                self._one(entity, kind, sheet)
+            except HitofudeError:
+                raise
+            except Exception:  # whatever an entity of a damaged file lacks: it is one that draws nothing
+                sheet.left_out[f"{kind} (damaged)"] += 1
+            self._bounded(sheet.size)
+        return sheet
+
+    def _one(self, entity: Any, kind: str, sheet: Sheet) -> None:
+        if entity.dxf.hasattr("invisible") and entity.dxf.invisible:
+            sheet.left_out[f"{kind} (invisible)"] += 1
+        elif kind in self._without:
+            sheet.left_out[f"{kind} (as asked)"] += 1
+        elif kind == "INSERT":
+            self._insert(entity, sheet)
+        else:
+            self._draw(entity, kind, sheet)
+
+    def _draw(self, entity: Any, kind: str, sheet: Sheet) -> None:
+        try:
+            made = self._lettering(entity, kind) if kind in _TEXTS else hatch_of(entity) if kind == "HATCH" else None
+            curves = [] if made is not None else curves_of(entity)
+        except NoLengthError as nothing:
+            sheet.without_length.append(nothing.args[0])
+            return
+        except LeftOutError as left:
+            sheet.left_out[left.args[0]] += 1
+            return
+        except NegativeRadiusError as negative:
+            at, radius = negative.args
+            sheet.negative.append(Negative(at, radius, entity.dxf.layer))
+            return
+        if curves is None:
+            sheet.left_out[kind] += 1
+            return
+        sheet.see(heights_of(entity))
+        sheet.curves += [(curve, entity.dxf.layer) for curve in curves]
+        if made is not None:
+            sheet.add(made)
+
+    def _lettering(self, entity: Any, kind: str) -> Lettering:
+        self._read[kind] = None
+        if kind == "MTEXT":
+            return mtext_lettering(entity, self._fonts)
+        if kind == "ATTRIB" and entity.has_embedded_mtext_entity:
+            return replace(mtext_lettering(entity.virtual_mtext_entity(), self._fonts), kind=kind)
+        return text_lettering(entity, self._fonts)
+
+    def _insert(self, insert: Any, sheet: Sheet) -> None:
+        """Add every copy of a block; what is on its layer 0 takes the layer of the insert."""
+        if insert.block() is None:
+            sheet.left_out["INSERT of a missing block"] += 1
+            sheet.left_out["ATTRIB"] += len(insert.attribs)
+            return
+        inner = self._block(insert.dxf.name, insert)
+        places = max(insert.dxf.row_count, 1) * max(insert.dxf.column_count, 1)
+        self._bounded(sheet.size + inner.size * places, insert)
+        self._bounded(places, insert)
+        if self._is_hidden(insert):
+            layers = tuple(insert.dxf.layer if layer == "0" else layer for layer in inner.layers())
+            sheet.hidden.append(Hidden(insert.dxf.layer, insert.dxf.name, next(iter(_origins(insert)), None), layers * places))
+            return
+        for kind, count in inner.left_out.items():
+            sheet.left_out[kind] += count * places
+        if inner.any_height:
+            sheet.see(z + insert.dxf.insert.z for z in inner.heights)
+        if inner.is_empty and not insert.attribs:
+            return
+        copies = _places(insert)
+        for place in copies:
+            self._copy(inner, place, insert.dxf.layer, sheet)
+        self._attributes(insert, copies, sheet)
+
+    def _attributes(self, insert: Any, copies: list[Affine], sheet: Sheet) -> None:
+        """Add the attributes of a block, which lie where the block is inserted first, with every copy of it."""
+        own = self.sheet(attribute for attribute in insert.attribs if not attribute.is_invisible)
+        own.left_out["ATTRIB (invisible)"] += sum(bool(attribute.is_invisible) for attribute in insert.attribs)
+        self._bounded(sheet.size + own.size * len(copies), insert)
+        for place in copies:
+            self._copy(own, Affine(x0=place.x0 - copies[0].x0, y0=place.y0 - copies[0].y0), insert.dxf.layer, sheet)
+        sheet.left_out += Counter({kind: count * len(copies) for kind, count in own.left_out.items()})
+        if own.any_height:
+            sheet.see(own.heights)
+
+    def _is_hidden(self, insert: Any) -> bool:
+        """True on a frozen layer; in a block, layer 0 is that on which the block itself is inserted."""
+        layer = insert.dxf.layer.casefold()
+        return layer in self._frozen and not (self._open and layer == "0")
+
+    def _copy(self, inner: Sheet, place: Affine, outer: str, sheet: Sheet) -> None:
+        """Add what a block draws in one place, on the layer `outer` where it names none."""
+        sheet.without_length += [None if p is None else place.point(p) for p in inner.without_length]
+        sheet.hidden += [replace(each, at=each.at and place.point(each.at)) for each in inner.hidden]
+        sheet.negative += [replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
+                           for each in inner.negative]
+        for each in inner.more():
+            sheet.add(each.moved(place, outer))
+        for curve, layer in inner.curves:
+            moved = transformed(curve, place)
+            if moved is None:
+                sheet.without_length.append(place.point(curve.start))
+            else:
+                sheet.curves.append((moved, outer if layer == "0" else layer))
+        self._bounded(max(len(sheet.hidden), len(sheet.negative), sheet.size))
+
+    def _block(self, name: str, insert: Any) -> Sheet:
+        key = name.casefold()
+        if key in self._open:
+            raise InputError(f"{self._name}: block {name} is inserted in itself; break the loop in the CAD program and save again.")
+        if len(self._open) >= DEEPEST:
+            raise InputError(f"{self._name}: blocks are nested deeper than {DEEPEST} levels at block {name}; explode some and save again.")
+        if key not in self._blocks:
+            self._open.append(key)
+            self._blocks[key] = self.sheet(insert.block())
+            self._open.pop()
+        return self._blocks[key]
+
+    def _bounded(self, count: int, insert: Any = None) -> None:
+        if count > MOST_CURVES:
+            texts = f", or leave its texts out: {' '.join(f'--skip-type {kind}' for kind in self._read)}" if self._read else ""
+            if insert is None:
+                raise InputError(f"{self._name}: the drawing has more than {MOST_CURVES} curves; save it in parts, or thin it out{texts}.")
+            raise InputError(f"{self._name}: the drawing unfolds to more than {MOST_CURVES} curves at block {insert.dxf.name}; "
+                             f"reduce the rows and columns of its inserted blocks{texts}.")
+
+
+def _origins(insert: Any) -> list[Point]:
+    return [place.point((0.0, 0.0)) for place in _places(insert)[:1]]
+
+
+def _places(insert: Any) -> list[Affine]:
+    """Return the map from block to drawing for each row and column."""
+    matrix = insert.matrix44()
+    origin, x, y = matrix.transform((0, 0, 0)), matrix.transform((1, 0, 0)), matrix.transform((0, 1, 0))
+    numbers = (*origin, *x, *y)
+    if not all(map(isfinite, numbers)):
+        return []
+    plane, angle = plane_of(insert, 0.0), radians(insert.dxf.rotation)
+    places = []
+    for row in range(max(insert.dxf.row_count, 1)):
+        for column in range(max(insert.dxf.column_count, 1)):
+            along, across = column * insert.dxf.column_spacing, row * insert.dxf.row_spacing
+            dx, dy = plane.vector((along * cos(angle) - across * sin(angle), along * sin(angle) + across * cos(angle)))
+            places.append(Affine(x.x - origin.x, y.x - origin.x, x.y - origin.y, y.y - origin.y, origin.x + dx, origin.y + dy))
+    return places

@@ -1,0 +1,180 @@
+"""One DXF entity to the curves that it draws, seen from above."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from itertools import pairwise
+from typing import Any
+
+from ...geometry.affine import IDENTITY, Affine, ellipse, transformed
+from ...model.curves import Arc, Circle, Curve, Line, Point
+from .splines import spline_curve
+
+_STRAIGHT = 1e-9
+"""A bulge below this bends a segment by less than its length's rounding."""
+_SPLINE_FRAME = 16
+"""Flag of a POLYLINE vertex that only steers the curve and is not on it."""
+
+
+class NoLengthError(Exception):
+    """An entity draws nothing: zero length or radius, or numbers that are none. The argument is its place or None."""
+
+
+class NegativeRadiusError(Exception):
+    """A circle or an arc has a radius below 0, so nobody knows what is meant. Its place and the radius are the arguments."""
+
+
+def curves_of(entity: Any) -> list[Curve] | None:
+    """Return the curves of a DXF entity in drawing units, projected along Z; None for a type that is no curve.
+
+    Raises:
+        NoLengthError: the entity is of a known type but draws nothing.
+        NegativeRadiusError: its radius is below 0.
+    """
+    reader = _READERS.get(entity.dxftype())
+    return None if reader is None else reader(entity)
+
+
+def heights_of(entity: Any) -> Iterable[float]:
+    """Return Z of some points of the entity, drawing units, to tell a flat drawing from a solid one."""
+    kind = entity.dxftype()
+    if kind == "LINE":
+        return entity.dxf.start.z, entity.dxf.end.z
+    if kind == "LWPOLYLINE":
+        return (entity.dxf.elevation * entity.dxf.extrusion.z,)
+    if kind == "POLYLINE":
+        return [v.dxf.location.z for v in entity.vertices] if entity.is_3d_polyline else (entity.dxf.elevation.z,)
+    if kind == "SPLINE":
+        return [p[2] for p in (entity.control_points or entity.fit_points)]
+    if kind == "HATCH":
+        return (entity.dxf.elevation.z * entity.dxf.extrusion.z,)
+    if kind in ("TEXT", "ATTRIB", "MTEXT"):
+        return (entity.dxf.insert.z * (1.0 if kind == "MTEXT" else entity.dxf.extrusion.z),)
+    return (entity.dxf.center.z * entity.dxf.extrusion.z,) if kind in ("ARC", "CIRCLE") else (entity.dxf.center.z,)
+
+
+def plane_of(entity: Any, height: float) -> Affine:
+    """Return the map from the plane in which a flat entity is drawn (its OCS) to the drawing, seen from above."""
+    extrusion = entity.dxf.extrusion
+    if extrusion.x == 0 and extrusion.y == 0 and extrusion.z > 0:
+        return IDENTITY
+    ocs = entity.ocs()
+    return Affine(ocs.ux.x, ocs.uy.x, ocs.ux.y, ocs.uy.y, ocs.uz.x * height, ocs.uz.y * height)
+
+
+def _line(entity: Any) -> list[Curve]:
+    return [Line(_flat(entity.dxf.start), _flat(entity.dxf.end))]
+
+
+def _circle(entity: Any) -> list[Curve]:
+    centre, radius = entity.dxf.center, _radius(entity)
+    return placed_in(entity, centre.z, [Circle(_flat(centre), radius)])
+
+
+def _radius(entity: Any) -> float:
+    radius, centre = float(entity.dxf.radius), _flat(entity.dxf.center)
+    if radius < 0:
+        raise NegativeRadiusError(centre, radius)
+    if not radius > 0:
+        raise NoLengthError(centre)
+    return radius
+
+
+def _arc(entity: Any) -> list[Curve]:
+    centre, radius = entity.dxf.center, _radius(entity)
+    return placed_in(entity, centre.z, [arc_of(_flat(centre), radius, entity.dxf.start_angle, entity.dxf.end_angle)])
+
+
+def arc_of(centre: Point, radius: float, first: float, last: float) -> Arc | Circle:
+    """Return the arc counter-clockwise from one angle to another, degrees; a circle where it is a full turn."""
+    sweep = (last - first) % 360.0
+    if sweep < 1e-9 or sweep > 360.0 - 1e-9:
+        return Circle(centre, radius)
+    return Arc(polar(centre, radius, first), polar(centre, radius, last), centre)
+
+
+def _ellipse(entity: Any) -> list[Curve]:
+    """The minor axis lies across the major one in the plane of the entity, which need not be level."""
+    first, last = entity.dxf.start_param, entity.dxf.end_param
+    sweep = (last - first) % math.tau
+    if sweep < 1e-9 or sweep > math.tau - 1e-9:
+        sweep = math.tau
+    minor = entity.dxf.extrusion.normalize().cross(entity.dxf.major_axis) * entity.dxf.ratio
+    made = ellipse((_flat(entity.dxf.center), _flat(entity.dxf.major_axis), _flat(minor)), first, first + sweep)
+    if made is None:
+        raise NoLengthError(_flat(entity.dxf.center))
+    return [made]
+
+
+def _lwpolyline(entity: Any) -> list[Curve]:
+    vertices = [((float(x), float(y)), float(bulge)) for x, y, bulge in entity.get_points("xyb")]
+    return placed_in(entity, entity.dxf.elevation, segments_of(vertices, entity.closed))
+
+
+def _polyline(entity: Any) -> list[Curve] | None:
+    if not (entity.is_2d_polyline or entity.is_3d_polyline):
+        return None
+    shown = [v.dxf for v in entity.vertices if not v.dxf.flags & _SPLINE_FRAME]
+    flat = entity.is_2d_polyline
+    vertices = [(_flat(v.location), float(v.bulge) if flat else 0.0) for v in shown]
+    segments = segments_of(vertices, entity.is_closed)
+    return placed_in(entity, entity.dxf.elevation.z, segments) if flat else segments
+
+
+def _spline(entity: Any) -> list[Curve]:
+    made = spline_curve(entity)
+    if made is None:
+        points = list(entity.control_points or entity.fit_points)
+        raise NoLengthError((float(points[0][0]), float(points[0][1])) if points else None)
+    return [made]
+
+
+def segments_of(vertices: list[tuple[Point, float]], closed: bool) -> list[Curve]:
+    """Return lines and arcs between vertices; repeated vertices are passed over."""
+    if not vertices:
+        raise NoLengthError(None)
+    ring = [*vertices, vertices[0]] if closed else vertices
+    found = [_bulged(a, b, bulge) for (a, bulge), (b, _) in pairwise(ring) if a != b]
+    if not found:
+        raise NoLengthError(vertices[0][0])
+    return found
+
+
+def _bulged(a: Point, b: Point, bulge: float) -> Curve:
+    """Return the segment from a to b; the bulge is the tangent of a quarter of its sweep, positive counter-clockwise."""
+    if abs(bulge) < _STRAIGHT:
+        return Line(a, b)
+    height = (1 / bulge - bulge) / 4
+    centre = ((a[0] + b[0]) / 2 - (b[1] - a[1]) * height, (a[1] + b[1]) / 2 + (b[0] - a[0]) * height)
+    return Arc(a, b, centre, bulge > 0)
+
+
+def placed_in(entity: Any, height: float, curves: list[Curve]) -> list[Curve]:
+    """Return curves that are drawn in the plane of an entity, at some height, as they are seen from above."""
+    plane = plane_of(entity, height)
+    return curves if plane is IDENTITY else list(_seen(curves, plane))
+
+
+def _seen(curves: list[Curve], plane: Affine) -> Iterator[Curve]:
+    for curve in curves:
+        seen = transformed(curve, plane)
+        if seen is None:
+            raise NoLengthError(plane.point(curve.start))
+        yield seen
+
+
+def _flat(v: Any) -> Point:
+    return float(v.x), float(v.y)
+
+
+def polar(centre: Point, radius: float, degrees: float) -> Point:
+    """Return the point at an angle on a circle."""
+    angle = math.radians(degrees)
+    return centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)
+
+
+_READERS: dict[str, Callable[[Any], list[Curve] | None]] = {
+    "LINE": _line, "CIRCLE": _circle, "ARC": _arc, "ELLIPSE": _ellipse,
+    "LWPOLYLINE": _lwpolyline, "POLYLINE": _polyline, "SPLINE": _spline,
+}

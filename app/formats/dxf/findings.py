@@ -1,0 +1,100 @@
+"""Sentences about what reading a DXF met: decimal commas, radii below 0, blocks that no CAD program shows, texts and hatches."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from ...model.finding import Finding, FindingKind
+from ..drawing_account import remark
+from .blocks import Hidden, Sheet
+from .drawn import AllDrawn
+from .letters import Lettering
+from .numbers import Commas
+
+_NAMED, _LETTERS = 3, 10
+"""So many blocks, layers or fonts, and so many letters, are named in one sentence."""
+
+
+def about_commas(commas: Commas) -> Iterator[Finding]:
+    """Say that decimal commas were read as points."""
+    if commas.count:
+        what = "1 number has a decimal comma" if commas.count == 1 else f"{commas.count} numbers have decimal commas"
+        yield remark(f"{what}, the first, {commas.value}, in line {commas.line}; they are read as decimal points.", float(commas.count))
+
+
+def about_negative(sheet: Sheet, size: float) -> Iterator[Finding]:
+    """Say that circles and arcs are missing, for their radius is below 0; `size` is that of the drawing's unit, mm."""
+    if sheet.negative:
+        first = sheet.negative[0]
+        x, y, radius = first.at[0] * size, first.at[1] * size, first.radius * size
+        count = len(sheet.negative)
+        what = "1 circle or arc has a radius below 0 and is" if count == 1 else f"{count} circles or arcs have a radius below 0 and are"
+        text = (f"{what} missing from the part{'' if count == 1 else ', the first'}: {radius:g} mm round ({x:.3f}, {y:.3f}) "
+                f"on layer {first.layer}; draw it again.")
+        yield Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(count))
+
+
+def about_hidden(sheet: Sheet, size: float) -> Iterator[Finding]:
+    """Name the blocks that are inserted on frozen layers, a sentence a layer; `size` is that of the drawing's unit, mm."""
+    for layer in dict.fromkeys(each.layer for each in sheet.hidden):
+        yield _hidden([each for each in sheet.hidden if each.layer == layer], size)
+
+
+def _hidden(inserts: list[Hidden], size: float) -> Finding:
+    layer, blocks = inserts[0].layer, dict.fromkeys(each.block for each in inserts)
+    curves = [on for each in inserts for on in each.curves]
+    named = ", ".join(list(blocks)[:_NAMED]) + (f" and {len(blocks) - _NAMED} more" if len(blocks) > _NAMED else "")
+    at = next((each.at for each in inserts if each.at is not None), None)
+    first = "" if len(inserts) == 1 else "the first "
+    where = f", {first}at ({at[0] * size:.3f}, {at[1] * size:.3f})," if at is not None else ""
+    what = f"Block {named} is" if len(inserts) == 1 else f"{len(inserts)} blocks ({named}) are"
+    wanted = " ".join(f"--layer {each}" for each in list(dict.fromkeys((layer, *curves)))[: _NAMED + 1])
+    lost = "1 curve is" if len(curves) == 1 else f"{len(curves)} curves are"
+    return remark(f"{what} inserted{where} on layer {layer}, which is frozen; {lost} not shown and not machined. "
+                  f"Say {wanted} to machine them; in the window they are chosen in File, Reading options.", float(len(curves)))
+
+
+def about_letterings(texts: Sequence[Lettering], size: float) -> Iterator[Finding]:
+    """Say that texts are read, in which fonts, and how to leave them out; and which letters are missing from them.
+
+    Args:
+        texts: on layers that are machined. size: of the drawing's unit, mm.
+    """
+    if not texts:
+        return
+    out = "leave them out with " + " ".join(f"--skip-type {kind}" for kind in dict.fromkeys(each.kind for each in texts))
+    counts = Counter(pair for each in texts for pair in each.fonts)
+    fonts = ", ".join(f"{count} {_in_font(*pair)}" for pair, count in counts.most_common(_NAMED))
+    more = f" and {len(counts) - _NAMED} more fonts" if len(counts) > _NAMED else ""
+    what = "1 text is" if len(texts) == 1 else f"{len(texts)} texts are"
+    yield Finding(FindingKind.ASSUMED, f"{what} read as curves to machine: {fonts}{more}; {out}.", counts=False, amount=float(len(texts)))
+    short = [each for each in texts if each.lacking]
+    if short:
+        letters = list(dict.fromkeys(letter for each in short for letter in each.lacking))
+        named = " ".join(letter if letter.isprintable() else f"U+{ord(letter):04X}" for letter in letters[:_LETTERS])
+        rest = f" and {len(letters) - _LETTERS} more" if len(letters) > _LETTERS else ""
+        x, y = short[0].at[0] * size, short[0].at[1] * size
+        where = f"the text at ({x:.3f}, {y:.3f})" if len(short) == 1 else f"{len(short)} texts, the first at ({x:.3f}, {y:.3f})"
+        yield Finding(FindingKind.LEFT_OUT, f"No font here has {named}{rest}, missing from {where} on layer {short[0].layer}; "
+                      f"install the drawing's font, or {out}.", x, y, amount=float(len(short)))
+
+
+def _in_font(asked: str, drawn: str) -> str:
+    if drawn:
+        return f"in {drawn}"
+    return f"in the engraving face, for font {asked} is not installed here" if asked else "in the engraving face, for no font is named"
+
+
+def about_hatches(drawn: AllDrawn) -> Iterator[Finding]:
+    """Say that boundaries of hatches are read, how many lie on drawn curves, and how to leave them out."""
+    if drawn.boundaries:
+        what = "1 boundary of a hatch is" if drawn.boundaries == 1 else f"{drawn.boundaries} boundaries of hatches are"
+        new = drawn.boundaries - drawn.repeated
+        if not drawn.repeated:
+            how = f"{what} read as outlines to machine"
+        elif not new:
+            how = f"{what} drawn as curves too, and not taken twice"
+        else:
+            how = f"{what} read as outlines to machine, but for {drawn.repeated} drawn as curves too"
+        yield remark(f"{how}; leave them out with --skip-type HATCH.", float(new))

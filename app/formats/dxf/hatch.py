@@ -1,0 +1,129 @@
+"""Boundaries of hatches: to curves, and without those that lie on what is drawn anyway."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ...core import tolerances
+from ...geometry.affine import Affine, ellipse, transformed
+from ...model.curves import Curve, Line
+from ...model.part import Entity
+from ..drawing_account import has_place
+from .curves import NoLengthError, arc_of, placed_in, segments_of
+from .splines import spline_of_edge
+
+_OF_TEXT = 8
+"""Flag of a boundary that is the box round a text, which is read itself."""
+_SHARES = tuple((k + 0.37) / 16 for k in range(16))
+"""Where each line and arc of a boundary is looked at."""
+_POLYLINE, _EDGES = 1, 2
+_LINE, _ARC, _ELLIPSE = 1, 2, 3
+
+
+@dataclass(frozen=True, slots=True)
+class Hatch:
+    """The boundaries of a hatch, each a ring of curves, drawing units."""
+
+    boundaries: tuple[tuple[Curve, ...], ...]
+    layer: str = "0"
+
+    @property
+    def size(self) -> int:
+        """How many curves there are."""
+        return sum(map(len, self.boundaries))
+
+    def moved(self, to: Affine, layer: str = "") -> Hatch:
+        """Return it under a map; what is on layer 0 goes to `layer`, where one is named."""
+        rings = (tuple(curve for each in ring if (curve := transformed(each, to)) is not None) for ring in self.boundaries)
+        return replace(self, boundaries=tuple(rings), layer=layer if layer and self.layer == "0" else self.layer)
+
+
+def hatch_of(entity: Any) -> Hatch:
+    """Return the boundaries of a HATCH, seen from above.
+
+    Raises:
+        NoLengthError: it has none.
+        InputError: a spline of it has too many points.
+    """
+    layer, rings = entity.dxf.layer, []
+    for path in entity.paths:
+        if not path.path_type_flags & _OF_TEXT:
+            found = _ring(path) if path.type == _POLYLINE else [curve for edge in path.edges for curve in _edge(edge, layer)]
+            rings.append(tuple(placed_in(entity, entity.dxf.elevation.z, found)))
+    if not any(rings):
+        raise NoLengthError(None)
+    return Hatch(tuple(ring for ring in rings if ring), layer)
+
+
+def _ring(path: Any) -> list[Curve]:
+    try:
+        return segments_of([((float(x), float(y)), float(bulge)) for x, y, bulge in path.vertices], True)
+    except NoLengthError:
+        return []
+
+
+def _edge(edge: Any, layer: str) -> Iterator[Curve]:
+    """Yield the curve of an edge, if it has any length. Clockwise ones are counter-clockwise here: a ring has no direction."""
+    made: Curve | None
+    if edge.type == _LINE:
+        start, end = (float(edge.start.x), float(edge.start.y)), (float(edge.end.x), float(edge.end.y))
+        made = Line(start, end) if start != end else None
+    elif edge.type == _ARC:
+        radius = float(edge.radius)
+        made = arc_of((float(edge.center.x), float(edge.center.y)), radius, edge.start_angle, edge.end_angle) if radius > 0 else None
+    elif edge.type == _ELLIPSE:
+        x, y = float(edge.major_axis.x), float(edge.major_axis.y)
+        sweep = (edge.end_param - edge.start_param) % (2 * np.pi)
+        whole = sweep < 1e-9 or sweep > 2 * np.pi - 1e-9
+        axes = (float(edge.center.x), float(edge.center.y)), (x, y), (-y * edge.ratio, x * edge.ratio)
+        made = ellipse(axes, edge.start_param, edge.start_param + (2 * np.pi if whole else sweep))
+    else:
+        made = spline_of_edge(edge, layer)
+    if made is not None:
+        yield made
+
+
+def apart(rings: Sequence[tuple[Curve, ...]], drawn: Sequence[Curve], size: float) -> list[bool]:
+    """Return for each boundary whether it bounds something that nothing drawn bounds.
+
+    One that lies on drawn curves all along, within the distance at which loose ends are joined, adds nothing: taken twice, the
+    two would be one outline that is drawn twice, or, where it is made of stretches of several, lines that overlap.
+
+    Args:
+        rings: boundaries, drawing units. drawn: curves that are machined, drawing units. size: of the unit, mm.
+    """
+    from ...geometry.distance import DistanceField
+    from ...geometry.primitives import points_at
+    from ...geometry.sample import bounds, union
+
+    around = union([bounds(curve) for ring in rings for curve in ring if has_place(curve)])
+    if around is None:
+        return [True] * len(rings)
+    spare = tolerances.JOIN / size
+    x0, y0, x1, y1 = around[0] - spare, around[1] - spare, around[2] + spare, around[3] + spare
+    boxed = ((curve, bounds(curve)) for curve in drawn if has_place(curve))
+    near = [curve for curve, box in boxed if box[0] <= x1 and box[2] >= x0 and box[1] <= y1 and box[3] >= y0]
+    to = Affine(size, 0.0, 0.0, size, -x0 * size, -y0 * size)
+    rows = _rows(near, to)
+    if not len(rows):
+        return [True] * len(rings)
+    field, found = DistanceField.of(rows), []
+    for ring in rings:
+        mine = _rows(ring, to)
+        points = [points_at(mine, np.full(len(mine), share)) for share in _SHARES] if len(mine) else []
+        found.append(not points or bool((field.nearest(np.concatenate(points))[0] > tolerances.JOIN).any()))
+    return found
+
+
+def _rows(curves: Sequence[Curve], to: Affine) -> Any:
+    """Return curves as rows of lines and arcs, mm."""
+    from ...geometry.chaining.overlap import rows_of
+    from ...geometry.chaining.pieces import pieces_from
+
+    placed = (transformed(curve, to) for curve in curves)
+    pieces, _ = pieces_from([Entity(number, curve) for number, curve in enumerate(placed, 1) if curve is not None])
+    return rows_of(pieces)[0]

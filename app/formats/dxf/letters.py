@@ -1,0 +1,144 @@
+"""Words to curves: a run of letters of one look, set on a baseline along X, and what all the runs of a text entity are together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+from ...geometry.affine import IDENTITY, Affine, transformed
+from ...geometry.lettering import placed
+from ...model.curves import Curve, Line, Point
+from .codes import Bar
+from .fonts import FontName, Fonts, Set
+
+_THICK = 1 / 14
+"""How thick lines along outlined words are, in heights of the capitals."""
+
+
+class LeftOutError(Exception):
+    """A text is of a sort that is not read; the argument is what it is called in the account of what is left out."""
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What letters look like.
+
+    Attributes:
+        font: as the drawing names it.
+        height: of the capitals, drawing units, > 0.
+        width: factor of all lengths along the baseline, > 0.
+        oblique: by so much uprights lean to the right, degrees.
+        tracking: factor of the distance from letter to letter.
+        bars: lines along the words.
+    """
+
+    font: FontName
+    height: float
+    width: float = 1.0
+    oblique: float = 0.0
+    tracking: float = 1.0
+    bars: frozenset[Bar] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
+class Lettering:
+    """What a text draws.
+
+    Attributes:
+        strokes: that are followed and bound nothing. outlines: closed contours.
+        layer, kind: of the entity.
+        at: where it begins.
+        fonts: ("", each font that it is drawn in), and for the engraving face (the font that it stands for, "").
+        lacking: letters that are in no font, and so are missing.
+    """
+
+    strokes: tuple[Curve, ...]
+    outlines: tuple[Curve, ...]
+    layer: str = "0"
+    kind: str = "TEXT"
+    at: Point = (0.0, 0.0)
+    fonts: tuple[tuple[str, str], ...] = ()
+    lacking: str = ""
+
+    @property
+    def size(self) -> int:
+        """How many curves there are."""
+        return len(self.strokes) + len(self.outlines)
+
+    def moved(self, to: Affine, layer: str = "") -> Lettering:
+        """Return it under a map; what is on layer 0 goes to `layer`, where one is named."""
+        strokes, outlines = (tuple(_moved(curves, to)) for curves in (self.strokes, self.outlines))
+        return replace(self, strokes=strokes, outlines=outlines, at=to.point(self.at),
+                       layer=layer if layer and self.layer == "0" else self.layer)
+
+
+def _moved(curves: Iterable[Curve], to: Affine) -> Iterator[Curve]:
+    return (curve for each in curves if (curve := transformed(each, to)) is not None)
+
+
+@dataclass(frozen=True)
+class Run:
+    """Some words of one look, set with some letters."""
+
+    words: str
+    look: Look
+    letters: Set
+
+    @property
+    def unit(self) -> float:
+        """Drawing units of one unit of the face, across the baseline."""
+        return self.look.height / self.letters.face.capital
+
+    @property
+    def advance(self) -> float:
+        """From the beginning of the words to where more of them go on, drawing units."""
+        along = self._along()
+        return along[-1] if along else 0.0
+
+    @property
+    def ink(self) -> float:
+        """From the beginning of the words to the end of what is drawn, drawing units."""
+        return max(self.advance - self.letters.face.between * self.unit * self.look.width, 0.0) if self.words else 0.0
+
+    def _along(self) -> list[float]:
+        """Return where each letter begins, and where the last one ends."""
+        factor = self.unit * self.look.width
+        found = list(placed(self.letters.face, self.words))
+        ends = [at + glyph.advance for glyph, at in found[-1:]]
+        return [x * factor * self.look.tracking for x in [*(at for _, at in found), *ends]]
+
+    def curves(self, x: float, y: float) -> Iterator[tuple[Curve, bool]]:
+        """Yield the curves of the words that begin at (x, y) on the baseline, and whether each is a stroke."""
+        unit, lean = self.unit, math.tan(math.radians(self.look.oblique))
+        for letter, along in zip(self.words, self._along(), strict=False):
+            to = Affine(unit * self.look.width, unit * lean, 0.0, unit, x + along, y)
+            yield from ((curve, letter in self.letters.strokes) for curve in _moved(self.letters.face.glyphs[letter].curves, to))
+        for bar in self.look.bars:
+            at = y + bar.value * self.look.height
+            yield from bar_curves((x + lean * (at - y), at), self.ink, self.look.height, not self.letters.font)
+
+
+def run_of(words: str, look: Look, fonts: Fonts) -> Run:
+    """Return words with the letters that they are set with."""
+    return Run(words, look, fonts.of(look.font, words))
+
+
+def bar_curves(start: Point, length: float, height: float, stroke: bool) -> Iterator[tuple[Curve, bool]]:
+    """Yield a level line: one stroke, or the outline of a bar about it, for letters of some height."""
+    (x, y), half = start, height * _THICK / 2
+    if stroke:
+        yield Line((x, y), (x + length, y)), True
+        return
+    corners = [(x, y - half), (x + length, y - half), (x + length, y + half), (x, y + half)]
+    yield from ((Line(a, b), False) for a, b in zip(corners, corners[1:] + corners[:1], strict=True))
+
+
+def lettered(curves: Iterable[tuple[Curve, bool]], runs: Iterable[Run], to: Affine = IDENTITY) -> Lettering:
+    """Return what curves (and whether each is a stroke) of some runs are together, under a map."""
+    drawn = list(curves)
+    letters = [("" if run.letters.font else run.look.font.said, run.letters) for run in runs if run.words.strip()]
+    strokes, outlines = (tuple(curve for curve, stroke in drawn if stroke is wanted) for wanted in (True, False))
+    fonts = tuple(dict.fromkeys((said, each.font) for said, each in letters))
+    lacking = "".join(dict.fromkeys(letter for _, each in letters for letter in each.lacking))
+    return Lettering(strokes, outlines, fonts=fonts, lacking=lacking).moved(to)

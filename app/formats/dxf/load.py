@@ -1,0 +1,153 @@
+"""Bytes to a DXF document, text or binary, sound or damaged; everything else is refused in one sentence."""
+
+from __future__ import annotations
+
+import io
+import logging
+import re
+from collections import Counter
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ...core.errors import InputError
+from ..drawing_account import MOST_CURVES
+from .light_ezdxf import load_ezdxf
+from .numbers import NO_COMMAS, Commas, with_points
+from .splines import MOST_POINTS, too_many
+
+_BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
+_SECTION = re.compile(rb"^\s*0[ \t]*\r?[\n\r][ \t]*SECTION", re.MULTILINE)
+_CODEPAGE = re.compile(rb"\$DWGCODEPAGE[ \t]*\r?\n[ \t]*3[ \t]*\r?\n[ \t]*(\S+)")
+_VERSION = re.compile(rb"\$ACADVER[ \t]*\r?\n[ \t]*1[ \t]*\r?\n[ \t]*(AC\d+)")
+logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it has to say is in our own findings
+_HEAD, _TAIL = 1 << 16, 1 << 12
+MOST_BYTES = 200 << 20
+"""A larger file would take gigabytes before anything of it is known."""
+_ENDLESS = re.compile(rb"^[ \t]*0[ \t]*\r?\n(SPLINE|LWPOLYLINE)[ \t]*\r?\n(?:[ \t]*[1-9]\d*[ \t]*\r?\n[^\n]*+\n)*+", re.MULTILINE)
+_POINT = re.compile(rb"^[ \t]*1([01])[ \t]*\r?\n[^\n]*\n[ \t]*2[01][ \t]*\r?\n", re.MULTILINE)
+_SUSPECT = 1 << 20
+"""Bytes of an entity; a shorter one has not too many points."""
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """A document of the library, and what had to be done to read it.
+
+    Attributes:
+        repaired: how many faults in it had to be repaired.
+        commas: where decimal commas stood, if they did.
+    """
+
+    document: Any
+    repaired: int = 0
+    commas: Commas = NO_COMMAS
+
+
+def load(data: bytes, name: str) -> Loaded:
+    """Return what a file holds.
+
+    Args:
+        data: the whole file.
+        name: for messages.
+
+    Raises:
+        InputError: the data is empty, no DXF, cut short, or damaged beyond repair; or a number in it is none.
+    """
+    _refuse_others(data, name)
+    try:
+        return Loaded(_probed(_load_sound(data)))
+    except Exception as fault:  # whatever a parser makes of a damaged file: the repairing reader gets its turn
+        reason = fault
+    commas = Commas(data) if data.startswith(_BINARY) else with_points(data, name)
+    if commas.count:
+        try:
+            return Loaded(_probed(_load_sound(commas.data)), 0, replace(commas, data=b""))
+        except Exception as fault:  # it has other faults too
+            data, reason = commas.data, fault
+    try:
+        load_ezdxf()
+        from ezdxf import recover
+
+        document, auditor = recover.read(io.BytesIO(data))
+        _probed(document)
+    except Exception as error:  # a third-party parser on any bytes at all: its faults must not reach the user raw
+        raise InputError(f"{name}: the DXF is damaged and cannot be repaired ({_short(reason)}); "
+                         "save it again from the CAD program.") from error
+    return Loaded(document, max(1, len(auditor.errors) + len(auditor.fixes)), replace(commas, data=b""))
+
+
+def _refuse_others(data: bytes, name: str) -> None:
+    if not data.strip():
+        raise InputError(f"{name}: the file is empty; export the drawing again.")
+    if len(data) > MOST_BYTES:
+        raise InputError(f"{name}: the file has {len(data) >> 20} MB, more than {MOST_BYTES >> 20}; save the drawing in parts.")
+    if data.startswith(_BINARY):
+        return
+    if re.match(rb"AC10\d\d\x00", data):
+        raise InputError(f"{name}: this is a DWG file; save the drawing as DXF.")
+    if not _SECTION.search(data[:_HEAD]):
+        raise InputError(f"{name}: this is not a DXF file, no section begins in it; export the drawing as DXF (ASCII or binary).")
+    if b"EOF" not in data[-_TAIL:]:
+        raise InputError(f"{name}: the DXF is cut short, its end mark EOF is missing after {len(data)} bytes; copy or export it again.")
+    _refuse_endless_curves(data, name)
+
+
+def _refuse_endless_curves(data: bytes, name: str) -> None:
+    """Refuse splines and polylines of more points than are read, before the library makes objects of them all."""
+    at = 0
+    for word in re.finditer(rb"(?:LWPOLY|SP)LINE", data):
+        begin = data.rfind(b"\n", 0, max(data.rfind(b"\n", 0, word.start()), 0)) + 1
+        found = _ENDLESS.match(data, begin) if word.start() >= at else None
+        if found is None:
+            continue
+        at = found.end()
+        if found.end() - found.start() > _SUSPECT:
+            kinds = Counter(each[1] for each in _POINT.finditer(found[0]))
+            most, what = (MOST_POINTS, "spline") if found[1] == b"SPLINE" else (MOST_CURVES, "polyline")
+            if kinds and max(kinds.values()) > most:
+                line = data.count(b"\n", 0, found.start()) + 1
+                raise InputError(f"{name}:{line}: {too_many(max(kinds.values()), most, what)}")
+
+
+def _load_sound(data: bytes) -> Any:
+    load_ezdxf()
+    from ezdxf.document import Drawing
+    from ezdxf.filemanagement import read
+    from ezdxf.lldxf.encoding import decode_dxf_unicode
+    from ezdxf.lldxf.tagger import binary_tags_loader
+
+    if data.startswith(_BINARY):
+        return Drawing.load(binary_tags_loader(data, errors="surrogateescape"))
+    if b"\\U+" not in data:
+        return read(io.TextIOWrapper(io.BytesIO(data), encoding=_encoding(data[:_HEAD]), errors="surrogateescape"))
+    text = decode_dxf_unicode(data.decode(_encoding(data[:_HEAD]), "surrogateescape"))
+    return read(io.StringIO(text, newline=None))
+
+
+def _probed(document: Any) -> Any:
+    """Return a document whose tables and layouts can be walked; the library loads some that fall apart when they are looked at."""
+    for layout in document.layouts:
+        _ = layout.name, layout.is_modelspace, sum(1 for _ in layout)
+    for layer in document.layers:
+        _ = layer.dxf.name, layer.is_off(), layer.is_frozen(), layer.is_locked(), layer.rgb, layer.dxf.color
+    for block in document.blocks:
+        _ = block.name, sum(1 for _ in block)
+    return document
+
+
+def _encoding(head: bytes) -> str:
+    """Return the text encoding: UTF-8 since R2007, before that the code page that the header names."""
+    version, page = _VERSION.search(head), _CODEPAGE.search(head)
+    if version and version[1] >= b"AC1021":
+        return "utf-8"
+    if page is None:
+        return "cp1252"
+    from ezdxf.tools.codepage import toencoding
+
+    return str(toencoding(page[1].decode("ascii", "replace")))
+
+
+def _short(error: Exception) -> str:
+    """Return the first line of an error's text, for a message of one line."""
+    lines = str(error).splitlines()
+    return (lines[0] if lines else type(error).__name__)[:120]

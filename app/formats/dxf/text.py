@@ -1,0 +1,109 @@
+"""TEXT, and the attributes of inserted blocks, to curves: one line of letters, aligned, stretched, leaning, mirrored as the entity says."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ...geometry.affine import Affine
+from ...model.curves import Point
+from .codes import stretches
+from .curves import NoLengthError, plane_of
+from .fonts import Fonts, style_font
+from .letters import LeftOutError, Lettering, Look, Run, lettered, run_of
+
+MOST_LETTERS = 10_000
+"""Of one text; more is no text."""
+
+_BACKWARD, _UPSIDE_DOWN = 2, 4
+_VERTICAL = 4
+_LEFT, _CENTRE, _RIGHT, _ALIGNED, _MIDDLE, _FIT = range(6)
+_BASELINE, _BOTTOM, _HALF, _TOP = range(4)
+
+
+def text_lettering(entity: Any, fonts: Fonts) -> Lettering:
+    """Return what a TEXT or an ATTRIB draws, drawing units, seen from above.
+
+    Raises:
+        NoLengthError: its height is none.
+        LeftOutError: its letters stand below one another, or are too many.
+    """
+    dxf, kind = entity.dxf, entity.dxftype()
+    style = fonts.style(entity.dxf.style)
+    if style is not None and style.dxf.flags & _VERTICAL:
+        raise LeftOutError(f"{kind} (vertical)")
+    if len(dxf.text) > MOST_LETTERS:
+        raise LeftOutError(f"{kind} (of more than {MOST_LETTERS} letters)")
+    place = _Place.of(dxf)
+    if not (dxf.height > 0 and dxf.width > 0):
+        raise NoLengthError(place.at)
+    look = Look(style_font(style), float(dxf.height), float(dxf.width), float(dxf.oblique))
+    runs = [run_of(words, replace(look, bars=bars), fonts) for words, bars in stretches(dxf.text)]
+    stretched = place.stretched(runs)
+    to = plane_of(entity, dxf.insert.z).after(_frame(place, stretched, int(dxf.text_generation_flag)))
+    starts = _starts(stretched)
+    made = lettered((pair for run, x in zip(stretched, starts, strict=True) for pair in run.curves(x, 0.0)), stretched, to)
+    return replace(made, layer=dxf.layer, kind=kind, at=plane_of(entity, dxf.insert.z).point(place.at))
+
+
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """Where a line of letters stands.
+
+    Attributes:
+        at: the point that it is aligned to. turn: of its baseline, radians.
+        across: _LEFT, _CENTRE or _RIGHT of it, or stretched as _ALIGNED or _FIT. up: what lies at its height, as of DXF, or _MIDDLE.
+        length: to which it is stretched, 0 = not.
+    """
+
+    at: Point
+    turn: float
+    across: int
+    up: int
+    length: float = 0.0
+
+    @staticmethod
+    def of(dxf: Any) -> _Place:
+        first = (float(dxf.insert.x), float(dxf.insert.y))
+        second = (float(dxf.align_point.x), float(dxf.align_point.y)) if dxf.hasattr("align_point") else first
+        across, up, turn = int(dxf.halign), int(dxf.get("valign", 0)), math.radians(dxf.rotation)
+        if across in (_ALIGNED, _FIT):
+            length = math.dist(first, second)
+            turn = math.atan2(second[1] - first[1], second[0] - first[0]) if length else turn
+            return _Place(first, turn, across, _BASELINE, length)
+        if across == _MIDDLE:
+            return _Place(second, turn, _CENTRE, _MIDDLE)
+        return _Place(first if across == _LEFT and up == _BASELINE else second, turn, across, up)
+
+    def stretched(self, runs: list[Run]) -> list[Run]:
+        """Return runs that fill the length between two points: wider, or larger altogether."""
+        ink = _ink(runs)
+        if not self.length or not ink:
+            return runs
+        factor = self.length / ink
+        return [replace(run, look=replace(run.look, width=run.look.width * factor) if self.across == _FIT else
+                        replace(run.look, height=run.look.height * factor)) for run in runs]  # fmt: skip
+
+
+def _starts(runs: list[Run]) -> list[float]:
+    starts = [0.0]
+    for run in runs:
+        starts.append(starts[-1] + run.advance)
+    return starts[:-1]
+
+
+def _ink(runs: list[Run]) -> float:
+    return _starts(runs)[-1] + runs[-1].ink if runs else 0.0
+
+
+def _frame(place: _Place, runs: list[Run], flags: int) -> Affine:
+    """Return the map from a line that begins in zero to its place in the plane of the entity."""
+    height = max((run.look.height for run in runs), default=0.0)
+    below = max((run.letters.face.below * run.unit for run in runs), default=0.0)
+    right = {_CENTRE: _ink(runs) / 2, _RIGHT: _ink(runs)}.get(place.across, 0.0)
+    down = {_BOTTOM: -below, _HALF: height / 2, _TOP: height, _MIDDLE: (height - below) / 2}.get(place.up, 0.0)
+    along, up = -1.0 if flags & _BACKWARD else 1.0, -1.0 if flags & _UPSIDE_DOWN else 1.0
+    flipped = Affine(along, 0.0, 0.0, up).after(Affine(x0=-right, y0=-down))
+    c, s = math.cos(place.turn), math.sin(place.turn)
+    return Affine(c, -s, s, c, *place.at).after(flipped)

@@ -1,0 +1,265 @@
+"""Job files: tools, operations, stock and origin as TOML; resources/samples/job.toml shows and explains every key."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ...core.errors import InputError
+from ...core.toml_tables import brief, parsed
+from ...model.job import Copies, Job, OriginXY, OriginZ, Stock
+from ...model.operation import Order
+from ...model.part import Part, Units
+from ...model.tool import Tool, ToolKind
+from .operations import operations_of
+from .tables import (
+    JobText,
+    Table,
+    one_of,
+    read_angle,
+    read_feeds,
+    read_flag,
+    read_holder,
+    read_number,
+    read_text,
+    read_texts,
+    read_whole,
+    word,
+)
+
+UNITS = {"mm": Units.MM, "in": Units.INCH, "inch": Units.INCH, "cm": Units.CM, "m": Units.M, "ft": Units.FOOT, "um": Units.MICRON}
+OUT_UNITS = {"mm": Units.MM, "in": Units.INCH, "inch": Units.INCH}
+ORIGIN_XY = {"drawing": OriginXY.DRAWING, "lower-left": OriginXY.LOWER_LEFT, "centre": OriginXY.CENTRE, "center": OriginXY.CENTRE}
+ORIGIN_Z = {"top": OriginZ.TOP, "bottom": OriginZ.BOTTOM}
+TABLES = ("stock", "origin", "heights", "drawing", "output", "copies", "keep_out", "tool", "operation")
+_LENGTHS = ("flute_length", "overall_length", "stick_out", "shank_diameter", "length_offset")
+TOOL_KEYS: dict[str, Callable[[Any], Any]] = {
+    "number": read_whole, "diameter": read_number, "kind": word({kind.value: kind for kind in ToolKind}, "kind of tool"),
+    "name": read_text, "flutes": read_whole,
+    **dict.fromkeys(("spindle_speed", "feed_rate", "plunge_rate", "corner_radius", "tip_diameter"), read_number),
+    "tip_angle": read_angle, **dict.fromkeys(_LENGTHS, read_number), "holder": read_holder, "remark": read_text, "feeds": read_feeds,
+}
+"""Keys of a [[tool]], and how each is read."""
+
+ORIGIN_HELP = ("work origin: drawing (its own zero, default), lower-left or centre (of the stock); "
+               "add ,bottom for Z 0 at the stock's underside rather than its top, such as centre,bottom")
+
+
+def read_units(text: str) -> Units:
+    """Return units by name: mm, in, cm, m, ft, um."""
+    return one_of(text, UNITS, "unit")
+
+
+def read_out_units(text: str) -> Units:
+    """Return the units of an NC program by name: mm or in."""
+    return one_of(text, OUT_UNITS, "unit of an NC program")
+
+
+def parse_origin(text: str) -> tuple[OriginXY | None, OriginZ | None]:
+    """Return the work origin that a text such as `centre,bottom`, `lower-left` or `bottom` names; None = not said.
+
+    Raises:
+        InputError: a word is no origin, or a second one of its sort.
+    """
+    xy: OriginXY | None = None
+    z: OriginZ | None = None
+    for said in text.split(","):
+        if said.strip().lower() in ORIGIN_Z and z is None:
+            z = one_of(said, ORIGIN_Z, "height of the origin")
+        elif said.strip().lower() in ORIGIN_XY and xy is None:
+            xy = one_of(said, ORIGIN_XY, "origin in the plane")
+        else:
+            raise InputError(f"'{text}' is no origin; use one of drawing, lower-left, centre, and then ,top or ,bottom if need be")
+    return xy, z
+
+
+@dataclass(frozen=True)
+class JobFile:
+    """What a job file says.
+
+    Attributes:
+        job: with an empty part.
+        units: of a drawing that names none, or None.
+        tables: that are in the file; what belongs to others has its default.
+    """
+
+    job: Job
+    units: Units | None
+    tables: frozenset[str] = frozenset()
+
+
+def read_job(name: str, data: bytes) -> JobFile:
+    """Return the job that a TOML text describes; what it leaves out takes its default.
+
+    Args:
+        name: shown in errors.
+        data: the file's bytes, UTF-8.
+
+    Raises:
+        InputError: `name:line: key …`, what is wrong and what is expected.
+    """
+    text, tree = job_tree(name, data, "job.toml")
+    return read_job_tables(text, tree)
+
+
+def job_tree(name: str, data: bytes, sample: str) -> tuple[JobText, dict[str, Any]]:
+    """Return the text and the tables of a TOML file; `sample` shows how such a file is written.
+
+    Raises:
+        InputError: it is none.
+    """
+    try:
+        text = data.decode("utf-8-sig")
+        tree = parsed(text)
+    except UnicodeDecodeError as error:
+        raise InputError(f"{name}: byte {error.start} is no UTF-8; save the file as UTF-8 text") from error
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{name}:{with_line(brief(str(error)), text)}; correct it as resources/samples/{sample} shows") from error
+    return JobText(name, tuple(text.splitlines())), tree
+
+
+def read_job_tables(text: JobText, tree: dict[str, Any]) -> JobFile:
+    """Return the job of a file's tables.
+
+    Raises:
+        InputError: as `read_job`.
+    """
+    return _Reader(text, tree).job_file()
+
+
+def read_kept_job(text: JobText, tree: dict[str, Any]) -> Job:
+    """Return the job of tables that `job_write` has written, with an empty part; it may not be fit to be computed yet.
+
+    Raises:
+        InputError: as `read_job`.
+    """
+    return _Reader(text, tree, kept=True).job_file().job
+
+
+def with_line(message: str, text: str) -> str:
+    """Turn tomllib's `… (at line 3, column 4)` into `3: …, column 4`."""
+    match = re.fullmatch(r"(.*) \(at line (\d+), (column \d+)\)", message)
+    if match:
+        return f"{match[2]}: {match[1]}, {match[3]}"
+    return f"{text.count(chr(10)) + 1}: {message.removesuffix(' (at end of document)')}"
+
+
+class _Reader:
+    """Reads the tables of one file; every error names the line."""
+
+    def __init__(self, text: JobText, tree: dict[str, Any], kept: bool = False) -> None:
+        """Begin with a file's tables; `kept`: as the program keeps them, also where they have no effect or lack something."""
+        self._text, self._tree, self._kept = text, tree, kept
+
+    def _wrong(self, table: str, text: str) -> InputError:
+        return InputError(f"{self._text.name}:{self._text.line('', 0, table)}: {table} {text}")
+
+    def _table(self, path: str) -> Table:
+        values = self._tree.get(path, {})
+        if not isinstance(values, dict):
+            raise self._wrong(path, f"is a table; write [{path}] and its keys below")
+        return Table(self._text, path, 0, values)
+
+    def _tables(self, path: str) -> list[Table]:
+        values = self._tree.get(path, [])
+        if not isinstance(values, list) or not all(isinstance(each, dict) for each in values):
+            raise self._wrong(path, f"is a list of tables; write [[{path}]] before each")
+        return [Table(self._text, path, index, each) for index, each in enumerate(values)]
+
+    def job_file(self) -> JobFile:
+        """Return everything that the file says."""
+        for key in self._tree:
+            if key not in TABLES:
+                raise self._wrong(key, f"is no table of a job file; use {', '.join(TABLES)}")
+        values: dict[str, Any] = {**self._origin(), **self._heights(), **self._output()}
+        drawing = self._drawing()
+        units = drawing.pop("units", None)
+        job = self._text.built("stock", 0, lambda: replace(Job(Part()), **values, **drawing, **self._stock(), **self._keep_out()))
+        tools, operations = self._tool_list(), tuple(operations_of(self._tables("operation"), self._kept))
+        tools = tools if "tool" in self._tree and (tools or self._kept) else job.tools
+        operations = operations if "operation" in self._tree and (operations or self._kept) else job.operations
+        copies = self._text.built("copies", 0, self._copies)
+        job = replace(job, tools=tools, operations=operations, copies=copies)
+        for index, operation in enumerate(operations if "operation" in self._tree and not self._kept else ()):
+            self._text.built("operation", index, lambda each=operation: job.cutter(each))  # type: ignore[misc]
+        return JobFile(job, units, frozenset(self._tree))
+
+    def _stock(self) -> dict[str, Any]:
+        table = self._table("stock")
+        table.take("margin", read_number)
+        table.take("thickness", read_number)
+        table.done("margin, thickness")
+        return {"stock": Stock(**table.taken)}
+
+    def _origin(self) -> dict[str, Any]:
+        table = self._table("origin")
+        table.take("xy", word(ORIGIN_XY, "origin in the plane"), "origin_xy")
+        table.take("z", word(ORIGIN_Z, "height of the origin"), "origin_z")
+        table.done("xy, z")
+        return table.taken
+
+    def _heights(self) -> dict[str, Any]:
+        table = self._table("heights")
+        table.take("safe_z", read_number)
+        table.take("retract_z", read_number)
+        table.done("safe_z, retract_z")
+        return table.taken
+
+    def _drawing(self) -> dict[str, Any]:
+        table = self._table("drawing")
+        table.take("units", word(UNITS, "unit"))
+        table.take("layers", read_texts, "layer_names")
+        table.take("join_tolerance", read_number)
+        table.done("units, layers, join_tolerance")
+        if not 0 <= table.taken.get("join_tolerance", 0.0) < 1e5:
+            raise table.error("join_tolerance", "must be 0 or more, in mm")
+        return table.taken
+
+    def _copies(self) -> Copies:
+        table = self._table("copies")
+        table.take("columns", read_whole)
+        table.take("rows", read_whole)
+        table.take("dx", read_number)
+        table.take("dy", read_number)
+        table.done("columns, rows, dx, dy")
+        for key, count in (("dx", "columns"), ("dy", "rows")):
+            if table.taken.get(key) and table.taken.get(count, 1) == 1 and not self._kept:
+                raise table.error(key, f"has no effect without {count}; add {count} = 2, or take it out")
+        return Copies(**table.taken)
+
+    def _keep_out(self) -> dict[str, Any]:
+        table = self._table("keep_out")
+        table.take("layers", read_texts, "keep_out_layers")
+        table.take("height", read_number, "keep_out_height")
+        table.done("layers, height")
+        if table.taken.get("keep_out_height") and not table.taken.get("keep_out_layers") and not self._kept:
+            raise table.error("height", "has no effect without layers; add layers = ['clamps'], or take it out")
+        if not 0 <= table.taken.get("keep_out_height", 0.0) < 1e5:
+            raise table.error("height", "must be 0 or more and less than 100000, in mm above the stock's top")
+        return table.taken
+
+    def _output(self) -> dict[str, Any]:
+        table = self._table("output")
+        table.take("post", read_text)
+        table.take("units", word(OUT_UNITS, "unit of an NC program"), "out_units")
+        table.take("order", word({order.value: order for order in Order}, "order"))
+        table.take("exact_path", read_flag)
+        table.done("post, units, order, exact_path")
+        return table.taken
+
+    def _tool_list(self) -> tuple[Tool, ...]:
+        tools: list[Tool] = []
+        for index, table in enumerate(self._tables("tool")):
+            for key, read in TOOL_KEYS.items():
+                table.take(key, read)
+            table.done(", ".join(TOOL_KEYS))
+            for key in ("number", "diameter"):
+                if key not in table.taken:
+                    raise table.error(key, f"is missing in this [[tool]]; add {key} = …")
+            tool = self._text.built("tool", index, lambda taken=table.taken: Tool(**taken))  # type: ignore[misc]
+            if any(other.number == tool.number for other in tools) and not self._kept:
+                raise table.error("number", f"{tool.number} is taken by another tool; give each its own")
+            tools.append(tool)
+        return tuple(tools)

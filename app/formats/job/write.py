@@ -1,0 +1,96 @@
+"""A job as the TOML text of a job file: every tool, operation and setting, from which the same job is read."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, TypeVar
+
+from ...core.toml_tables import spelled
+from ...model.job import Job
+from ...model.operation import Cut, Operation, kind_word
+from ...model.part import Units
+from ...model.tool import Tool, shape_keys
+from ..tools.library import shortest_degrees
+from .operations import KEYS
+from .toml import ORIGIN_XY, ORIGIN_Z, OUT_UNITS, TOOL_KEYS, UNITS
+
+Value = TypeVar("Value")
+_USUAL_CUT = Cut(tool=1)
+
+
+def job_lines(job: Job, units: Units | None = None) -> Iterator[str]:
+    """Yield the lines of a job file, all but the part.
+
+    Args:
+        job: what they say.
+        units: of a drawing that names none, or None.
+    """
+    yield from _table("stock", {"margin": job.stock.margin, "thickness": job.stock.thickness})
+    yield from _table("origin", {"xy": word_of(ORIGIN_XY, job.origin_xy), "z": word_of(ORIGIN_Z, job.origin_z)})
+    yield from _table("heights", {"safe_z": job.safe_z, "retract_z": job.retract_z})
+    drawing = {"units": word_of(UNITS, units)} if units else {}
+    yield from _table("drawing", {**drawing, "layers": job.layer_names, "join_tolerance": job.join_tolerance})
+    yield from _table("output", {"post": job.post, "units": word_of(OUT_UNITS, job.out_units), "order": job.order,
+                                 "exact_path": job.exact_path})  # fmt: skip
+    copies = job.copies
+    yield from _table("copies", {"columns": copies.columns, "rows": copies.rows, "dx": copies.dx, "dy": copies.dy})
+    yield from _table("keep_out", {"layers": job.keep_out_layers, "height": job.keep_out_height})
+    for tool in job.tools:
+        yield from tool_lines(tool)
+    for operation in job.operations:
+        yield from _table("operation", dict(_operation(operation)), several=True)
+
+
+def empty_lists(job: Job) -> Iterator[str]:
+    """Yield the lines that say that a job has no tool, or no operation; they stand before all tables."""
+    for name, things in (("tool", job.tools), ("operation", job.operations)):
+        if not things:
+            yield f"{name} = []"
+
+
+def _table(name: str, values: Mapping[str, Any], several: bool = False) -> Iterator[str]:
+    yield ""
+    yield f"[[{name}]]" if several else f"[{name}]"
+    for key, value in values.items():
+        yield f"{key} = {spelled(value)}"
+
+
+def word_of(words: Mapping[str, Value], meant: Value) -> str:
+    """Return the first word that stands for a value."""
+    return next(word for word, value in words.items() if value is meant)
+
+
+def tool_lines(tool: Tool) -> Iterator[str]:
+    """Yield the lines of a [[tool]]."""
+    usual = Tool(tool.number, tool.diameter)
+    always = {"number", "diameter", "kind", "name", "flutes", "spindle_speed", "feed_rate", "plunge_rate", *shape_keys(tool.kind)}
+    keys: Iterable[str] = (key for key in TOOL_KEYS if key != "feeds" and (key in always or getattr(tool, key) != getattr(usual, key)))
+    yield from _table("tool", {key: angle_said(tool.tip_angle) if key == "tip_angle" else getattr(tool, key) for key in keys}, several=True)
+    for row in tool.feeds:
+        yield from _table("tool.feeds", {"material": row.material, "surface_speed": row.surface_speed,
+                                         "feed_per_tooth": row.feed_per_tooth, "plunge_share": row.plunge_share}, several=True)
+
+
+def _operation(operation: Operation) -> Iterator[tuple[str, Any]]:
+    """Yield keys and values: those that belong to the kind, and others where they are not as usual."""
+    kind = kind_word(operation)
+    for key, (_, target, kinds) in KEYS.items():
+        if kind not in kinds and (not target.startswith(("cut.", "entry.")) or _at(_USUAL_CUT, target) == _at(operation.cut, target)):
+            continue
+        value: Any = kind if key == "kind" else _at(operation.cut if target.startswith(("cut.", "entry.")) else operation, target)
+        if value is not None:
+            yield key, angle_said(value) if key == "entry_angle" else value
+
+
+def _at(holder: Any, target: str) -> Any:
+    """Return what lies at the end of a dotted name; "cut." leads nowhere."""
+    for name in target.removeprefix("cut.").split("."):
+        holder = getattr(holder, name)
+    return holder
+
+
+def angle_said(angle: float) -> float | str:
+    """Return degrees where some number of degrees is exactly the angle in radians, else the radians in words."""
+    degrees = shortest_degrees(angle)
+    return degrees if math.radians(degrees) == angle else f"{angle!r} rad"

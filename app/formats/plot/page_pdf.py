@@ -1,0 +1,69 @@
+"""Sheets as a PDF file, written without Qt: polylines at true size, dashes by the reader, one page a sheet."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterable, Iterator
+
+from .flat import Flat, flat_drawing, flat_frame
+from .page import Page, Pen
+
+_POINTS_PER_MM = 72 / 25.4
+
+
+def pages_pdf(pages: Iterable[Page], title: str) -> bytes:
+    """Return all sheets as PDF 1.4.
+
+    Raises:
+        GeometryError: a spline cannot be followed.
+    """
+    words = ("\ufeff" + title).encode("utf-16-be").hex()
+    objects = [b"<< /Type /Catalog /Pages 2 0 R >>", b"", f"<< /Title <{words}> >>".encode()]
+    kids: list[str] = []
+    for page in pages:
+        content = zlib.compress("\n".join(_content(page)).encode("ascii"))
+        kids.append(f"{len(objects) + 1} 0 R")
+        size = f"{_n(page.width * _POINTS_PER_MM)} {_n(page.height * _POINTS_PER_MM)}"
+        objects.append(f"<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {size}] /Resources << >> /Contents {len(objects) + 2} 0 R >>".encode())
+        objects.append(f"<< /Length {len(content)} /Filter /FlateDecode >>\nstream\n".encode() + content + b"\nendstream")
+    objects[1] = f"<< /Type /Pages /Kids [{' '.join(kids)}] /Count {len(kids)} >>".encode()
+    return _file(objects)
+
+
+def _file(objects: list[bytes]) -> bytes:
+    """Return numbered objects with the table of where they begin."""
+    parts, at, begins = [b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n"], 15, []
+    for number, each in enumerate(objects, 1):
+        begins.append(at)
+        parts.append(f"{number} 0 obj\n".encode() + each + b"\nendobj\n")
+        at += len(parts[-1])
+    table = "".join(f"{begin:010d} 00000 n \n" for begin in begins)
+    parts.append(f"xref\n0 {len(objects) + 1}\n0000000000 65535 f \n{table}".encode())
+    parts.append(f"trailer\n<< /Size {len(objects) + 1} /Root 1 0 R /Info 3 0 R >>\nstartxref\n{at}\n%%EOF\n".encode())
+    return b"".join(parts)
+
+
+def _content(page: Page) -> Iterator[str]:
+    """Yield what draws a page; its unit is made 1 mm."""
+    x0, y0, x1, y1 = page.window
+    yield f"{_POINTS_PER_MM:.8f} 0 0 {_POINTS_PER_MM:.8f} 0 0 cm 1 J 1 j"
+    yield f"q {_n(x0)} {_n(y0)} {_n(x1 - x0)} {_n(y1 - y0)} re W n"
+    yield from _lines(flat_drawing(page))
+    yield "Q"
+    yield from _lines(flat_frame(page))
+
+
+def _lines(flats: Iterable[Flat]) -> Iterator[str]:
+    at: Pen | None = None
+    for flat in flats:
+        if flat.pen != at:
+            at = flat.pen
+            colour = " ".join(_n(int(at.colour[k : k + 2], 16) / 255) for k in (1, 3, 5))
+            yield f"{colour} RG {colour} rg {_n(at.width)} w [{' '.join(map(_n, at.dash))}] 0 d"
+        first, *others = [f"{x:.5f} {y:.5f}" for x, y in flat.points.tolist()]
+        yield f"{first} m {' l '.join(others)} l {'f' if flat.filled else 'S'}"
+
+
+def _n(value: float) -> str:
+    """Return a number to ten nanometres, never with an exponent."""
+    return f"{value:.5f}".rstrip("0").rstrip(".") or "0"

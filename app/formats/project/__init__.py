@@ -1,0 +1,1 @@
+"""Project files, and what is kept for recovery."""

@@ -1,0 +1,208 @@
+"""What has to be asked before a drawing can be read, or is worth asking after it: the facts, and how it is read by each answer.
+
+Readers make these where they refuse a drawing or assume something; the command line says the same by its options.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from ..core.errors import InputError
+from ..geometry.chaining.pieces import FARTHEST
+from ..model.curves import Point
+from ..model.part import Units
+from ..model.reading import Reading
+
+UNIT_WORDS = {Units.MM: "mm", Units.INCH: "inch", Units.CM: "cm", Units.M: "m", Units.FOOT: "foot", Units.MICRON: "µm"}
+_OFFERED = (Units.MM, Units.INCH, Units.M)
+_MOST_LAYOUTS = 4
+_MOST_LETTERS = 40
+"""Of a name on a button; a DXF allows 255."""
+_THIN, _TIMES = "\N{THIN SPACE}", "\N{MULTIPLICATION SIGN}"
+
+Size = tuple[float, float]
+"""Width and height, mm."""
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """One answer.
+
+    Attributes:
+        words: on its button.
+        reading: how the drawing is read then.
+        outcome: what comes of it, in a few words.
+        likely: True of the one that is most probably meant.
+        now: True of the one that the drawing is read by already.
+    """
+
+    words: str
+    reading: Reading
+    outcome: str = ""
+    likely: bool = False
+    now: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What there is to ask about a drawing: a sentence of facts, and the answers."""
+
+    text: str
+    choices: tuple[Choice, ...]
+
+
+class UndecidedError(InputError):
+    """A drawing cannot be read before somebody has said how; the text says by which options of the command line."""
+
+    def __init__(self, text: str, question: Question | None) -> None:
+        """Make an error whose `question` can be asked; None where no answer would help."""
+        super().__init__(text)
+        self.question = question
+
+
+@dataclass(frozen=True, slots=True)
+class Contents:
+    """What a file holds that can be chosen from.
+
+    Attributes:
+        layers: names of all layers. layouts: of paper space, with how many entities are in each.
+        types: of the entities that were met, in order.
+        units: that it names; None = none.
+        per_inch: user units to the inch that its generator has; None where there is no need for it. editor: that generator, or "".
+    """
+
+    layers: tuple[str, ...] = ()
+    layouts: tuple[tuple[str, int], ...] = ()
+    types: tuple[str, ...] = ()
+    units: Units | None = None
+    per_inch: float | None = None
+    editor: str = ""
+
+
+NO_CHOICE = Contents()
+"""Of a file in which there is nothing to choose."""
+
+
+def size_words(size: Size) -> str:
+    """Return a size for people, the times sign between width and height."""
+    wide, high = map(_length, size)
+    return f"{wide} {_TIMES} {high} mm"
+
+
+def _length(value: float) -> str:
+    """Return mm with three decimals at most, or three digits where that would be next to nothing."""
+    text = f"{value:,.3f}".rstrip("0").rstrip(".") if value >= 0.01 else f"{value:.3g}"
+    return text.replace(",", _THIN)
+
+
+def _scaled(size: Size, factor: float) -> Size:
+    return size[0] * factor, size[1] * factor
+
+
+def _place(x: float, y: float) -> str:
+    return f"({x:.3f}, {y:.3f})"
+
+
+def about_far(first: Point, reading: Reading, units: Units) -> Question:
+    """Ask what to do with a drawing all of which lies beyond 1 km.
+
+    Args:
+        first: place of its first curve, mm. reading: by which it lies there. units: in which it was read.
+    """
+    moved = replace(reading, how=replace(reading.how, to_zero=True))
+    choices = [Choice("Move it to zero", moved, "its lower left corner becomes zero", likely=True)]
+    for other in _OFFERED[:2]:
+        x, y = _scaled(first, other.value / units.value)
+        if other.value < units.value and max(abs(x), abs(y)) < FARTHEST:
+            choices.append(Choice(f"Take it as {UNIT_WORDS[other]}", reading.in_units(other), f"it then begins at {_place(x, y)} mm"))
+    away = math.hypot(*first) / 1e6
+    return Question(f"All of it stands more than 1 km from zero: its first curve, at {_place(*first)} mm, {away:,.1f} km away.",
+                    tuple(choices))
+
+
+def about_strays(count: int, reading: Reading) -> Question:
+    """Ask what to do with a drawing of which some curves lie beyond 1 km and none does when it is moved to zero."""
+    moved = replace(reading, how=replace(reading.how, to_zero=True))
+    what = "1 curve lies beyond 1 km and is missing." if count == 1 else f"{count} curves lie beyond 1 km and are missing."
+    return Question(what, (Choice("Move it to zero", moved, "nothing is missing then", likely=True),
+                           Choice("Keep it where it is", reading, "what lies beyond is left out", now=True)))
+
+
+def about_layouts(layouts: Mapping[str, int], reading: Reading) -> Question:
+    """Ask which layout to take of a drawing whose model space is empty; `layouts` has how many entities each holds."""
+    ranked = sorted(layouts.items(), key=lambda each: -each[1])
+    choices = tuple(Choice(f"Take layout {_short(name)}", replace(reading, how=replace(reading.how, layout=name)), _entities(count),
+                           likely=name == ranked[0][0]) for name, count in ranked[:_MOST_LAYOUTS])  # fmt: skip
+    if len(ranked) == 1:
+        return Question(f"Model space holds no curve; all that is drawn stands on the layout {_short(ranked[0][0])}.", choices)
+    return Question(f"Model space holds no curve; what is drawn stands on {len(ranked)} layouts.", choices)
+
+
+def _short(name: str) -> str:
+    return name if len(name) <= _MOST_LETTERS else f"{name[: _MOST_LETTERS - 1]}…"
+
+
+def _entities(count: int) -> str:
+    return "1 entity" if count == 1 else f"{count} entities"
+
+
+def about_frozen(layers: tuple[str, ...], curves: int, reading: Reading) -> Question:
+    """Ask whether to read what stands on frozen layers, where nothing else is drawn."""
+    words = f"Read layer {_short(layers[0])}" if len(layers) == 1 else f"Read {len(layers)} layers"
+    read = Choice(words, replace(reading, layers=layers), f"{curves} curve{'s' * (curves != 1)} on {', '.join(layers)}", likely=True)
+    return Question("Nothing of it is shown: all blocks are inserted on layers that are frozen.", (read,))
+
+
+def about_size(size: Size, whence: str, keep: Choice, others: Iterable[tuple[Units, Size]], tools: tuple[float, ...]) -> Question:
+    """Ask for the units of a drawing whose size cannot be meant.
+
+    Args:
+        size: as it was read, mm. whence: why in these units.
+        keep: the answer that this is right, after which it is read all the same.
+        others: units that may be meant, with the size in them, mm; none where no size would be better.
+        tools: diameters, mm.
+    """
+    offered = list(others)
+    likely = min(offered, key=lambda each: _oddness(each[1], tools), default=(None,))[0]
+    choices = [Choice(f"Take it as {UNIT_WORDS[each]}", keep.reading.in_units(each), size_words(found), likely=each is likely)
+               for each, found in offered]
+    choices.sort(key=lambda choice: not choice.likely)
+    tool, extreme = (max(tools), "largest") if max(size) > max(tools) else (min(tools), "smallest")
+    return Question(f"It is {size_words(size)}, and the {extreme} tool {tool:g} mm. {whence}; which unit is meant?", (*choices, keep))
+
+
+def _oddness(size: Size, tools: tuple[float, ...]) -> float:
+    """Return how far a size is from that of a usual part, some twenty tools long."""
+    return abs(math.log(max(*size, 1e-9) / (20 * max(tools))))
+
+
+def about_units(units: Units, size: Size, reading: Reading) -> Question:
+    """Ask for the units of a drawing that names none and was read in some."""
+    choices = [Choice(f"Keep {UNIT_WORDS[units]}", replace(reading, units=units), size_words(size), now=True)]
+    for other in _OFFERED[:2]:
+        if other is not units:
+            factor = other.value / units.value
+            choices.append(Choice(f"Read in {UNIT_WORDS[other]}", replace(reading, units=other), size_words(_scaled(size, factor))))
+    return Question(f"It names no units. It was read in {UNIT_WORDS[units]}.", tuple(choices))
+
+
+def about_pixels(assumed: tuple[float, str], others: Iterable[float], size_of: Callable[[Reading], Size], reading: Reading) -> Question:
+    """Ask how large the units of an SVG without a real size are.
+
+    Args:
+        assumed: units to the inch that it was read with, and the editor that they are of, or "".
+        others: units to the inch of other editors.
+        size_of: returns the size of the drawing when it is read in a way, mm.
+        reading: by which it was read.
+    """
+    per_inch, editor = assumed
+    ways: Iterator[tuple[str, Reading]] = iter([
+        (f"Keep {per_inch:g} to the inch", reading.with_pixels(per_inch)),
+        *((f"Read {each:g} to the inch", reading.with_pixels(each)) for each in others if each != per_inch),
+        *((f"Read in {UNIT_WORDS[each]}", replace(reading.with_pixels(None), units=each)) for each in _OFFERED[:2]),
+    ])  # fmt: skip
+    choices = tuple(Choice(words, way, size_words(size_of(way)), now=k == 0) for k, (words, way) in enumerate(ways))
+    who = f"It was written by {editor}" if editor else "It names no editor"
+    return Question(f"It has no real size. {who} and was read with {per_inch:g} units to the inch.", choices)

@@ -1,0 +1,167 @@
+"""SVG's attributes as numbers: lengths with units, lists, transforms, and the map of a viewBox into its place."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+from ...geometry.affine import IDENTITY, Affine
+
+PIXEL = 25.4 / 96
+"""Size of a CSS pixel, mm."""
+MM = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
+"""Units of length that have a size of their own, mm."""
+NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
+_LENGTH = re.compile(rf"\s*({NUMBER})\s*([a-zA-Z]*|%)\s*\Z")
+_LIST = re.compile(rf"[\s,]*({NUMBER})")
+_TRANSFORM = re.compile(r"[\s,]*([a-zA-Z]+)\s*\(([^()]*)\)")
+
+
+class UnreadableError(ValueError):
+    """An attribute cannot be read; the argument is its text."""
+
+
+@dataclass(frozen=True, slots=True)
+class Length:
+    """A length as it is written; `unit` is in lower case, "" for user units."""
+
+    value: float
+    unit: str = ""
+
+    @property
+    def is_physical(self) -> bool:
+        """True when it is in mm, inches, points and the like."""
+        return self.unit in MM
+
+    def user(self, whole: float) -> float:
+        """Return the length in user units.
+
+        Args:
+            whole: what 100 % is, user units.
+
+        Raises:
+            UnreadableError: the unit depends on a font or is none.
+        """
+        if self.unit in ("", "px"):
+            return self.value
+        if self.unit == "%":
+            return self.value / 100 * whole
+        if self.unit in MM:
+            return self.value * MM[self.unit] / PIXEL
+        raise UnreadableError(f"{self.value:g}{self.unit}")
+
+
+def length(text: str) -> Length:
+    """Return a length.
+
+    Raises:
+        UnreadableError: the text is none.
+    """
+    found = _LENGTH.match(text)
+    if found is None:
+        raise UnreadableError(text)
+    return Length(float(found[1]), found[2].lower())
+
+
+def numbers(text: str) -> list[float]:
+    """Return a list of numbers with blanks or commas between them.
+
+    Raises:
+        UnreadableError: something in it is no number; the numbers before it are the error's second argument.
+    """
+    found, at = [], 0
+    while match := _LIST.match(text, at):
+        found.append(float(match[1]))
+        at = match.end()
+    if text[at:].strip(" \t\r\n,"):
+        raise UnreadableError(text, found)
+    return found
+
+
+def transform(text: str) -> Affine:
+    """Return the map of a transform attribute, y downwards as in the file.
+
+    Raises:
+        UnreadableError: a name or a count of numbers that SVG does not know.
+    """
+    made, at = IDENTITY, 0
+    while match := _TRANSFORM.match(text, at):
+        made = made.after(_one(match[1], numbers(match[2]), text))
+        at = match.end()
+    if text[at:].strip(" \t\r\n,") not in ("", "none"):
+        raise UnreadableError(text)
+    return made
+
+
+def _one(kind: str, given: list[float], text: str) -> Affine:
+    count = len(given)
+    if kind == "matrix" and count == 6:
+        a, b, c, d, e, f = given
+        return Affine(a, c, b, d, e, f)
+    if kind == "translate" and count in (1, 2):
+        return Affine(x0=given[0], y0=given[1] if count == 2 else 0.0)
+    if kind == "scale" and count in (1, 2):
+        return Affine(given[0], 0.0, 0.0, given[-1])
+    if not all(map(math.isfinite, given)):
+        raise UnreadableError(text)
+    if kind == "rotate" and count in (1, 3):
+        return _rotation(given[0], (given[1], given[2]) if count == 3 else (0.0, 0.0))
+    if kind == "skewX" and count == 1:
+        return Affine(xy=math.tan(math.radians(given[0])))
+    if kind == "skewY" and count == 1:
+        return Affine(yx=math.tan(math.radians(given[0])))
+    raise UnreadableError(text)
+
+
+_QUARTERS = {0.0: (1.0, 0.0), 90.0: (0.0, 1.0), 180.0: (-1.0, 0.0), 270.0: (0.0, -1.0)}
+"""Quarter turns are exact, so that what is drawn square stays square."""
+
+
+def _rotation(degrees: float, centre: tuple[float, float]) -> Affine:
+    c, s = _QUARTERS.get(degrees % 360.0) or (math.cos(math.radians(degrees)), math.sin(math.radians(degrees)))
+    x, y = centre
+    return Affine(c, -s, s, c, x - c * x + s * y, y - s * x - c * y)
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A viewBox, or the place that it goes to; user units."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+
+
+def view_box(text: str) -> Box:
+    """Return a viewBox.
+
+    Raises:
+        UnreadableError: it has not four numbers, or no area.
+    """
+    given = numbers(text)
+    if len(given) != 4 or not all(map(math.isfinite, given)) or min(given[2:]) <= 0:
+        raise UnreadableError(text)
+    return Box(*given)
+
+
+def fitted(box: Box, place: Box, aspect: str) -> Affine:
+    """Return the map that brings a viewBox to its place.
+
+    Args:
+        aspect: preserveAspectRatio; what it does not say is "xMidYMid meet".
+    """
+    across, up = place.width / box.width, place.height / box.height
+    words = [word for word in aspect.split() if word != "defer"]
+    align = words[0] if words else "xMidYMid"
+    if align == "none":
+        return Affine(across, 0.0, 0.0, up, place.x - across * box.x, place.y - up * box.y)
+    scale = max(across, up) if "slice" in words else min(across, up)
+    x = place.x - scale * box.x + _share(align[1:4]) * (place.width - scale * box.width)
+    y = place.y - scale * box.y + _share(align[5:8]) * (place.height - scale * box.height)
+    return Affine(scale, 0.0, 0.0, scale, x, y)
+
+
+def _share(word: str) -> float:
+    return {"Min": 0.0, "Max": 1.0}.get(word, 0.5)

@@ -1,0 +1,237 @@
+"""SVG in: curves in mm, y upwards from the page's lower edge, layers, units, and an account of what is left out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from pathlib import PurePath
+
+from ...core.errors import InputError
+from ...geometry.affine import Affine
+from ...model.finding import Finding, FindingKind
+from ...model.part import Layer, Part, Units
+from ...model.read_options import AS_DRAWN, ReadOptions
+from ...model.reading import Reading
+from ..drawing import Drawing
+from ..drawing_account import (
+    MOVE,
+    Taken,
+    about_place,
+    all_left_out,
+    listed,
+    on_layers,
+    other_units,
+    remark,
+    size_of,
+    strays_or_none,
+    switched_off,
+    taken,
+    without_length,
+)
+from ..reading_question import Contents, Question, Size, UndecidedError, about_far, about_pixels
+from .generator import CSS_PER_INCH, KNOWN_PER_INCH, Density, density_of
+from .numbers import MM, Box, Length, UnreadableError, fitted, length, numbers, view_box
+from .walk import Sheet, Walker
+from .xml import Node, read_xml
+
+HITOFUDE = "urn:hitofude:svg"
+"""Namespace of what only this program writes: the attribute `zero`, the part's zero in user units of the page."""
+_SHOWN = {"in": Units.INCH, "cm": Units.CM}
+
+
+@dataclass(frozen=True)
+class _Page:
+    """How the root's user units lie in the part.
+
+    Attributes:
+        to: from user units to mm, y upwards.
+        view: width and height that percentages are of, user units.
+        shown: units to show.
+        named: the file tells a real size.
+    """
+
+    to: Affine
+    view: tuple[float, float]
+    shown: Units
+    named: bool
+
+
+def read_svg(
+    data: bytes, name: str = "drawing.svg", units: Units | None = None, layers: tuple[str, ...] = (), how: ReadOptions = AS_DRAWN,
+) -> Drawing:  # fmt: skip
+    """Return the curves of an SVG in mm, and what was left out.
+
+    Zero is the page's lower left corner, as its width, height and viewBox give it; a page without a height has it at
+    the top. Inkscape's layers become layers, hidden ones too; without them the named groups at the top. Text, pictures
+    and what draws nothing are counted, not read; clips and masks are not applied. Without a width or a height in mm,
+    inches or points the file has no real size: it is in `units`, or in pixels, so many to the inch as `how` says, else as
+    the editor had that wrote it, else 96.
+
+    Args:
+        data: the whole file.
+        name: for messages and titles.
+        units: of a user unit, where the file has no real size.
+        layers: names of layers (in any case) whose curves are kept; empty = all.
+        how: pixels to the inch, and whether everything is moved to zero.
+
+    Raises:
+        InputError: the file is no usable SVG, has no curves, or has not one of the layers.
+    """
+    opened = _opened(name, data, units, how)
+    root, density, page = opened.root, opened.density, opened.page
+    sheet, reading = Walker(root, name).sheet(page.to, page.view), Reading(units, layers, how)
+
+    def placed(to_zero: bool) -> Taken:
+        return taken(sheet.curves, None, _anchors(sheet, layers, how.without_layers) if to_zero else None)
+
+    found = placed(how.to_zero)
+    left_out = sheet.left_out + found.missing
+    if not found.entities:
+        why = "all of the drawing lies beyond 1 km" if found.far else "the drawing has no lines, arcs or curves to machine"
+        far = bool(found.far and not how.to_zero)
+        raise UndecidedError(f"{name}: {why}{f'; {MOVE}' * far}{listed(left_out, '; left out: ')}.",
+                             about_far(found.far[0][0], reading, page.shown) if far else None)
+    shown = tuple(note.layer(layer) for layer, note in sheet.layers.items())
+    part = Part(name=PurePath(name).stem, units=page.shown, layers=shown or (Layer(),)).with_entities(found.entities)
+    assumed = not page.named and units is None  # told, so that whoever reads the drawing again takes the same
+    part = replace(on_layers(part, layers, name), reading=replace(how, pixels_per_inch=density.per_inch) if assumed else how)
+    findings = [*_units(units, page, density, how), *about_place(found), *_faults(sheet), *without_length(sheet.nothing + found.nothing),
+                *_clipped(sheet), *switched_off(part, layers), *all_left_out(sheet.left_out)]  # fmt: skip
+    own = density_of(root)
+    contents = Contents(tuple(layer.name for layer in shown), units=page.shown if page.named else None,
+                        per_inch=None if page.named else own.per_inch, editor=own.editor)  # fmt: skip
+    question = strays_or_none(found, reading, placed)
+    if question is None and not (page.named or units or how.pixels_per_inch):
+        question = _about_pixels(root, density, size_of(part), page.to, reading)
+    return Drawing(part, tuple(findings), tuple(sorted(left_out.items())), page.named, contents, question)
+
+
+@dataclass(frozen=True)
+class _Opened:
+    """A file whose page is known, and how many of its units it takes for an inch where it names no size."""
+
+    root: Node
+    density: Density
+    page: _Page
+
+
+def _opened(name: str, data: bytes, units: Units | None, how: ReadOptions) -> _Opened:
+    root = read_xml(data, name)
+    if root.tag != "svg":
+        raise InputError(f"{name}:{root.line}: this is not an SVG file, it begins with {root.tag[:60]}; export the drawing as SVG.")
+    if units is not None and how.pixels_per_inch is not None:
+        raise InputError(f"{name}: units and --px-per-inch say the same of a drawing in two ways; give one of them.")
+    density = density_of(root) if how.pixels_per_inch is None else Density(how.pixels_per_inch)
+    try:
+        page = _page(root, units, density.pixel, how.overrule)
+    except UnreadableError as error:
+        raise InputError(f"{name}:{root.line}: the page's width, height or viewBox, {error.args[0][:60]!r}, cannot be read; "
+                         "give it a size above 0 and save it again.") from None
+    return _Opened(root, density, page)
+
+
+def _about_pixels(root: Node, density: Density, size: Size, to: Affine, reading: Reading) -> Question:
+    """Ask how large the page's units are; `size` is the drawing's now, mm, and `to` the map by which it has it."""
+    wide, high = size
+
+    def size_in(other: Reading) -> Size:
+        per_inch = other.how.pixels_per_inch
+        made = _page(root, other.units, Density(per_inch).pixel if per_inch else density.pixel).to
+        return wide * made.xx / to.xx, high * made.yy / to.yy
+
+    return about_pixels((density.per_inch, density.editor), KNOWN_PER_INCH, size_in, reading)
+
+
+def _anchors(sheet: Sheet, layers: tuple[str, ...], without: tuple[str, ...]) -> Callable[[str], bool]:
+    """Return what tells whether a layer is machined, and so counts for where the drawing lies."""
+    wanted, gone = ({layer.casefold() for layer in names} for names in (layers, without))
+    hidden = {layer for layer, note in sheet.layers.items() if not note.visible}
+    return lambda layer: layer.casefold() not in gone and (layer.casefold() in wanted if wanted else layer not in hidden)
+
+
+def _page(root: Node, units: Units | None, pixel: float, overrule: bool = False) -> _Page:
+    """Return the page.
+
+    Args:
+        units: of a user unit where the file has no real size, or, overruling it, even where it has one.
+        pixel: its size, mm.
+
+    Raises:
+        UnreadableError: a length or the viewBox cannot be read.
+    """
+    width, height = (_given(root, key) for key in ("width", "height"))
+    box = view_box(root.attributes["viewBox"]) if "viewBox" in root.attributes else None
+    physical = next((given for given in (width, height) if given is not None and given.is_physical and not overrule), None)
+    shown = _SHOWN.get(physical.unit, Units.MM) if physical is not None else units or Units.MM
+    if physical is None and units is not None:
+        unit, width, height = units.value, None if box else width, None if box else height
+    else:
+        unit = pixel
+    wide, high = _mm(width, unit), _mm(height, unit)
+    if box is None:
+        to, view = Affine(unit, 0.0, 0.0, unit), ((wide or 0.0) / unit, (high or 0.0) / unit)
+    else:
+        scale = wide / box.width if wide is not None else high / box.height if high is not None else unit
+        wide, high = wide if wide is not None else scale * box.width, high if high is not None else scale * box.height
+        to = fitted(box, Box(0.0, 0.0, wide, high), root.attributes.get("preserveAspectRatio", ""))
+        view = (box.width, box.height)
+    zero = _zero(root)
+    x, y = to.point(zero) if zero is not None else (0.0, high or 0.0)
+    return _Page(Affine(1.0, 0.0, 0.0, -1.0, -x, y).after(to), view, shown, physical is not None)
+
+
+def _given(root: Node, key: str) -> Length | None:
+    """Return the page's width or height; None where it is not given or only a share of a window."""
+    text = root.attributes.get(key, "auto").strip()
+    found = None if text in ("auto", "") else length(text)
+    if found is None or found.unit == "%":
+        return None
+    if not 0 < found.value < math.inf:
+        raise UnreadableError(text)
+    return found
+
+
+def _mm(given: Length | None, unit: float) -> float | None:
+    if given is None:
+        return None
+    return given.value * MM[given.unit] if given.is_physical else given.user(0.0) * unit
+
+
+def _zero(root: Node) -> tuple[float, float] | None:
+    """Return the part's zero where this program has written it."""
+    text = root.attributes.get(f"{HITOFUDE} zero")
+    if text is None:
+        return None
+    given = numbers(text)
+    if len(given) != 2 or not all(map(math.isfinite, given)):
+        raise UnreadableError(text)
+    return given[0], given[1]
+
+
+def _units(given: Units | None, page: _Page, density: Density, how: ReadOptions) -> Iterator[Finding]:
+    if page.named:
+        yield from other_units(given, page.shown)
+        if how.pixels_per_inch is not None:
+            yield remark("The drawing tells its real size; --px-per-inch counts only for what of it is in pixels of the page.")
+    elif given is None and how.pixels_per_inch is None:
+        who = f"It was written by {density.editor}, so " if density.editor else ""
+        other = f", and --px-per-inch {CSS_PER_INCH:g} if it was saved by another editor since" if density.editor else ""
+        text = (f"The drawing has no real size; {who}{density.per_inch:g} units to the inch are assumed. If a unit is 1 mm or 1 inch, "
+                f"choose --units, or on opening{other}.")
+        yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
+
+
+def _faults(sheet: Sheet) -> Iterator[Finding]:
+    if sheet.faults:
+        what = "1 shape has" if len(sheet.faults) == 1 else f"{len(sheet.faults)} shapes have"
+        first = next((fault for fault in sheet.faults if fault.what), sheet.faults[0])
+        why = f" ({first.what})" if first.what else ""
+        text = f"{what} data that cannot be read to the end, the first in line {first.line}{why}; what stands before is drawn. Check it."
+        yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(sheet.faults)))
+
+
+def _clipped(sheet: Sheet) -> Iterator[Finding]:
+    if sheet.clipped:
+        yield remark(f"{sheet.clipped} {'curve is' if sheet.clipped == 1 else 'curves are'} clipped or masked in the drawing; "
+                     "all of it is read.", float(sheet.clipped))

@@ -1,0 +1,308 @@
+"""Walk an SVG tree: curves of its shapes, in place, with their layers, and a count of everything else."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from typing import NoReturn
+
+from ...core import tolerances
+from ...core.errors import InputError
+from ...geometry.affine import IDENTITY, Affine, transformed
+from ...model.curves import Circle, Curve, Ellipse, Line, Point, Spline
+from ...model.part import Layer
+from ..drawing_account import MOST_CURVES
+from ..dxf.splines import MOST_POINTS, too_many
+from .generator import INKSCAPE, SODIPODI
+from .joined import beziers_joined, joined
+from .numbers import Box, UnreadableError, fitted, transform, view_box
+from .path import Path
+from .shapes import SHAPES, View, measure, shape
+from .style import Style, StyleSheet
+from .xml import DEEPEST, Node
+
+_LINK = "http://www.w3.org/1999/xlink href"
+_NOT_CURVES = ("text", "image", "foreignObject", "flowRoot", "video", "audio", "iframe", "canvas")
+BLACK = "#000000"
+_TOO_MUCH = f"the drawing unfolds to more than {MOST_CURVES} curves; use fewer copies, or save it in parts"
+_UNITS_OF_ZERO = re.compile("px|%")
+_BREAK = re.compile(r"[\x00-\x1f]+")
+
+
+@dataclass
+class LayerNote:
+    """What is known of a layer: whether it is shown and locked, its own colour, and those of its curves."""
+
+    visible: bool = True
+    locked: bool = False
+    own: str = ""
+    inks: set[str] = field(default_factory=set)
+
+    def layer(self, name: str) -> Layer:
+        """Return the layer; its colour is the one that all its outlines have, black being the ink of the theme."""
+        found = next(iter(self.inks)) if len(self.inks) == 1 else "" if self.inks else self.own
+        return Layer(name, "" if found == BLACK else found, self.visible, self.locked)
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """Where a shape's data cannot be read on: its line in the file, and what stands there if that is known."""
+
+    line: int
+    what: str = ""
+
+
+@dataclass
+class Sheet:
+    """What an SVG draws.
+
+    Attributes:
+        curves: (curve, layer), mm, y upwards.
+        left_out: elements that are no curves or draw none, by type.
+        nothing: places of shapes without length.
+        faults: shapes whose data cannot be read to the end.
+        clipped: shapes that are read whole although the drawing hides a part of them.
+        layers: by name, in order.
+    """
+
+    curves: list[tuple[Curve, str]] = field(default_factory=list)
+    left_out: Counter[str] = field(default_factory=Counter)
+    nothing: list[Point | None] = field(default_factory=list)
+    faults: list[Fault] = field(default_factory=list)
+    clipped: int = 0
+    layers: dict[str, LayerNote] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """What an element takes over from those round it.
+
+    Attributes:
+        to: from its coordinates to the drawing's.
+        view: size of the nearest viewport, user units.
+        layer: name of the layer, "" for none.
+        depth: of elements and uses round it; 0 for the root's children.
+        copied: it is drawn by a `use`, so its own layers do not count.
+    """
+
+    to: Affine
+    view: View
+    style: Style = field(default_factory=Style)
+    layer: str = ""
+    depth: int = 0
+    copied: bool = False
+
+
+class Walker:
+    """Reads one file."""
+
+    def __init__(self, root: Node, name: str) -> None:
+        self._root, self._name = root, name
+        self._sheet = Sheet()
+        self._styles = StyleSheet(root)
+        self._ids: dict[str, Node] = {}
+        self._named_layers = False
+        for node in root.every():
+            self._ids.setdefault(node.attributes.get("id", ""), node)
+            self._named_layers |= _is_layer(node)
+        self._open: list[int] = []
+
+    def sheet(self, to: Affine, view: View) -> Sheet:
+        """Return what the file draws.
+
+        Args:
+            to: from the root's user units to the drawing, mm, y upwards.
+            view: size of the root's viewport, user units.
+
+        Raises:
+            InputError: a transform or a viewBox cannot be read; uses go in a circle, too deep, or unfold to too much.
+        """
+        self._size(self._root, {}, 0)
+        self._children(self._root.children, State(to, view, self._styles.style(self._root, Style())))
+        return self._sheet
+
+    def _size(self, node: Node, known: dict[int, tuple[int, int]], depth: int) -> tuple[int, int]:
+        """Return how many elements an element unfolds to, with all copies, and in how many levels; a copy of itself counts once.
+
+        Raises:
+            InputError: there are too many of either.
+        """
+        if id(node) not in known and depth <= DEEPEST + 1:
+            known[id(node)] = (1, 1)
+            target = self._target(node) if node.tag == "use" else None
+            inner = [self._size(child, known, depth + 1) for child in ([target] if target else node.children)]
+            known[id(node)] = 1 + sum(count for count, _ in inner), 1 + max((levels for _, levels in inner), default=0)
+        count, levels = known.get(id(node), (1, 1))
+        if count > MOST_CURVES:
+            self._refuse(node, _TOO_MUCH)
+        if depth + levels > DEEPEST + 2:  # the root, and a copy in the deepest element
+            self._refuse(node, f"copies of copies are nested deeper than {DEEPEST} levels; unlink some and save again")
+        return count, levels
+
+    def _target(self, use: Node) -> Node | None:
+        link = use.attributes.get("href", use.attributes.get(_LINK, "")).strip()
+        return self._ids.get(link[1:]) if link.startswith("#") and len(link) > 1 else None
+
+    def _children(self, nodes: Iterable[Node], state: State) -> None:
+        for node in nodes:
+            self._one(node, state)
+
+    def _one(self, node: Node, outer: State) -> None:
+        if node.tag in _NOT_CURVES:
+            self._sheet.left_out[node.tag] += 1
+        elif node.tag in SHAPES or node.tag in _CONTAINERS:
+            state = self._inside(node, outer)
+            if node.tag in SHAPES:
+                self._draw(node, state)
+            elif node.tag == "use":
+                self._use(node, state)
+            elif node.tag == "svg":
+                self._children(node.children, self._viewport(node, state, node))
+            else:
+                self._children(_chosen(node) if node.tag == "switch" else node.children, state)
+
+    def _inside(self, node: Node, outer: State) -> State:
+        """Return the state inside an element: its transform, its style, its layer."""
+        style, to, layer = self._styles.style(node, outer.style), outer.to, outer.layer
+        if style.transform:
+            to = to.after(self._transform(node, style))
+        named = "" if outer.copied else self._layer_name(node, outer.depth)
+        if named:
+            layer = named
+            note = self._sheet.layers.setdefault(layer, LayerNote())
+            note.visible &= style.shown
+            note.locked |= node.attributes.get(f"{SODIPODI} insensitive") == "true"
+            note.own = style.ink
+            style = replace(style, shown=outer.style.shown)
+        return replace(outer, to=to, style=style, layer=layer, depth=outer.depth + 1)
+
+    def _transform(self, node: Node, style: Style) -> Affine:
+        try:
+            made = transform(style.transform)
+        except UnreadableError:
+            self._refuse(node, f"the transform {style.transform[:60]!r} cannot be read; ungroup it and save again")
+        if made != IDENTITY and _UNITS_OF_ZERO.sub("", style.origin).strip("0 "):
+            self._refuse(node, f"a transform about {style.origin[:60]!r} cannot be read; ungroup it and save again")
+        return made
+
+    def _layer_name(self, node: Node, depth: int) -> str:
+        """Return the name of the layer that a group is; a file without Inkscape's layers has its top groups that are named."""
+        if node.tag != "g" or (not _is_layer(node) if self._named_layers else depth > 0):
+            return ""
+        labels = (_BREAK.sub(" ", node.attributes.get(key, "")) for key in (f"{INKSCAPE} label", "data-name", "id"))
+        return next((label for label in labels if label.strip()), "layer" if self._named_layers else "")
+
+    def _use(self, node: Node, state: State) -> None:
+        target = self._target(node)
+        if target is None:
+            self._sheet.left_out["use of what is not in the file"] += 1
+            return
+        if id(target) in self._open:
+            self._refuse(node, f"#{target.attributes['id'][:60]} is used in itself; break the loop and save again")
+        x, y = self._measured(node, ("x", "y"), state, (0.0, 0.0))
+        state = replace(state, to=state.to.after(Affine(x0=x, y0=y)), copied=True)
+        self._open.append(id(target))
+        if target.tag in ("symbol", "svg"):
+            inner = self._inside(target, state)
+            self._children(target.children, self._viewport(target, inner, node))
+        else:
+            self._one(target, state)
+        self._open.pop()
+
+    def _viewport(self, node: Node, state: State, sized: Node) -> State:
+        """Return the state inside an element with a viewport of its own, whose size another one may give."""
+        sizes = {key: value for key, value in sized.attributes.items() if key in ("width", "height")}
+        placed = Node(node.tag, {**node.attributes, **sizes}, node.line)
+        x, y = self._measured(placed, ("x", "y"), state, (0.0, 0.0))
+        width, height = self._measured(placed, ("width", "height"), state, state.view)
+        if "viewBox" not in node.attributes:
+            return replace(state, to=state.to.after(Affine(x0=x, y0=y)), view=(width, height))
+        try:
+            box = view_box(node.attributes["viewBox"])
+        except UnreadableError:
+            self._refuse(node, f"the viewBox {node.attributes['viewBox'][:60]!r} is not four numbers, the last two above 0; correct it")
+        to = fitted(box, Box(x, y, width, height), node.attributes.get("preserveAspectRatio", ""))
+        return replace(state, to=state.to.after(to), view=(box.width, box.height))
+
+    def _measured(self, node: Node, keys: tuple[str, str], state: State, default: View) -> View:
+        try:
+            return measure(node, keys[0], state.view, default[0]), measure(node, keys[1], state.view, default[1])
+        except UnreadableError as error:
+            self._refuse(node, f"the length {error.args[0][:60]!r} cannot be read; write it in mm, px or user units")
+
+    def _draw(self, node: Node, state: State) -> None:
+        sheet, style = self._sheet, state.style
+        if not (style.shown and style.visible and style.draws):
+            sheet.left_out[f"{node.tag} ({'without stroke and fill' if style.shown and style.visible else 'invisible'})"] += 1
+            return
+        try:
+            drawn = shape(node, state.view, MOST_CURVES)
+            if drawn is not None and style.stroke == "none":
+                drawn.runs = [_area(run) for run in drawn.runs]
+            curves = self._placed(node, drawn, state.to) if drawn is not None else []
+        except (ValueError, ArithmeticError):  # numbers that are none, or beyond all measure
+            sheet.left_out[f"{node.tag} (damaged)"] += 1
+            return
+        if drawn is not None and drawn.fault is not None:
+            sheet.faults.append(Fault(node.line, drawn.why))
+        for curve in curves:
+            if isinstance(curve, Spline) and len(curve.control_points) > MOST_POINTS:
+                self._refuse(node, too_many(len(curve.control_points), what="curve").rstrip("."))
+        if not curves:
+            return
+        layer = state.layer or "0"
+        note = sheet.layers.setdefault(layer, LayerNote())
+        note.inks |= {style.ink or BLACK} if style.stroke != "none" else set()
+        sheet.clipped += style.clipped
+        sheet.curves += [(curve, layer) for curve in curves]
+        if len(sheet.curves) > MOST_CURVES:
+            self._refuse(node, _TOO_MUCH)
+
+    def _placed(self, node: Node, drawn: Path, to: Affine) -> list[Curve]:
+        """Return the curves in the drawing; notes the place of a shape that draws nothing."""
+        curves: list[Curve] = []
+        for run in map(beziers_joined, drawn.runs):
+            moved = [transformed(curve, to) for curve in run]
+            self._sheet.nothing += [to.point(curve.start) for curve, there in zip(run, moved, strict=True) if there is None]
+            seen = [curve for curve in moved if curve is not None]
+            curves += joined([curve for curve in seen if not _is_point(curve)] or seen[:1])
+        if not any(drawn.runs):
+            self._sheet.nothing.append(to.point(drawn.start) if drawn.start is not None else None)
+        return [_forward(curve) for curve in curves] if node.tag in ("circle", "ellipse") else curves
+
+    def _refuse(self, node: Node, what: str) -> NoReturn:
+        raise InputError(f"{self._name}:{node.line}: {what}.")
+
+
+def _forward(curve: Curve) -> Curve:
+    """Return a whole circle or ellipse, which is drawn in no direction, as counter-clockwise from parameter 0."""
+    if isinstance(curve, Ellipse):
+        return Ellipse(curve.centre, curve.major, curve.ratio)
+    return Circle(curve.centre, curve.radius) if isinstance(curve, Circle) else curve
+
+
+def _is_point(curve: Curve) -> bool:
+    """True for a line between points that are one, as rounding leaves them where a path is closed."""
+    return isinstance(curve, Line) and math.dist(curve.start, curve.end) < tolerances.WELD
+
+
+def _area(run: list[Curve]) -> list[Curve]:
+    """Return the outline of what a fill paints: an open run is closed by a line, unless it is but one line itself."""
+    if not run or run[0].start == run[-1].end or (len(run) == 1 and isinstance(run[0], Line)):
+        return run
+    return [*run, Line(run[-1].end, run[0].start)]
+
+
+def _is_layer(node: Node) -> bool:
+    return node.attributes.get(f"{INKSCAPE} groupmode") == "layer"
+
+
+def _chosen(node: Node) -> list[Node]:
+    """Return the first child of a switch that needs nothing special."""
+    return next(([child] for child in node.children if not child.attributes.get("requiredExtensions")), [])
+
+
+_CONTAINERS = ("g", "a", "switch", "svg", "use")

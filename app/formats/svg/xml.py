@@ -1,0 +1,149 @@
+"""Bytes of an XML file to a light tree that knows its lines; bombs and damage are refused in one sentence."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import NoReturn
+from xml.parsers import expat
+
+from ...core.errors import InputError
+from ..drawing_account import MOST_CURVES
+
+SVG = "http://www.w3.org/2000/svg"
+DEEPEST = 100
+"""Elements nested deeper than this are refused."""
+MOST_BYTES = 256 << 20
+"""A larger file is no drawing to machine."""
+_MOST_ENTITIES = 100
+_LONGEST_ENTITY = 200
+"""Old drawing programs name their namespaces by entities; none is longer, and none holds another."""
+MOST_USES = 10_000
+"""So often may entities be used: two megabytes at most come from them."""
+_USE = re.compile(rb"&(?!(?:amp|lt|gt|quot|apos);)[^#;&\s<>]{1,200};")
+_LONGEST_COMMENTS = 4096
+_HEAD = 1 << 16
+
+
+@dataclass(slots=True)
+class Node:
+    """One element.
+
+    Attributes:
+        tag: its name; that of an SVG element alone, any other with its namespace and a blank before it.
+        attributes: by name, likewise.
+        line: where it begins, 1-based.
+        text: its own text, kept for style sheets alone.
+        comments: those before the root, kept there alone; editors name themselves in them.
+    """
+
+    tag: str
+    attributes: dict[str, str]
+    line: int
+    children: list[Node] = field(default_factory=list)
+    text: str = ""
+    comments: str = ""
+
+    def every(self) -> Iterator[Node]:
+        """Yield this element and all that it holds, in the order of the file."""
+        waiting = [self]
+        while waiting:
+            node = waiting.pop()
+            yield node
+            waiting.extend(reversed(node.children))
+
+
+def read_xml(data: bytes, name: str) -> Node:
+    """Return the root element.
+
+    Raises:
+        InputError: no XML, damaged, nested too deep, too large, or with entities that hold others or come from elsewhere.
+    """
+    if not data.strip():
+        raise InputError(f"{name}: the file is empty; export the drawing again.")
+    if data.startswith(b"\x1f\x8b"):
+        raise InputError(f"{name}: this is a compressed SVG (svgz); save it as a plain SVG.")
+    if len(data) > MOST_BYTES:
+        raise InputError(f"{name}: the file has {len(data)} bytes, more than {MOST_BYTES}; save the drawing in parts.")
+    if b"<" not in data[:_HEAD].replace(b"\0", b""):
+        raise InputError(f"{name}: this is not an SVG file, no element begins in it; export the drawing as SVG.")
+    _refuse_repeated_entities(data, name)
+    return _Reader(name).read(data)
+
+
+def _refuse_repeated_entities(data: bytes, name: str) -> None:
+    """Refuse a small file that unfolds to a large one: editors use the entities that they declare a few times."""
+    plain = data.replace(b"\0", b"") if b"\0" in data[:_HEAD] else data
+    if b"<!ENTITY" not in plain:
+        return
+    uses = sum(1 for _ in _USE.finditer(plain))
+    if uses > MOST_USES:
+        raise InputError(f"{name}: entities are used {uses} times, and {MOST_USES} are the most; save it again as a plain SVG.")
+
+
+class _Reader:
+    def __init__(self, name: str) -> None:
+        self._name = name
+        self._parser = expat.ParserCreate(namespace_separator=" ")
+        self._parser.buffer_text, self._parser.buffer_size = True, 1 << 20
+        self._parser.StartElementHandler = self._start
+        self._parser.EndElementHandler = self._end
+        self._parser.CharacterDataHandler = self._characters
+        self._parser.CommentHandler = self._comment
+        self._parser.EntityDeclHandler = self._entity
+        self._open: list[Node] = []
+        self._root: Node | None = None
+        self._comments = ""
+        self._count = self._entities = 0
+
+    def read(self, data: bytes) -> Node:
+        try:
+            self._parser.Parse(data, True)
+        except expat.ExpatError as error:
+            what = expat.ErrorString(error.code)
+            raise InputError(f"{self._name}:{error.lineno}: the XML is damaged, column {error.offset + 1}: {what}; "
+                             "save it again from the drawing program.") from None
+        except (LookupError, ValueError) as error:  # an encoding that does not exist, or that Python alone cannot decode
+            raise InputError(f"{self._name}: the text encoding of the XML cannot be read ({error}); save it as UTF-8.") from None
+        assert self._root is not None  # XML without a root is an error of the parser
+        return self._root
+
+    def _start(self, tag: str, attributes: dict[str, str]) -> None:
+        self._count += 1
+        if self._count > MOST_CURVES:
+            self._refuse(f"there are more than {MOST_CURVES} elements; save the drawing in parts.")
+        if len(self._open) >= DEEPEST:
+            self._refuse(f"elements are nested deeper than {DEEPEST} levels; ungroup some and save again.")
+        node = Node(_plain(tag), {_plain(key): value for key, value in attributes.items()}, self._parser.CurrentLineNumber)
+        if self._open:
+            self._open[-1].children.append(node)
+        else:
+            self._root = node
+            node.comments = self._comments
+        self._open.append(node)
+
+    def _end(self, _: str) -> None:
+        self._open.pop()
+
+    def _characters(self, text: str) -> None:
+        if self._open[-1].tag == "style":
+            self._open[-1].text += text
+
+    def _comment(self, text: str) -> None:
+        if self._root is None and len(self._comments) < _LONGEST_COMMENTS:
+            self._comments += text[:_LONGEST_COMMENTS]
+
+    def _entity(self, entity: str, parameter: bool, value: str | None, *_: str | None) -> None:
+        self._entities += 1
+        if value is None or parameter or "&" in value or len(value) > _LONGEST_ENTITY or self._entities > _MOST_ENTITIES:
+            self._refuse(f"the entity {entity[:40]} holds others, comes from elsewhere or is too long; save it again as a plain SVG.")
+
+    def _refuse(self, what: str) -> NoReturn:
+        raise InputError(f"{self._name}:{self._parser.CurrentLineNumber}: {what}")
+
+
+def _plain(name: str) -> str:
+    """Return a name without the namespace of SVG; prefixes of links are plain too."""
+    space, _, local = name.rpartition(" ")
+    return local if space in ("", SVG) else f"{space} {local}"

@@ -1,0 +1,1 @@
+"""Tool libraries, tool tables, holders."""

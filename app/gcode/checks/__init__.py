@@ -1,0 +1,1 @@
+"""The written text read back: is it the moves that were meant?"""

@@ -1,0 +1,218 @@
+"""Stage two: a line's words, and the block that they make with the values of this moment."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import NamedTuple
+
+from .codes import AXES, GROUP_OF, ROTARY, TAKES, Group
+from .expression import NUMBER, Value, Values, evaluated
+from .fault import Fault
+from .parameters import Key, Parameters
+
+Setting = Key | Callable[[Parameters], Key]
+"""Which parameter is set."""
+
+POLAR = "@^"
+"""Distance from the zero, and angle, in LinuxCNC's words."""
+
+ALWAYS = AXES + ROTARY + POLAR + "fstn"
+"""Words that need no code in their block to take them."""
+
+
+_ALWAYS = frozenset(ALWAYS)
+_NUMBERED = re.compile(rf"([a-z])({NUMBER.pattern})")
+"""A word as most are: a letter and a number."""
+
+
+class Word(NamedTuple):
+    """A letter and its value.
+
+    Attributes:
+        letter: lower case.
+        begin, end: where it stands in the line's code.
+        whole: written as a number without a decimal point.
+    """
+
+    letter: str
+    value: Value
+    begin: int
+    end: int
+    whole: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Parsed:
+    """A line that was understood.
+
+    Attributes:
+        deleted: it begins with a slash.
+        settings: parameters that it sets, in order.
+        words: the others, in order.
+    """
+
+    code: str
+    deleted: bool
+    settings: tuple[tuple[Setting, Value], ...]
+    words: tuple[Word, ...]
+
+
+LONGEST_KEPT = 100
+"""Characters of a line whose words are worth their room."""
+
+SLASH = re.compile(r"(?:n[0-9.]+)?/[0-9]?")
+"""What marks a block that the control leaves out when it is told to."""
+
+
+def parse(code: str, nesting: int, free: bool = False, polar: bool = False) -> Parsed:
+    """Return the words of a line; programs say many lines again and again, so the last ones are kept, but for long ones.
+
+    Args:
+        code: as `text.code_of` gives it.
+        nesting: how deep brackets may go.
+        free: what a parameter is set to needs no brackets, as Fanuc has it.
+        polar: @ and ^ are words.
+
+    Raises:
+        Fault: something in it is no word.
+    """
+    return (_parsed_once if len(code) <= LONGEST_KEPT else _parsed)(code, nesting, free, polar)
+
+
+def _parsed(code: str, nesting: int, free: bool, polar: bool) -> Parsed:
+    values = Values(code, nesting)
+    slash = SLASH.match(code)
+    deleted = slash is not None
+    if slash is not None:
+        values.at = slash.end()
+    settings: list[tuple[Setting, Value]] = []
+    words: list[Word] = []
+    while values.at < len(code):
+        numbered = _NUMBERED.match(code, values.at)
+        if numbered is not None:
+            words.append(_numbered(numbered, values))
+            continue
+        letter, begin = code[values.at], values.at
+        values.at += 1
+        if letter == "#":
+            key = values.key()
+            if code[values.at : values.at + 1] != "=":
+                raise Fault("expected = behind the parameter that is set.", column=-1 - values.at)
+            values.at += 1
+            settings.append((key, values.expression() if free else values.value()))
+        elif "a" <= letter <= "z" or (polar and letter in POLAR):
+            words.append(Word(letter, values.value(), begin, values.at, False))
+        else:
+            raise Fault(f"{letter!r} begins no word; expected a letter with a number.", column=-1 - begin, word=letter)
+    return Parsed(code, deleted, tuple(settings), tuple(words))
+
+
+_parsed_once = lru_cache(2048)(_parsed)
+
+
+def _numbered(found: re.Match[str], values: Values) -> Word:
+    """Return a word that is a letter and a number, and go on behind it."""
+    values.at, number = found.end(), found[2]
+    return Word(found[1], values.finite(float(number)), found.start(), found.end(), "." not in number)
+
+
+@dataclass(slots=True)
+class Block:
+    """A line's words with their values of this moment.
+
+    Attributes:
+        values: of every letter but G, M and N.
+        whole: letters whose number has no decimal point.
+        codes: G and M codes by group; coolant may be two. unknown: codes of no group.
+    """
+
+    values: dict[str, float] = field(default_factory=dict)
+    whole: set[str] = field(default_factory=set)
+    codes: dict[Group, str] = field(default_factory=dict)
+    coolant: list[str] = field(default_factory=list)
+    unknown: list[str] = field(default_factory=list)
+
+    def copy(self) -> Block:
+        """Return the block as it is now: carrying it out takes words away."""
+        return Block(dict(self.values), set(self.whole), dict(self.codes), list(self.coolant), list(self.unknown))
+
+    def has(self, letters: str) -> bool:
+        """Tell whether any of the letters is there."""
+        return not self.values.keys().isdisjoint(letters)
+
+    def get(self, letter: str) -> float | None:
+        """Return a word's value, None without the word."""
+        return self.values.get(letter)
+
+    def need(self, letter: str, code: str) -> float:
+        """Return the value of a word that a code cannot do without.
+
+        Raises:
+            Fault: it is not there.
+        """
+        if letter not in self.values:
+            raise Fault(f"{code} needs a word {letter.upper()}.", letter=_letter(code))
+        return self.values[letter]
+
+    def unused(self) -> str:
+        """Return the first letter that no code of the block takes, or ""."""
+        if _ALWAYS.issuperset(self.values):
+            return ""
+        taken = _ALWAYS.union(*(TAKES.get(code, "") for code in [*self.codes.values(), *self.coolant]))
+        return next((letter for letter in self.values if letter not in taken), "")
+
+
+def _letter(code: str) -> str:
+    return code[:1].lower()
+
+
+@lru_cache(1024)
+def _code(letter: str, number: float) -> str:
+    """Return a code as it is usually written: G1, G5.1."""
+    return f"{letter.upper()}{round(number, 2):g}"
+
+
+def block_of(parsed: Parsed, parameters: Parameters) -> Block:
+    """Return a line's block, and set the parameters that the line sets: after all its values are known.
+
+    Raises:
+        Fault: two words of one letter or two codes of one group; a value that is no number.
+    """
+    block, numbered = Block(), False
+    for word in parsed.words:
+        value = evaluated(word.value, parameters)
+        if word.letter in "gm":
+            _add_code(block, _code(word.letter, value), word)
+        elif word.letter in block.values:
+            raise Fault(f"a block takes one word {word.letter.upper()} only.", column=-1 - word.begin)
+        elif word.letter == "n":
+            if numbered or not parsed.code[word.begin + 1].isdigit():
+                raise Fault("a block has one number N, and that begins with a digit.", column=-1 - word.begin)
+            numbered = True
+        else:
+            block.values[word.letter] = value
+            if word.whole:
+                block.whole.add(word.letter)
+    settings = [(key(parameters) if callable(key) else key, evaluated(value, parameters)) for key, value in parsed.settings]
+    for key, value in settings:
+        parameters.set(key, value)
+    return block
+
+
+def _add_code(block: Block, code: str, word: Word) -> None:
+    group = GROUP_OF.get(code)
+    if group is None:
+        block.unknown.append(code)
+        return
+    before = block.codes.get(group)
+    if group is Group.MOTION and before is not None and "G80" in (before, code):
+        code, before = (before if code == "G80" else code), None  # any other motion ends a cycle as G80 does
+    both = {before, code} == {"M7", "M8"}
+    if before is not None and not both and before != "G53" and code != "G53":
+        raise Fault(f"{before} and {code} in one block contradict one another ({group.value}); write them in two.", column=-1 - word.begin)
+    if group is Group.COOLANT:
+        block.coolant.append(code)
+    block.codes[group] = code

@@ -1,0 +1,308 @@
+"""Stage three: the control as it stands between two blocks, and what every code needs of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from ...model.motion import MotionKind, Nurbs
+from ...model.part import Units
+from .block import Block
+from .codes import AXES, Group
+from .columns import Columns, Motion
+from .compensation import Compensation
+from .cycles import Cycle
+from .dialect import HABITS, Dialect
+from .fault import Fault
+from .offsets import OFFSETS, Offsets, Place
+from .options import ReadOptions, ToolOffset
+from .parameters import Key, Parameters
+from .program import Event, EventKind, FeedMode, ModalState
+from .splines import OpenFanucNurbs, OpenNurbs
+
+MOST_EVENTS = 1_000_000
+MOST_WARNINGS = 200
+
+CONTROL_NAMES = {"_vmajor": 2.9, "_vminor": 0.0}
+
+
+class Control:
+    """A control that runs a program.
+
+    Attributes:
+        options, habits: how to read.
+        modal: what is in force. motion: the G word that bare axis words obey, "G80" = none.
+        feed: mm/min, mm a revolution or 1/min, by the feed mode; NaN = not said.
+        at: the controlled point, mm, table coordinates.
+        offsets: where zero is. tool_table: as the program has changed it.
+        selected: T number that the next M6 takes.
+        homes: of G28 and G30, mm, machine coordinates.
+        known: for each axis the first motion that the program itself set, -1 = none yet; then the first that moved it in G91
+            before any had set it.
+        cycle: the last canned cycle with its words, None after another motion. initial: the height at which their run began,
+            program coordinates and units. before_cycle: the motion before it.
+        curve: the spline over several blocks that is being written, None outside of one. last_offset: P, Q of the last G5, mm.
+        compensation: G41 or G42, None = G40. stray: where the tool itself is when that is not where the program takes it to be,
+            after G40.
+        line: 1-based, of the block that is running. unrolled: blocks that were done again.
+        columns, splines, events, homeward, warnings: what comes out; a warning is a text, its letter and its line.
+    """
+
+    def __init__(self, options: ReadOptions) -> None:
+        """Stand at the start, as a control does when it is switched on."""
+        self.options, self.habits = options, HABITS[options.dialect]
+        self.modal = ModalState(retract_to_r=options.dialect is Dialect.LINUXCNC)
+        self.motion = "G80" if options.dialect is Dialect.LINUXCNC else "G0"
+        self.feed = math.nan
+        self.at: Place = options.start
+        self.offsets = Offsets(local_is_set_here=options.dialect is Dialect.LINUXCNC)
+        self.tool_table: dict[int, ToolOffset] = dict(options.tool_table)
+        self.selected = 0
+        self.homes: dict[str, Place] = {"G28": (0.0, 0.0, 0.0), "G30": (0.0, 0.0, 0.0)}
+        self.known = [-1] * 6
+        self.cycle: Cycle | None = None
+        self.initial = 0.0
+        self.before_cycle = "G0"
+        self.curve: OpenNurbs | OpenFanucNurbs | None = None
+        self.compensation: Compensation | None = None
+        self.stray: Place | None = None
+        self.last_offset = (0.0, 0.0)
+        self.line = self.unrolled = 0
+        self.columns = Columns()
+        self.splines: dict[int, Nurbs] = {}
+        self.events: list[Event] = []
+        self.homeward: list[int] = []
+        self.warnings: dict[str, tuple[str, int]] = {}
+        self.parameters = Parameters(self.own_parameter, local_numbers=33 if self.habits.fanuc_flow else 30)
+        self._states: dict[ModalState, int] = {}
+        self._last: tuple[ModalState | None, int] = (None, 0)
+
+    @property
+    def unit(self) -> float:
+        """Millimetres of a length unit of the program."""
+        return self.modal.units.value
+
+    def feed_unit(self, block: Block) -> float:
+        """Return the millimetres of a unit of the block's F; only LinuxCNC takes it in the units before the block's own."""
+        code = block.codes.get(Group.UNITS)
+        if code is None or self.options.dialect is Dialect.LINUXCNC:
+            return self.unit
+        return Units.INCH.value if code == "G20" else Units.MM.value
+
+    @property
+    def least(self) -> float:
+        """Length units that a length without a decimal point counts in."""
+        return self.habits.least_inch if self.modal.units is Units.INCH else self.habits.least_mm
+
+    @property
+    def states(self) -> tuple[ModalState, ...]:
+        """Every state that a motion belongs to; at least one."""
+        return tuple(self._states) or (self.modal,)
+
+    @property
+    def program_place(self) -> Place:
+        """Where the controlled point is in program coordinates, mm."""
+        return self.offsets.to_program(self.at)
+
+    def change(self, **values: object) -> None:
+        """Change what is in force; what stays as it is costs little."""
+        if any(getattr(self.modal, name) != value for name, value in values.items()):
+            self.modal = replace(self.modal, **values)  # type: ignore[arg-type]  # which type belongs to which name mypy cannot tell
+
+    def offsets_changed(self) -> None:
+        """Take the offsets into what is in force."""
+        self.change(work_offset=self.offsets.name, shift=self.offsets.shift, rotation=self.offsets.rotation)
+
+    def state(self) -> int:
+        """Return the index of what is in force."""
+        if self.modal is not self._last[0]:
+            self._last = self.modal, self._states.setdefault(self.modal, len(self._states))
+        return self._last[1]
+
+    def length(self, block: Block, letter: str) -> float | None:
+        """Return a length word in mm, None without the word."""
+        value = block.values.get(letter)
+        if value is None:
+            return None
+        return value * (self.unit * self.least if letter in block.whole else self.unit)
+
+    def axis_words(self, block: Block) -> Iterator[tuple[int, float]]:
+        """Yield the axis words of a block: axis, mm."""
+        for axis, letter in enumerate(AXES):
+            value = self.length(block, letter)
+            if value is not None:
+                yield axis, value
+
+    def target(self, block: Block) -> Place:
+        """Return where the axis words lead, table coordinates."""
+        if self.offsets.rotation == 0.0:
+            place, shift = list(self.at), self.modal.shift
+            for axis, value in self.axis_words(block):
+                place[axis] = value + shift[axis] if self.modal.absolute else place[axis] + value
+        else:
+            program = list(self.program_place)
+            for axis, value in self.axis_words(block):
+                program[axis] = value if self.modal.absolute else program[axis] + value
+            place = list(self.offsets.to_table((program[0], program[1], program[2])))
+        self._check_place(place)
+        return (place[0], place[1], place[2])
+
+    def _check_place(self, place: list[float]) -> None:
+        if not all(abs(value) < 1e9 for value in place):
+            raise Fault("the motion ends more than 1000 km away; check the numbers.")
+
+    def note_known(self, block: Block, absolute: bool | None = None) -> None:
+        """Note that the motion to come sets the axes of the block's words, or moves them from where the reading began.
+
+        Args:
+            absolute: whether it sets them; None = as the distance mode has it.
+        """
+        sets = self.modal.absolute if absolute is None else absolute
+        for axis, letter in enumerate(AXES):
+            entry = axis if sets else 3 + axis
+            if letter in block.values and self.known[axis] < 0 and self.known[entry] < 0:
+                self.known[entry] = self.row
+
+    def known_from(self) -> tuple[int, int, int]:
+        """Return from which motion on each axis is known, as `Motions` has it.
+
+        Where one moves in G91 before it is set the tool is taken to stand at zero, as LinuxCNC has it, along all axes not set by then.
+        """
+        assumed, begun = self.taken_for_known(), self._first_in_g91
+        x, y, z = (begun - 1 if letter in assumed else row if row >= 0 else self.columns.count
+                   for letter, row in zip("XYZ", self.known, strict=False))  # fmt: skip
+        return x, y, z
+
+    @property
+    def _first_in_g91(self) -> int:
+        """The first motion that moves an axis in G91 before any has set it; the number of motions where none does."""
+        return min((row for row in self.known[3:] if row >= 0), default=self.columns.count)
+
+    def taken_for_known(self) -> str:
+        """Return the axes that are taken to begin at zero."""
+        begun = self._first_in_g91
+        if begun >= self.columns.count:
+            return ""
+        return "".join(letter for letter, row in zip("XYZ", self.known, strict=False) if not 0 <= row < begun)
+
+    def move(self, kind: MotionKind, end: Place, feed: float = 0.0, arc: tuple[Place, int] | None = None) -> None:
+        """Add a motion from where the point is.
+
+        Args:
+            kind: how.
+            end: where to, table coordinates.
+            feed: mm/min.
+            arc: centre and turns of an arc.
+
+        Raises:
+            Fault: the program has made more motions than the reader takes.
+        """
+        if self.columns.count >= self.options.limits.motions:
+            raise Fault(f"the program makes more than {self.options.limits.motions} motions; the reader stops here.")
+        motion = Motion(kind, self.stray or self.at, end, feed, self.line, self.state(), self.modal.plane)
+        if arc is not None:
+            motion.centre, motion.turns = arc
+        if self.compensation is not None:
+            self.compensation.take(motion, self.columns)
+        else:
+            self.columns.add(motion)
+        self.at, self.stray = end, None
+
+    @property
+    def row(self) -> int:
+        """How many motions there are, those that wait for the next one included."""
+        return self.columns.count + (len(self.compensation.waiting) if self.compensation is not None else 0)
+
+    def end_compensation(self) -> None:
+        """Obey G40: the tool stays where it is until the next motion."""
+        if self.compensation is not None:
+            self.compensation.flush(self.columns)
+            self.stray = self.compensation.place
+            self.compensation = None
+
+    def feed_along(self, length: float) -> float:
+        """Return the feed of a motion of some length, mm/min.
+
+        Raises:
+            Fault: the program has not said it.
+        """
+        if math.isnan(self.feed):
+            raise Fault("a feed motion needs a feed rate; write F before it or with it.", letter="f")
+        if self.modal.feed_mode is FeedMode.INVERSE_TIME:
+            return self.feed * length
+        if self.modal.feed_mode is FeedMode.PER_REVOLUTION:
+            return self.feed * self.modal.speed
+        return self.feed
+
+    def unroll(self, blocks: int = 1) -> None:
+        """Count blocks that are done again.
+
+        Raises:
+            Fault: they are more than the reader takes.
+        """
+        self.unrolled += blocks
+        if self.unrolled > self.options.limits.looped_blocks:
+            raise Fault(f"loops, calls and cycles repeat more than {self.options.limits.looped_blocks} blocks; the reader stops here.")
+
+    def warn(self, text: str, letter: str = "") -> None:
+        """Note something that the reader does not follow, once for each text."""
+        if len(self.warnings) < MOST_WARNINGS:
+            self.warnings.setdefault(text, (letter, self.line))
+
+    def event(self, kind: EventKind, value: float = 0.0) -> None:
+        """Note something that is no motion.
+
+        Raises:
+            Fault: there are more than anybody needs.
+        """
+        if len(self.events) >= MOST_EVENTS:
+            raise Fault(f"the program stops, dwells and changes tools more than {MOST_EVENTS} times; the reader stops here.")
+        self.events.append(Event(kind, self.row, self.line, value))
+
+    def own_parameter(self, key: Key) -> float | None:
+        """Return a parameter that the control itself sets, None if it is another; those of tables are in mm."""
+        if isinstance(key, str):
+            return self._named(key) if key.startswith("_") else None
+        if key < 5001:
+            return None
+        if 5420 <= key <= 5422:
+            return self.program_place[key - 5420] / self.unit
+        if self.habits.fanuc_flow and 5001 <= key <= 5003:
+            return self.program_place[key - 5001] / self.unit
+        if key == 5220:
+            return self._offset_number()
+        if 5161 <= key <= 5163 or 5181 <= key <= 5183:
+            return self.homes["G28" if key < 5180 else "G30"][(key - 1) % 20]
+        if 5211 <= key <= 5213:
+            return self.offsets.set_here[key - 5211]
+        if 5221 <= key <= 5390 and (key - 5221) % 20 in (0, 1, 2, 9):
+            return self._offset_value(OFFSETS[(key - 5221) // 20], (key - 5221) % 20)
+        if key == 5400:
+            return float(self.modal.tool)
+        if key == 5403:
+            return self.offsets.tool[2] / self.unit
+        return self.tool_table.get(self.modal.tool, ToolOffset()).diameter / self.unit if key == 5410 else None
+
+    def _offset_value(self, name: str, item: int) -> float:
+        """Return an axis (0 to 2, mm) or the rotation (9, degrees) of a work offset."""
+        if item == 9:
+            return math.degrees(self.offsets.turned.get(name, 0.0))
+        return self.offsets.work.get(name, (0.0, 0.0, 0.0))[item]
+
+    def _offset_number(self) -> float:
+        return float(OFFSETS.index(self.offsets.name) + 1) if self.offsets.name in OFFSETS else 0.0
+
+    def _named(self, key: str) -> float | None:
+        if key in ("_x", "_y", "_z"):
+            return self.program_place["xyz".index(key[1])] / self.unit
+        modal = self.modal
+        own: dict[str, float] = CONTROL_NAMES | {
+            "_metric": float(modal.units is Units.MM), "_imperial": float(modal.units is Units.INCH), "_absolute": float(modal.absolute),
+            "_incremental": float(not modal.absolute), "_plane": (170.0, 180.0, 190.0)[modal.plane], "_rpm": modal.speed,
+            "_feed": 0.0 if math.isnan(self.feed) else self.feed / self.unit, "_current_tool": float(modal.tool),
+            "_selected_tool": float(self.selected), "_spindle_on": float(modal.spindle != 0),
+            "_coord_system": 530 + 10 * self._offset_number(),
+        }  # fmt: skip
+        return own.get(key)
+

@@ -1,0 +1,377 @@
+"""Canned cycles G73, G74, G81 to G89: what one block of a hole cycle makes the control do, step by step.
+
+Behaviour: LinuxCNC's G code reference, chapter on canned cycles, and what its interpreter (2.9.0~pre1) prints for
+programs of every kind, redundant motions among them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+from ...model.motion import MotionKind, Plane
+from .fault import Fault
+
+Point = tuple[float, float, float]
+
+CYCLE_WORDS: dict[str, str] = {
+    "G73": "RLQ", "G74": "RP", "G81": "RL", "G82": "RLP", "G83": "RLQ", "G84": "RLP", "G85": "RL", "G86": "RLP", "G87": "RLIJK",
+    "G88": "RLP", "G89": "RLP",
+}  # fmt: skip
+"""The cycles, and the words beside X, Y, Z that LinuxCNC takes with each."""
+
+CHIP_CLEARANCE_MM = 0.254
+"""How far G73 lifts, and how far above the chips G83 returns, mm; on Fanuc and Haas a parameter of the machine."""
+
+MOST_PECKS = 100_000
+"""Pecks of one hole; more are a slip of the pen, or meant to hang the reader."""
+
+_NEEDS_DWELL = {"G82", "G86", "G88", "G89"}
+_PECKS = {"G73", "G83"}
+_TAPS = {"G84": 1, "G74": -1}
+_TURNING = {"G86", "G87", "G88"}
+_WAYS = {1: "clockwise (M3)", -1: "counter-clockwise (M4)"}
+
+
+@dataclass(frozen=True, slots=True)
+class Cycle:
+    """One block of a canned cycle, as it is written; lengths in one unit throughout, program coordinates.
+
+    Attributes:
+        code: a key of `CYCLE_WORDS`.
+        plane: of the holes; the cycle drills along its normal.
+        hole: words of the plane's first and second axis. depth: word of the normal. r: R word. None = not in the block.
+        repeats: L.
+        dwell: P, s. peck: Q. shift: I, J, K of G87.
+        absolute: G90 rather than G91. retract_to_r: G99 rather than G98.
+        spindle: -1, 0, 1 as it turns before the block.
+        unit_mm: mm per unit of the lengths: 1 where they are mm, 25.4 where they are inches. LinuxCNC keeps the numbers that
+            stay, and the initial height, as they were written, also over G20 and G21.
+        fanuc: words stay from one code to the next; a dwell need not be said; 0 repeats bore nothing, as on Fanuc and Haas.
+    """
+
+    code: str
+    plane: Plane
+    hole: tuple[float | None, float | None] = (None, None)
+    depth: float | None = None
+    r: float | None = None
+    repeats: int = 1
+    dwell: float | None = None
+    peck: float | None = None
+    shift: tuple[float | None, float | None, float | None] = (None, None, None)
+    absolute: bool = True
+    retract_to_r: bool = False
+    spindle: int = 0
+    unit_mm: float = 1.0
+    fanuc: bool = False
+
+
+class Move(NamedTuple):
+    """A straight motion.
+
+    Attributes:
+        kind: RAPID or LINE.
+        target: where the control sends the axes.
+        meant: where it takes itself to be afterwards; differs from `target` where `taps_astray`, and at the end of G88, out
+            of which the operator takes the tool by hand.
+    """
+
+    kind: MotionKind
+    target: Point
+    meant: Point
+
+
+class Dwell(NamedTuple):
+    """A wait, s."""
+
+    seconds: float
+
+
+class Spindle(NamedTuple):
+    """The spindle stops (0), or turns clockwise (1) or counter-clockwise (-1)."""
+
+    turning: int
+
+
+class Stop(NamedTuple):
+    """The program waits for the operator."""
+
+
+Step = Move | Dwell | Spindle | Stop
+
+
+def with_sticky(cycle: Cycle, before: Cycle | None) -> Cycle:
+    """Return the cycle with the words that stay from the block before: depth, R, P, Q, I, J, K.
+
+    LinuxCNC keeps them while the same G word is in force, and takes an unsaid P of G74 and G84 from any cycle before.
+    Axes of the plane and L never stay.
+
+    Args:
+        before: the cycle before, itself filled; None where another motion or G80 came in between.
+    """
+    if before is None:
+        return cycle
+    kept = _dwell_kept(cycle, before)
+    if before.code != cycle.code and not cycle.fanuc:
+        return replace(cycle, dwell=kept)
+    shift = tuple(_said(mine, theirs) for mine, theirs in zip(cycle.shift, before.shift, strict=True))
+    return replace(
+        cycle, depth=_said(cycle.depth, before.depth), r=_said(cycle.r, before.r), dwell=kept, peck=_said(cycle.peck, before.peck),
+        shift=(shift[0], shift[1], shift[2]),
+    )  # fmt: skip
+
+
+def _dwell_kept(cycle: Cycle, before: Cycle) -> float | None:
+    """Return P; a cycle that has none of its own carries that of the one before to a tapping cycle after it."""
+    stays = cycle.fanuc or before.code == cycle.code or cycle.code not in _NEEDS_DWELL
+    return _said(cycle.dwell, before.dwell) if stays else cycle.dwell
+
+
+def _said(mine: float | None, theirs: float | None) -> float | None:
+    return theirs if mine is None else mine
+
+
+def taps_astray(cycle: Cycle) -> bool:
+    """Tell whether LinuxCNC takes the axes of another plane for the feeds of this cycle.
+
+    Its interpreter (2.9.0~pre1) does that for G74 and G84: in G18 it feeds with the axes of G19, and the other way round.
+    """
+    return cycle.code in _TAPS and cycle.plane is not Plane.XY and not cycle.fanuc
+
+
+def cycle_steps(cycle: Cycle, position: Point, initial: float) -> Iterator[Step]:
+    """Return the steps of a cycle, one by one.
+
+    Args:
+        cycle: with its sticky words filled in.
+        position: where the control is.
+        initial: coordinate along the plane's normal when the run of cycles began: R of G91 counts from it, and G98
+            returns to it. LinuxCNC keeps it until another motion or G80, also over a change of the plane.
+
+    Raises:
+        Fault: a word is missing or has no sense, or the spindle does not turn as the cycle needs it.
+    """
+    _check_words(cycle)
+    _check_spindle(cycle)
+    r, depth = _known(cycle.r, "R"), _known(cycle.depth, _normal(cycle))
+    if not cycle.absolute:
+        r, depth = initial + r, initial + r + depth
+    if r < depth:
+        raise Fault(f"R at {r:g} lies below the bottom of the hole at {_normal(cycle)} {depth:g}; a cycle bores from R downwards.", "R")
+    if cycle.code in _PECKS and r - depth > MOST_PECKS * _known(cycle.peck, "Q"):
+        raise Fault(f"more than {MOST_PECKS:,} pecks for one hole; Q is too small.", "Q")
+    return _steps(cycle, position, initial, (r, depth))
+
+
+def _normal(cycle: Cycle) -> str:
+    return "XYZ"[cycle.plane.axes[2]]
+
+
+def _known(value: float | None, letter: str) -> float:
+    """Return the value of a word that the cycle cannot do without."""
+    if value is None:
+        raise Fault(f"the cycle has no {letter} word, and none stays from the block before.", letter)
+    return value
+
+
+def _check_words(cycle: Cycle) -> None:
+    """Refuse a cycle whose words are missing or out of range."""
+    _known(cycle.depth, _normal(cycle))
+    _known(cycle.r, "R")
+    if cycle.repeats < 0 or (cycle.repeats == 0 and not cycle.fanuc):
+        raise Fault(f"a cycle cannot be repeated {cycle.repeats} times; L counts from 1.", "L")
+    if cycle.code in _NEEDS_DWELL and not cycle.fanuc:
+        _known(cycle.dwell, "P")
+    if cycle.dwell is not None and cycle.dwell < 0:
+        raise Fault("a dwell cannot be negative.", "P")
+    if cycle.code in _PECKS and _known(cycle.peck, "Q") <= 0:
+        raise Fault("the depth of a peck must be above 0.", "Q")
+    if cycle.code == "G87":
+        for letter, value in zip("IJK", cycle.shift, strict=True):
+            _known(value, letter)
+
+
+def _check_spindle(cycle: Cycle) -> None:
+    """Refuse a cycle that needs another spindle; Fanuc's tapping cycles start it themselves."""
+    needed = _TAPS.get(cycle.code, 0)
+    if needed and cycle.spindle != needed and not cycle.fanuc:
+        raise Fault(f"{cycle.code} needs the spindle turning {_WAYS[needed]}, and it {_turns(cycle)}.")
+    if cycle.code in _TURNING and not cycle.spindle:
+        raise Fault(f"{cycle.code} needs a turning spindle (M3 or M4), and it stands.")
+
+
+def _turns(cycle: Cycle) -> str:
+    return f"turns {_WAYS[cycle.spindle]}" if cycle.spindle else "stands"
+
+
+class _Hole:
+    """One hole: heights along the normal and the place in the plane."""
+
+    def __init__(self, cycle: Cycle, heights: tuple[float, float, float], first: float, second: float) -> None:
+        self.cycle, self.first, self.second = cycle, first, second
+        self.r, self.bottom, self.clear = heights
+
+    def move(self, kind: MotionKind, height: float, shift: tuple[float, float] = (0.0, 0.0)) -> Move:
+        """Return the motion to a height over the hole, or beside it by `shift` in the plane."""
+        meant = _point(self.cycle.plane, self.first + shift[0], self.second + shift[1], height)
+        return Move(kind, meant, meant)
+
+    def rapid(self, height: float) -> Move:
+        return self.move(MotionKind.RAPID, height)
+
+    def feed(self, height: float) -> Move:
+        return self.move(MotionKind.LINE, height)
+
+    def tap(self, height: float) -> Move:
+        """Return a feed of a tapping cycle."""
+        if not taps_astray(self.cycle):
+            return self.feed(height)
+        other = Plane.YZ if self.cycle.plane is Plane.ZX else Plane.ZX
+        return self.feed(height)._replace(target=_point(other, self.first, self.second, height))
+
+
+def _point(plane: Plane, first: float, second: float, normal: float) -> Point:
+    point = [0.0, 0.0, 0.0]
+    for axis, value in zip(plane.axes, (first, second, normal), strict=True):
+        point[axis] = value
+    return point[0], point[1], point[2]
+
+
+def _steps(cycle: Cycle, position: Point, initial: float, heights: tuple[float, float]) -> Iterator[Step]:
+    """Yield the way to each hole and what is done there.
+
+    An initial height below R counts as R: the tool goes there first, even when it already is there. A tool that is not above
+    R rises on its way to the hole, at a slant, to the height that it will retract to; on Fanuc and Haas it goes level.
+    """
+    r, bottom = heights
+    first, second, height = (position[axis] for axis in cycle.plane.axes)
+    if initial < r and cycle.repeats:
+        height = initial = r
+        yield _Hole(cycle, (r, bottom, r), first, second).rapid(r)
+    clear = r if cycle.retract_to_r else initial
+    for _ in range(cycle.repeats):
+        first, second = (_moved(word, at, cycle.absolute) for word, at in zip(cycle.hole, (first, second), strict=True))
+        hole = _Hole(cycle, (r, bottom, clear), first, second)
+        height = clear if height <= r and not cycle.fanuc else height
+        yield hole.rapid(height)
+        if height != r:
+            yield hole.rapid(r)
+        yield from _BORING[cycle.code](hole)
+        height = clear
+
+
+def _moved(word: float | None, at: float, absolute: bool) -> float:
+    if word is None:
+        return at
+    return word if absolute else at + word
+
+
+def _drill(hole: _Hole) -> Iterator[Step]:
+    """G81, G82."""
+    yield hole.feed(hole.bottom)
+    if hole.cycle.code == "G82":
+        yield Dwell(hole.cycle.dwell or 0.0)
+    yield hole.rapid(hole.clear)
+
+
+def _pecks(hole: _Hole) -> Iterator[float]:
+    """Yield the depths short of the bottom that are fed to; added up as the control adds them up."""
+    depth = hole.r - (hole.cycle.peck or math.inf)
+    while depth > hole.bottom:
+        yield depth
+        depth -= hole.cycle.peck or math.inf
+
+
+def _above_chips(hole: _Hole, depth: float) -> float:
+    """Return the height a little above a peck's end; LinuxCNC goes there even where that is above R."""
+    height = depth + CHIP_CLEARANCE_MM / hole.cycle.unit_mm
+    return min(height, hole.r) if hole.cycle.fanuc else height
+
+
+def _deep_drill(hole: _Hole) -> Iterator[Step]:
+    """G83: out to R after each peck, and back to a little above where it ended."""
+    for depth in _pecks(hole):
+        yield hole.feed(depth)
+        yield hole.rapid(hole.r)
+        yield hole.rapid(_above_chips(hole, depth))
+    yield hole.feed(hole.bottom)
+    yield hole.rapid(hole.clear)
+
+
+def _break_chips(hole: _Hole) -> Iterator[Step]:
+    """G73: up a little after each peck."""
+    for depth in _pecks(hole):
+        yield hole.feed(depth)
+        yield hole.rapid(_above_chips(hole, depth))
+    yield hole.feed(hole.bottom)
+    yield hole.rapid(hole.clear)
+
+
+def _tap(hole: _Hole) -> Iterator[Step]:
+    """G84, G74 with a floating holder: in, the other way round out, all the way to the clearance at feed."""
+    turning = _TAPS[hole.cycle.code]
+    yield hole.tap(hole.bottom)
+    yield Spindle(0)
+    yield Spindle(-turning)
+    yield Dwell(hole.cycle.dwell or 0.0)
+    yield hole.tap(hole.clear)
+    yield Spindle(0)
+    yield Spindle(turning)
+
+
+def _bore_out_at_feed(hole: _Hole) -> Iterator[Step]:
+    """G85: at feed to R."""
+    yield hole.feed(hole.bottom)
+    yield hole.feed(hole.r)
+    yield hole.rapid(hole.clear)
+
+
+def _bore_stop_out(hole: _Hole) -> Iterator[Step]:
+    """G86: out with a standing spindle."""
+    yield hole.feed(hole.bottom)
+    yield Dwell(hole.cycle.dwell or 0.0)
+    yield Spindle(0)
+    yield hole.rapid(hole.clear)
+    yield Spindle(hole.cycle.spindle)
+
+
+def _back_bore(hole: _Hole) -> Iterator[Step]:
+    """G87: beside the axis down with a standing spindle, up at feed to the middle, and out the same way."""
+    shift = [hole.cycle.shift[axis] or 0.0 for axis in hole.cycle.plane.axes]
+    beside, turning = (shift[0], shift[1]), hole.cycle.spindle
+    yield hole.move(MotionKind.RAPID, hole.r, beside)
+    yield Spindle(0)
+    yield hole.move(MotionKind.RAPID, hole.bottom, beside)
+    yield hole.rapid(hole.bottom)
+    yield Spindle(turning)
+    yield hole.feed(shift[2] if hole.cycle.absolute else hole.bottom + shift[2])
+    yield hole.feed(hole.bottom)
+    yield Spindle(0)
+    yield hole.move(MotionKind.RAPID, hole.bottom, beside)
+    yield hole.move(MotionKind.RAPID, hole.clear, beside)
+    yield hole.rapid(hole.clear)
+    yield Spindle(turning)
+
+
+def _bore_by_hand_out(hole: _Hole) -> Iterator[Step]:
+    """G88: the operator takes the tool out; the control takes it to be there."""
+    yield hole.feed(hole.bottom)._replace(meant=hole.rapid(hole.clear).meant)
+    yield Dwell(hole.cycle.dwell or 0.0)
+    yield Spindle(0)
+    yield Stop()
+    yield Spindle(hole.cycle.spindle)
+
+
+def _bore_dwell_out(hole: _Hole) -> Iterator[Step]:
+    """G89: all the way to the clearance at feed."""
+    yield hole.feed(hole.bottom)
+    yield Dwell(hole.cycle.dwell or 0.0)
+    yield hole.feed(hole.clear)
+
+
+_BORING: dict[str, Callable[[_Hole], Iterator[Step]]] = {
+    "G73": _break_chips, "G74": _tap, "G81": _drill, "G82": _drill, "G83": _deep_drill, "G84": _tap, "G85": _bore_out_at_feed,
+    "G86": _bore_stop_out, "G87": _back_bore, "G88": _bore_by_hand_out, "G89": _bore_dwell_out,
+}  # fmt: skip

@@ -1,0 +1,281 @@
+"""Codes that move the tool: straight lines, arcs and helices, home, probing, threads, and the cycles and splines of their own files."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from ...model.motion import MotionKind, Plane
+from ...model.part import Units
+from .arc_kernels import centre_by_radius, radii
+from .block import Block
+from .codes import AXES, CYCLES, ROTARY, WITHOUT_AXES, Group
+from .control import Control
+from .curves import drop_curve, move_along_curve
+from .dialect import Dialect
+from .expression import whole
+from .fault import Fault
+from .foreign import warn_of_rotary
+from .holes import bore
+from .offsets import Place, replaced, taken
+from .program import FeedMode
+
+RADIUS_SLACK_MM = 0.00127
+"""How much the R word of a half circle may be too small to reach the end, as LinuxCNC has it."""
+
+LEAST_RADIUS_MM = 0.00127
+RELATIVE_MISMATCH = 1e-3
+"""The two radii of an arc may differ by so much of the larger one, whatever the control: LinuxCNC and grbl have it so."""
+GRBL_MISMATCH_MM = (0.005, 0.5)
+LINUXCNC_MISMATCH = {Units.MM: 0.02 * math.sqrt(2.0), Units.INCH: 0.002 * math.sqrt(2.0)}
+"""How far the two radii may be apart whatever their size, in units of the program; measured at its interpreter."""
+LINUXCNC_MOST = 100.0
+"""So many times that they may never be apart, be the arc as large as it may."""
+CURVES = ("G5.2", "G5.3", "G6.2")
+"""They take several blocks for one curve."""
+MOST_TURNS = 100_000
+
+
+def move(control: Control, block: Block) -> None:
+    """Obey the motion of a block: of its own G word, or of the one in force where the block has axis words.
+
+    Raises:
+        Fault: the motion cannot be done as it is written.
+    """
+    once = block.codes.get(Group.ONCE)
+    code = block.codes.get(Group.MOTION)
+    axes = block.has(AXES + ROTARY)
+    if once in ("G28", "G30"):
+        if code is not None and control.habits.fanuc_flow:
+            control.motion = code
+        elif code is not None and axes:
+            raise Fault(f"{once} and {code} in one block both want its axis words; write them in two.", letter="g")
+        _go_home(control, block, once)
+        return
+    if once is not None and once not in WITHOUT_AXES:
+        return
+    if code is not None:
+        if code in CYCLES and control.motion in ("G0", "G1", "G2", "G3"):
+            control.before_cycle = control.motion
+        control.motion = code
+    elif not axes and not (control.motion in ("G2", "G3") and block.has("ijk")) and not (control.motion == "G6.2" and block.has("k")):
+        return
+    _check_once(control, once)
+    if axes:
+        warn_of_rotary(control, block)
+    if control.motion not in CYCLES:
+        control.cycle = None
+    if control.motion not in CURVES:
+        drop_curve(control)
+    if control.compensation is not None and control.motion in CYCLES:
+        raise Fault("a canned cycle cannot be while cutter compensation is on; write G40 before.", letter="g")
+    _MOTIONS[control.motion](control, block)
+
+
+def _check_once(control: Control, once: str | None) -> None:
+    if once == "G53" and control.motion not in ("G0", "G1"):
+        raise Fault("G53 goes with G0 and G1 only.", letter="g")
+    if once == "G53" and not control.modal.absolute:
+        raise Fault("G53 goes with G90 only: the machine's zero is no increment.", letter="g")
+
+
+def _go_home(control: Control, block: Block, code: str) -> None:
+    """Go by way of the axis words to where the machine's reference point is; only along the axes that are named, if any."""
+    drop_curve(control)
+    named = [axis for axis, letter in enumerate(AXES) if letter in block.values]
+    by_way = control.target(block)
+    control.note_known(block, absolute=True)
+    if by_way != control.at or not control.habits.fanuc_flow:
+        control.move(MotionKind.RAPID, by_way)
+    home = control.offsets.to_program(taken(control.homes[code], control.offsets.tool))
+    goal = control.program_place
+    for axis in named or range(3):
+        goal = replaced(goal, axis, home[axis])
+    control.homeward.append(control.row)
+    control.move(MotionKind.RAPID, control.offsets.to_table(goal))
+
+
+def _target(control: Control, block: Block) -> Place:
+    """Return where the axis words lead; under G53 they count from the machine's zero."""
+    if block.codes.get(Group.ONCE) != "G53":
+        control.note_known(block)
+        return control.target(block)
+    control.homeward.append(control.row)
+    place = control.at
+    for axis, value in control.axis_words(block):
+        place = replaced(place, axis, value - control.offsets.tool[axis])
+    return place
+
+
+def _goes(control: Control, block: Block) -> bool:
+    """Tell whether a G0 or G1 moves at all; without axis words LinuxCNC goes where it stands."""
+    return block.has(AXES + ROTARY) or control.options.dialect is Dialect.LINUXCNC
+
+
+def _rapid(control: Control, block: Block) -> None:
+    if _goes(control, block):
+        control.move(MotionKind.RAPID, _target(control, block))
+
+
+def _line(control: Control, block: Block) -> None:
+    if _goes(control, block):
+        end = _target(control, block)
+        control.move(MotionKind.LINE, end, control.feed_along(math.dist(control.at, end)))
+
+
+def _no_motion(control: Control, block: Block) -> None:
+    if control.habits.fanuc_flow:  # what was in force before the cycle is in force again
+        control.motion = control.before_cycle if control.before_cycle in ("G0", "G1") else "G0"
+        (_rapid if control.motion == "G0" else _line)(control, block)
+        return
+    if block.has(AXES + ROTARY):
+        letter = next(letter for letter in AXES + ROTARY if letter in block.values)
+        raise Fault("there are axis words, but no G code that uses them is in force.", letter=letter)
+
+
+def _arc(control: Control, block: Block) -> None:
+    code = control.motion
+    if control.stray is not None:
+        raise Fault("the move just after cutter compensation (G40) must be straight, not an arc.", letter="g")
+    u, v, w = control.modal.plane.axes
+    if not block.has(AXES + ROTARY + "ijkr"):
+        raise Fault(f"{code} needs its end or its centre.", letter="g")
+    if control.offsets.rotation != 0.0 and control.modal.plane is not Plane.XY:
+        raise Fault(f"{code} in another plane than X Y is not followed while the work offset is turned (R of its table row).", letter="g")
+    _check_arc_words(block, "ijk"[w], code)
+    end = _target(control, block)
+    centre = _centre_by_r(control, block, end) if block.has("r") else _centre_by_ijk(control, block)
+    turns = whole(block.get("p") or 1.0, "P of an arc") if block.has("p") else 1
+    if not 1 <= turns <= MOST_TURNS:
+        raise Fault(f"the arc has P{turns} turns; use 1 to {MOST_TURNS}.", letter="p")
+    _check_radii(control, end, centre)
+    start = control.at
+    sweep = _sweep((start[u] - centre[u], start[v] - centre[v]), (end[u] - centre[u], end[v] - centre[v]), code == "G3")
+    along = (sweep + math.tau * (turns - 1)) * math.hypot(start[u] - centre[u], start[v] - centre[v])
+    feed = control.feed_along(math.hypot(along, end[w] - start[w]))
+    control.move(MotionKind.ARC_CCW if code == "G3" else MotionKind.ARC_CW, end, feed, (centre, turns))
+
+
+def _sweep(first: tuple[float, float], last: tuple[float, float], ccw: bool) -> float:
+    """Return the angle of an arc, radians, in (0, 2 pi]."""
+    turn = math.atan2(last[1], last[0]) - math.atan2(first[1], first[0])
+    turn = (turn if ccw else -turn) % math.tau
+    return turn if first != last and turn > 0 else math.tau
+
+
+def _check_arc_words(block: Block, foreign: str, code: str) -> None:
+    """Refuse words that contradict one another."""
+    if block.has("r") and block.has("ijk"):
+        raise Fault(f"{code} has both a radius and a centre; write one of them.", letter="r")
+    if not block.has("rijk"):
+        raise Fault(f"{code} needs a radius R or a centre I, J, K.", letter="g")
+    if block.has(foreign):
+        raise Fault(f"{foreign.upper()} is no coordinate of this plane's arcs; choose the plane, or leave it out.", letter=foreign)
+
+
+def _centre_by_r(control: Control, block: Block, end: Place) -> Place:
+    u, v, w = control.modal.plane.axes
+    start, radius = control.at, control.length(block, "r") or 0.0
+    if (start[u], start[v]) == (end[u], end[v]):
+        raise Fault("an arc with a radius R cannot end where it starts; write its centre.", letter="r")
+    turn = 1.0 if control.motion == "G3" else -1.0
+    a, b = centre_by_radius(start[u], start[v], end[u], end[v], radius, turn, RADIUS_SLACK_MM)
+    if math.isnan(a):
+        half = math.hypot(end[u] - start[u], end[v] - start[v]) / 2
+        raise Fault(f"the radius {abs(radius):g} mm is too small to reach the end, which is {2 * half:.6g} mm away.", letter="r")
+    return _placed((u, a), (v, b), (w, start[w]))
+
+
+def _centre_by_ijk(control: Control, block: Block) -> Place:
+    u, v, w = control.modal.plane.axes
+    words = [control.length(block, "ijk"[axis]) for axis in (u, v)]
+    start = control.at
+    if control.modal.arc_absolute:
+        for axis, word in zip((u, v), words, strict=True):
+            if word is None:
+                raise Fault(f"with absolute centres (G90.1) an arc needs {'IJK'[axis]} too.", letter="g")
+        if control.offsets.rotation == 0.0:
+            shift = control.modal.shift
+            return _placed((u, (words[0] or 0.0) + shift[u]), (v, (words[1] or 0.0) + shift[v]), (w, start[w]))
+        program = _placed((u, words[0] or 0.0), (v, words[1] or 0.0), (w, 0.0))
+        return replaced(control.offsets.to_table(program), w, start[w])
+    offset = _placed((u, words[0] or 0.0), (v, words[1] or 0.0), (w, 0.0))
+    if control.offsets.rotation != 0.0:
+        offset = _turned_only(control, offset)
+    return _placed((u, start[u] + offset[u]), (v, start[v] + offset[v]), (w, start[w]))
+
+
+def _turned_only(control: Control, vector: Place) -> Place:
+    """Return a vector of the program in the table's directions."""
+    c, s = math.cos(control.offsets.rotation), math.sin(control.offsets.rotation)
+    return (vector[0] * c - vector[1] * s, vector[0] * s + vector[1] * c, vector[2])
+
+
+def _placed(*coordinates: tuple[int, float]) -> Place:
+    place = [0.0, 0.0, 0.0]
+    for axis, value in coordinates:
+        place[axis] = value
+    return (place[0], place[1], place[2])
+
+
+def _check_radii(control: Control, end: Place, centre: Place) -> None:
+    """Refuse an arc that does not end on its circle, as the control would."""
+    u, v, _ = control.modal.plane.axes
+    first, last = radii(control.at[u], control.at[v], end[u], end[v], centre[u], centre[v])
+    if first < LEAST_RADIUS_MM or last < LEAST_RADIUS_MM:
+        raise Fault(f"the arc has no radius (start {first:.4g} mm, end {last:.4g} mm from its centre).", letter="ijk")
+    some, most = _mismatch(control)
+    off = abs(first - last)
+    if (off > some and off > RELATIVE_MISMATCH * max(first, last)) or off > most:
+        raise Fault(f"the arc does not end on its circle: its radius is {first:.4f} mm at the start and {last:.4f} mm at the end.", "ijk")
+
+
+def _mismatch(control: Control) -> tuple[float, float]:
+    """Return by how much, mm, the two radii of an arc may differ at any size, and by how much at none.
+
+    Fanuc, Haas and Mach3 leave it to a setting of the machine: they are taken to allow what LinuxCNC allows in mm, at any size.
+    """
+    dialect = control.options.dialect
+    if dialect is Dialect.GRBL:
+        return GRBL_MISMATCH_MM
+    if dialect is not Dialect.LINUXCNC:
+        return LINUXCNC_MISMATCH[Units.MM], math.inf
+    some = LINUXCNC_MISMATCH[control.modal.units] * control.unit
+    return some, LINUXCNC_MOST * some
+
+
+def _probe(control: Control, block: Block) -> None:
+    """Take the way to a probe's goal as fed all along: where it will stop nobody knows."""
+    if not block.has(AXES + ROTARY):
+        raise Fault(f"{control.motion} needs axis words: where to look for the work.", letter="g")
+    if block.has(AXES) and not block.has(ROTARY) and math.dist(control.at, control.target(block)) == 0.0:
+        raise Fault(f"{control.motion} begins where it ends, so it can probe nothing.", letter="g")
+    control.warn(f"{control.motion} stops where the probe touches; it is shown up to its end.", "g")
+    _line(control, block)
+
+
+def _thread(control: Control, block: Block) -> None:
+    """Feed in step with the spindle; G33.1 comes back the same way."""
+    pitch = block.get("k")
+    if pitch is None or pitch <= 0:
+        raise Fault(f"{control.motion} needs the way of a revolution, K greater than 0.", letter="k" if pitch is not None else "g")
+    if control.modal.speed <= 0 or not control.modal.spindle:
+        raise Fault(f"{control.motion} needs a turning spindle (S and M3 or M4 before).", letter="g")
+    start, end, feed = control.at, _target(control, block), pitch * control.unit * control.modal.speed
+    control.move(MotionKind.LINE, end, feed)
+    if control.motion == "G33.1":
+        control.move(MotionKind.LINE, start, feed)
+
+
+def _cycle(control: Control, block: Block) -> None:
+    if control.modal.feed_mode is FeedMode.INVERSE_TIME:
+        raise Fault("a canned cycle cannot be fed in inverse time (G93).", letter="g")
+    bore(control, block)
+
+
+_MOTIONS: dict[str, Callable[[Control, Block], None]] = {
+    "G0": _rapid, "G1": _line, "G2": _arc, "G3": _arc, "G33": _thread, "G33.1": _thread, "G80": _no_motion,
+    **dict.fromkeys(("G38.2", "G38.3", "G38.4", "G38.5"), _probe),
+    **dict.fromkeys(CYCLES, _cycle),
+    **dict.fromkeys(("G5", "G5.1", *CURVES), move_along_curve),
+}  # fmt: skip

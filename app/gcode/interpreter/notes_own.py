@@ -1,0 +1,163 @@
+"""What the header of our own programs tells (`app.gcode.writer.header_notes`): a key and its values in each comment."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from contextlib import suppress
+from typing import NamedTuple
+
+from ...core.errors import ParameterError
+from ...model.job import Copies
+from ...model.moves import DogBone, Tab
+from ...model.operation import OPERATION_KINDS, Side
+from ...model.part import Units
+from ...model.read_options import LEAST_PER_INCH, MOST_PER_INCH, ReadOptions
+from .notes_stock import Box
+from .notes_words import Comments
+from .program import HeaderNote, OperationNote, StockNote, ToolNote
+
+MARK, MARK_ON = b"hitofude:", b"hitofude+"
+"""What the comments of the header begin with, and those that go on with the one before."""
+
+_SPELLED = re.compile(r"\+([0-9A-F]{1,6})\+", re.IGNORECASE)
+_MOST = 20_000
+"""Comments of a header that are looked at: each tab and each dog-bone has one."""
+
+Values = tuple[int, list[str]]
+"""1-based line of a comment, and its values."""
+
+
+class Notes(NamedTuple):
+    """What comments tell: tools in the order of the text, the stock, and the header where it is our own."""
+
+    tools: tuple[ToolNote, ...] = ()
+    stock: StockNote | None = None
+    header: HeaderNote | None = None
+
+
+def own_notes(comments: Comments) -> Notes:
+    """Return what a program with our own header tells; values that are not as they are written are passed over."""
+    told: dict[str, list[Values]] = {}
+    for key, values in _told(comments):
+        told.setdefault(key, []).append(values)
+    origin = next((triple for _, values in told.get("origin_mm", []) if (triple := _triple(values)) is not None), None)
+    header = HeaderNote(
+        origin, tuple(_operations(told)), _units(told.get("drawing_units", [])),
+        tuple(_name(values) for _, values in told.get("layer", [])),
+        _first(told.get("join_tolerance_mm", [])), _first(told.get("path_tolerance_mm", [])),
+        _first(told.get("allowance_mm", [])), _copies(told.get("copies", [])),
+        (tuple(_name(values) for _, values in told.get("keep_out", [])), _first(told.get("keep_out_height_mm", [])) or 0.0),
+        tuple(Tab(*numbers) for numbers in _fives(told.get("tab", []))),
+        tuple(DogBone(*numbers) for numbers in _fives(told.get("dog_bone", []))), _reading(told),
+        tuple((int(numbers[0]), numbers[1]) for _, values in told.get("plunge_mm_min", []) if len(numbers := _floats(values)) == 2),
+    )  # fmt: skip
+    return Notes(tuple(_tools(told.get("tool", []))), _stock(told.get("stock_mm", []), origin or (0.0, 0.0, 0.0)), header)
+
+
+def _reading(told: dict[str, list[Values]]) -> ReadOptions:
+    """Return how the drawing was read."""
+    without_layers, without_types, layouts = (tuple(_name(values) for _, values in told.get(key, []))
+                                              for key in ("skip_layer", "skip_type", "layout"))  # fmt: skip
+    density = _first(told.get("px_per_inch", []))
+    in_range = density is not None and LEAST_PER_INCH <= density <= MOST_PER_INCH
+    return ReadOptions(_first(told.get("overrule_units", [])) == 1, layouts[0] if layouts else "", _first(told.get("to_zero", [])) == 1,
+                       density if in_range else None, without_layers, without_types)  # fmt: skip
+
+
+def _told(comments: Comments) -> Iterator[tuple[str, Values]]:
+    """Yield every key in lower case, with its line and its values, comments that go on with another put behind it."""
+    whole: list[tuple[int, str]] = []
+    line, last = 1, 0
+    for at, comment in sorted(comments.texts((MARK, MARK_ON), _MOST)):
+        mark, text = comment.strip()[: len(MARK)].lower().encode("ascii", "replace"), comment.strip()[len(MARK) :]
+        if mark == MARK_ON and whole:
+            whole[-1] = (whole[-1][0], whole[-1][1] + text)
+        elif mark == MARK:
+            line, last = line + comments.data.count(b"\n", last, at), at
+            whole.append((line, text))
+    for line, text in whole:
+        name, _, values = text.partition("=")
+        yield name.strip().lower(), (line, values.split(","))
+
+
+def _tools(told: list[Values]) -> Iterator[ToolNote]:
+    """Yield tools: number, kind, diameter, and of some corner radius, tip diameter and tip angle in degrees."""
+    for line, values in told:
+        numbers = _floats([*values[:1], *values[2:]])
+        if len(numbers) in (2, 5):
+            corner, tip, angle = numbers[2:] or [0.0] * 3
+            yield ToolNote(int(numbers[0]), values[1].strip().lower(), numbers[1], corner, math.radians(angle), line, tip)
+
+
+def _stock(told: list[Values], origin: tuple[float, float, float]) -> StockNote | None:
+    """Return the stock less the work origin, which is in the coordinates of the part too."""
+    for line, values in told:
+        corners = _floats(values)
+        if len(corners) == 6:
+            program = [corner - origin[k % 3] for k, corner in enumerate(corners)]
+            return Box(low=program[:3], high=program[3:]).note(line)
+    return None
+
+
+def _operations(told: dict[str, list[Values]]) -> Iterator[OperationNote]:
+    """Yield operations: kind, tool, depth, stock to leave, and the side of contours; with what other comments say of the N-th."""
+    layers = [(int(values[0]), _name(values[1:])) for _, values in told.get("operation_layer", []) if values[0].strip().isdecimal()]
+    left, leads = ({int(numbers[0]): numbers[1] for _, values in told.get(key, []) if len(numbers := _floats(values)) == 2}
+                   for key in ("floor_to_leave_mm", "leads_mm"))  # fmt: skip
+    holes = {int(numbers[0]): (numbers[1], numbers[2], numbers[3])
+             for _, values in told.get("holes_mm", []) if len(numbers := _floats(values)) == 4}  # fmt: skip
+    for number, (_, values) in enumerate(told.get("operation", []), 1):
+        kind, numbers, side = values[0].strip().lower(), _floats(values[1:4]), _side(values[4:])
+        if kind in OPERATION_KINDS and len(numbers) == 3 and side is not None:
+            names = tuple(name for of, name in layers if of == number)
+            yield OperationNote(kind, int(numbers[0]), numbers[1], numbers[2], side, names, left.get(number, 0.0),
+                                leads.get(number, 0.0), holes.get(number, (0.0, 0.0, 0.0)))
+
+
+def _side(values: list[str]) -> Side | None:
+    """Return the side that a contour is told to run on, inside where nothing is said; None for anything else."""
+    if not values:
+        return Side.INSIDE
+    return next((side for side in Side if [value.strip().lower() for value in values] == [side.value]), None)
+
+
+def _copies(told: list[Values]) -> Copies | None:
+    """Return the copies of the part; None where nothing is told that can be."""
+    for _, values in told:
+        numbers = _floats(values)
+        if len(numbers) == 4:
+            with suppress(ParameterError):
+                return Copies(int(numbers[0]), int(numbers[1]), numbers[2], numbers[3])
+    return None
+
+
+def _fives(told: list[Values]) -> Iterator[list[float]]:
+    """Yield values that are five numbers."""
+    return (numbers for _, values in told if len(numbers := _floats(values)) == 5)
+
+
+def _units(told: list[Values]) -> Units | None:
+    names = [values[0].strip().upper() for _, values in told]
+    return next((Units[name] for name in names if name in Units.__members__), None)
+
+
+def _triple(values: list[str]) -> tuple[float, float, float] | None:
+    numbers = _floats(values)
+    return (numbers[0], numbers[1], numbers[2]) if len(numbers) == 3 else None
+
+
+def _first(told: list[Values]) -> float | None:
+    return next((numbers[0] for _, values in told if len(numbers := _floats(values)) == 1), None)
+
+
+def _name(values: list[str]) -> str:
+    """Return a name as it was before it was spelled in safe characters."""
+    return _SPELLED.sub(lambda match: chr(min(int(match[1], 16), 0x10FFFF)), ",".join(values).strip())
+
+
+def _floats(values: list[str]) -> list[float]:
+    """Return plain numbers; none at all where one of the values is not."""
+    plain = [value.strip() for value in values]
+    return [float(value) for value in plain] if all(re.fullmatch(r"-?\d{1,9}(\.\d{1,9})?", value) for value in plain) else []

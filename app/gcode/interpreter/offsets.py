@@ -1,0 +1,134 @@
+"""Where zero is: work offsets with their rotation, G52, G92 and tool length, from program coordinates to the table's and back.
+
+As LinuxCNC has it: table = work offset + rotated (program + G52 + G92). The table's coordinates are those of the machine
+less the tool's length.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from .fault import Fault
+
+Place = tuple[float, float, float]
+
+ZERO: Place = (0.0, 0.0, 0.0)
+OFFSETS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
+"""Their numbers in G10 L2 P are 1 to 9."""
+
+
+@dataclass(slots=True)
+class Offsets:
+    """Every offset that is set.
+
+    Attributes:
+        work: origin of each work offset by its name, mm. turned: its rotation about Z, radians.
+        common: of all work offsets (Fanuc's external offset).
+        name: of the one in force.
+        local: G52. set_here: G92, kept while it is switched off. set_here_on: whether it is in force.
+        tool: what G43 takes off.
+        local_is_set_here: G52 writes what G92 writes, as in LinuxCNC.
+    """
+
+    local_is_set_here: bool
+    work: dict[str, Place] = field(default_factory=dict)
+    turned: dict[str, float] = field(default_factory=dict)
+    common: Place = ZERO
+    name: str = "G54"
+    local: Place = ZERO
+    set_here: Place = ZERO
+    set_here_on: bool = True
+    tool: Place = ZERO
+
+    @property
+    def rotation(self) -> float:
+        """Rotation of the work offset in force, radians."""
+        return self.turned.get(self.name, 0.0)
+
+    @property
+    def within(self) -> Place:
+        """What is added to program coordinates before they are turned."""
+        return added(self.local, self.set_here if self.set_here_on else ZERO)
+
+    @property
+    def shift(self) -> Place:
+        """What is added to program coordinates after they are turned: all offsets together."""
+        return added(self._origin, turned(self.within, self.rotation))
+
+    @property
+    def _origin(self) -> Place:
+        return added(self.work.get(self.name, ZERO), self.common)
+
+    def to_table(self, program: Place) -> Place:
+        """Return program coordinates as the table's."""
+        return added(turned(program, self.rotation), self.shift)
+
+    def to_program(self, table: Place) -> Place:
+        """Return table coordinates as the program's."""
+        return turned(taken(table, self.shift), -self.rotation)
+
+    def set_local(self, axis: int, value: float) -> None:
+        """Obey G52 for one axis."""
+        if self.local_is_set_here:
+            before = self.set_here if self.set_here_on else ZERO
+            self.set_here, self.set_here_on = replaced(before, axis, value), True
+        else:
+            self.local = replaced(self.local, axis, value)
+
+    def call_here(self, table: Place, axis: int, value: float) -> None:
+        """Obey G92: from now on the point has this program coordinate."""
+        if not self.set_here_on:
+            self.set_here, self.set_here_on = ZERO, True
+        now = self.to_program(table)[axis]
+        self.set_here = replaced(self.set_here, axis, self.set_here[axis] + now - value)
+
+    def call_work(self, name: str, table: Place, values: dict[int, float]) -> None:
+        """Obey G10 L20: under this work offset the point has these program coordinates."""
+        before, self.name = self.name, name
+        goal = self.to_program(table)
+        for axis, value in values.items():
+            goal = replaced(goal, axis, value)
+        moved = taken(table, self.to_table(goal))
+        self.work[name] = added(self.work.get(name, ZERO), moved)
+        self.name = before
+
+
+def added(a: Place, b: Place) -> Place:
+    """Return the sum."""
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+
+
+def taken(a: Place, b: Place) -> Place:
+    """Return the difference."""
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def replaced(place: Place, axis: int, value: float) -> Place:
+    """Return a place with another value of one axis."""
+    return (value if axis == 0 else place[0], value if axis == 1 else place[1], value if axis == 2 else place[2])
+
+
+def turned(place: Place, angle: float) -> Place:
+    """Return a place turned about Z, radians; by 0 it stays exactly as it is."""
+    if angle == 0.0:
+        return place
+    c, s = math.cos(angle), math.sin(angle)
+    return (place[0] * c - place[1] * s, place[0] * s + place[1] * c, place[2])
+
+
+def offset_name(number: int, extended: bool = False) -> str:
+    """Return the name of a work offset by its P number.
+
+    Args:
+        number: 1 to 9; with `extended` 1 to 300.
+        extended: of G54.1 P.
+
+    Raises:
+        Fault: there is no such offset.
+    """
+    if extended and 1 <= number <= 300:
+        return f"G54.1 P{number}"
+    if not extended and 1 <= number <= len(OFFSETS):
+        return OFFSETS[number - 1]
+    raise Fault(f"there is no work offset P{number}; use 1 to {300 if extended else len(OFFSETS)}.", letter="p")

@@ -1,0 +1,94 @@
+"""Parameters: numbers with numbers or names, some of a subroutine alone, some that the control itself sets."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from .fault import Fault
+
+Key = int | str
+System = Callable[[Key], float | None]
+"""What the control says of a parameter of its own; None = it is none."""
+
+LARGEST = 99_999
+MOST = 200_000
+"""So many parameters may be set; a real program sets some hundred."""
+
+
+class Parameters:
+    """Values by number or name.
+
+    Attributes:
+        changes: how often a value became another one; alike at two times = nothing has changed between.
+    """
+
+    def __init__(self, system: System, local_numbers: int) -> None:
+        """Begin with every parameter 0.
+
+        Args:
+            system: asked first.
+            local_numbers: #1 to this one belong to the subroutine that is running.
+        """
+        self._system, self._local_numbers = system, local_numbers
+        self._everywhere: dict[Key, float] = {}
+        self._here: dict[Key, float] = {}
+        self._callers: list[dict[Key, float]] = []
+        self.changes = 0
+
+    def get(self, key: Key) -> float:
+        """Return a value.
+
+        Raises:
+            Fault: a name that was never set, or a number out of range.
+        """
+        own = self._system(key)
+        if own is not None:
+            return own
+        value = self._place(key).get(key)
+        if value is not None:
+            return value
+        if isinstance(key, str):
+            raise Fault(f"the parameter #<{key}> has no value here; set it before.")
+        if not 0 <= key <= LARGEST:
+            raise Fault(f"there is no parameter #{key}; use 1 to {LARGEST}.")
+        return 0.0
+
+    def exists(self, key: Key) -> bool:
+        """Tell whether a named parameter has a value."""
+        return self._system(key) is not None or key in self._place(key)
+
+    def set(self, key: Key, value: float) -> None:
+        """Give a parameter a value.
+
+        Raises:
+            Fault: the control's own cannot be set; the number is out of range; there are too many.
+        """
+        if isinstance(key, int) and not 0 < key <= LARGEST:
+            raise Fault(f"there is no parameter #{key} to set; use 1 to {LARGEST}.")
+        if isinstance(key, str) and self._system(key) is not None:
+            raise Fault(f"#<{key}> is the control's own and cannot be set.")
+        place = self._place(key)
+        if place.get(key) != value:
+            self.changes += 1
+            place[key] = value
+            if len(place) > MOST:
+                raise Fault(f"the program sets more than {MOST} parameters; the reader stops here.")
+
+    def values(self) -> tuple[tuple[Key, float], ...]:
+        """Return every parameter that the program has set and can use here."""
+        return (*self._everywhere.items(), *self._here.items())
+
+    def enter(self, arguments: dict[Key, float]) -> None:
+        """Begin a subroutine with parameters of its own."""
+        self._callers.append(self._here)
+        self._here = dict(arguments)
+        self.changes += 1
+
+    def leave(self) -> None:
+        """Go back to the caller's parameters."""
+        self._here = self._callers.pop()
+        self.changes += 1
+
+    def _place(self, key: Key) -> dict[Key, float]:
+        local = 0 < key <= self._local_numbers if isinstance(key, int) else not key.startswith("_")
+        return self._here if local else self._everywhere

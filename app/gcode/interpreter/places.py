@@ -1,0 +1,125 @@
+"""Where the program can go on: its O words and N words, found once in the whole text."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from .fault import Fault
+from .text import Text, code_of
+
+KEYWORDS = (
+    "sub", "endsub", "return", "call", "do", "while", "endwhile", "if", "elseif", "else", "endif", "repeat", "endrepeat", "break",
+    "continue",
+)  # fmt: skip
+
+_SPACED = "|".join(r"[ \t]*".join(word) for word in sorted(KEYWORDS, key=len, reverse=True))
+"""The keywords with blanks between their letters, which a control skips: "end sub"."""
+
+_O_LINE = re.compile(
+    rb"^[ \t]*(?:/[ \t]*)?(?:n[ \t]*[0-9.]+[ \t]*)?[o:][ \t]*(<[^>\n]{1,200}>|[0-9](?:[ \t]*[0-9]){0,8})[ \t]*(%s)?" % _SPACED.encode(),
+    re.IGNORECASE | re.MULTILINE,
+)
+_N_LINE = re.compile(rb"^[ \t]*(?:/[ \t]*)?n[ \t]*([0-9]{1,9})(?![0-9.])", re.IGNORECASE | re.MULTILINE)
+_DO_END = re.compile(rb"^[ \t]*(?:n[ \t]*[0-9]+[ \t]*)?(?:while[^\n(]*\]do|(end))[ \t]*([0-9])", re.IGNORECASE | re.MULTILINE)
+
+
+MOST_PLACES = 500_000
+
+
+@dataclass(frozen=True, slots=True)
+class Cursor:
+    """The beginning of a line: its offset in the text and its 1-based number."""
+
+    offset: int
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """An O word: where it stands, where the line behind it begins, its label, its keyword ("" = none)."""
+
+    at: Cursor
+    label: str
+    keyword: str
+
+
+class Places:
+    """Finds places of a text; each index is made when it is first asked."""
+
+    def __init__(self, text: Text) -> None:
+        """Look into a text."""
+        self._text, self._end = text, len(text.data)
+        self._by_label: dict[str, list[Statement]] | None = None
+        self._numbers: dict[int, list[Cursor]] | None = None
+        self._loops: list[tuple[Cursor, bool, int]] | None = None
+
+    def end_at(self, offset: int) -> None:
+        """Look no farther than to an offset: what stands behind a program's closing per cent sign no control reads."""
+        self._end = offset
+
+    def after(self, at: Cursor) -> Cursor:
+        """Return the line behind the one at a place."""
+        return Cursor(self._text.line_end(at.offset) + 1, at.line + 1)
+
+    def code(self, at: Cursor, nested: bool) -> str:
+        """Return what the control obeys of the line at a place; `nested` as `text.code_of` has it."""
+        return code_of(self._text.line(at.offset), nested)
+
+    def next_of(self, label: str, keywords: tuple[str, ...], behind: int) -> Statement | None:
+        """Return the first statement of a label with one of the keywords behind an offset."""
+        statements = self._statements(label)
+        first = bisect_right(statements, behind, key=lambda statement: statement.at.offset)
+        return next((statements[i] for i in range(first, len(statements)) if statements[i].keyword in keywords), None)
+
+    def subroutine(self, label: str) -> Statement | None:
+        """Return where a subroutine begins: an O word with sub, or with nothing (a program number)."""
+        return next((each for each in self._statements(label) if each.keyword in ("sub", "")), None)
+
+    def number(self, number: int, behind: int) -> Cursor | None:
+        """Return the line with an N word: the first one behind an offset, else the first of the text."""
+        if self._numbers is None:
+            self._numbers = {}
+            for found, line in self._found(_N_LINE):
+                self._numbers.setdefault(int(found[1]), []).append(Cursor(found.start(), line))
+        lines = self._numbers.get(number, [])
+        first = bisect_right(lines, behind, key=lambda line: line.offset)
+        return lines[first if first < len(lines) else 0] if lines else None
+
+    def loop_end(self, number: int, behind: int) -> Cursor | None:
+        """Return the line with END n that belongs to the WHILE ... DO n at an offset."""
+        if self._loops is None:
+            self._loops = [(Cursor(found.start(), line), found[1] is not None, int(found[2])) for found, line in self._found(_DO_END)]
+        first = bisect_right(self._loops, behind, key=lambda loop: loop[0].offset)
+        return next((at for at, ends, its in (self._loops[i] for i in range(first, len(self._loops))) if ends and its == number), None)
+
+    def _statements(self, label: str) -> list[Statement]:
+        if self._by_label is None:
+            self._by_label = {}
+            for found, line in self._found(_O_LINE):
+                name = label_of(found[1].decode(self._text.encoding, "replace"))
+                keyword = "".join((found[2] or b"").decode().lower().split())
+                self._by_label.setdefault(name, []).append(Statement(Cursor(found.start(), line), name, keyword))
+        return self._by_label.get(label, [])
+
+    def _found(self, pattern: re.Pattern[bytes]) -> Iterator[tuple[re.Match[bytes], int]]:
+        """Yield every match with the number of its line.
+
+        Raises:
+            Fault: there are more than any program has.
+        """
+        data, line, counted = self._text.data, 1, 0
+        for index, match in enumerate(pattern.finditer(data, 0, self._end)):
+            if index >= MOST_PLACES:
+                raise Fault(f"the program has more than {MOST_PLACES} places to go on at; the reader stops here.")
+            line += data.count(b"\n", counted, match.start())
+            counted = match.start()
+            yield match, line
+
+
+def label_of(text: str) -> str:
+    """Return an O word's label in one spelling: "100", "<name>"."""
+    plain = "".join(text.split()).lower()
+    return str(int(plain)) if plain.isdigit() else plain

@@ -1,0 +1,250 @@
+"""What reading an NC program gives: its motions, what happens between them, and what is wrong with the text."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from ...core.errors import printable
+from ...model.job import Copies
+from ...model.motion import Motions, Plane
+from ...model.moves import DogBone, Tab
+from ...model.operation import Side
+from ...model.part import Units
+from ...model.read_options import AS_DRAWN, ReadOptions
+
+
+class FeedMode(Enum):
+    """What an F word means."""
+
+    PER_MINUTE = "G94"
+    INVERSE_TIME = "G93"
+    PER_REVOLUTION = "G95"
+
+
+@dataclass(frozen=True, slots=True)
+class ModalState:
+    """What is in force while a motion is done, but for its own G word and feed.
+
+    Attributes:
+        units, plane: of the words to come.
+        absolute: G90 rather than G91. arc_absolute: G90.1 rather than G91.1.
+        feed_mode: what F means.
+        tool: T number in the spindle, 0 = none yet. length_offset: H number of G43, 0 = G49.
+        speed: rpm, >= 0; under G96 the surface speed in m/min. constant_surface: G96 rather than G97.
+        spindle: -1 counter-clockwise (M4), 0 off (M5), 1 clockwise (M3).
+        flood, mist: coolant.
+        work_offset: "G54" ... "G59.3", or "G54.1 P12".
+        shift: what is added to program coordinates, mm: work offset, G52, G92. rotation: of G10 L2 R, radians.
+        path: "G61", "G61.1", "G64", with P and Q as the program says.
+        path_tolerance: P of G64, mm; None where none is given, 0 for G61.
+        retract_to_r: G99 rather than G98.
+    """
+
+    units: Units = Units.MM
+    plane: Plane = Plane.XY
+    absolute: bool = True
+    arc_absolute: bool = False
+    feed_mode: FeedMode = FeedMode.PER_MINUTE
+    tool: int = 0
+    length_offset: int = 0
+    speed: float = 0.0
+    constant_surface: bool = False
+    spindle: int = 0
+    flood: bool = False
+    mist: bool = False
+    work_offset: str = "G54"
+    shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    rotation: float = 0.0
+    path: str = "G64"
+    path_tolerance: float | None = None
+    retract_to_r: bool = False
+
+
+class EventKind(Enum):
+    """What a control does between motions."""
+
+    DWELL = "dwell"
+    TOOL_CHANGE = "tool change"
+    STOP = "stop"
+    OPTIONAL_STOP = "optional stop"
+    END = "end"
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something that happens before a motion.
+
+    Attributes:
+        before: index of the motion that comes next; the number of motions at the end.
+        line: 1-based line of the text.
+        value: seconds of a dwell, T number of a tool change; 0 for others.
+    """
+
+    kind: EventKind
+    before: int
+    line: int
+    value: float = 0.0
+
+
+class Severity(Enum):
+    """How bad a problem is."""
+
+    ERROR = "error"
+    WARNING = "warning"
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """Something in the text that the control would refuse, or that the reader cannot follow.
+
+    Attributes:
+        line, column: 1-based; column counts characters, 0 = the whole line.
+        word: the word as it is written, or "".
+        text: a sentence: what is wrong, what was expected.
+        severity: an error ended the reading there; after a warning it went on.
+    """
+
+    line: int
+    column: int
+    word: str
+    text: str
+    severity: Severity = Severity.ERROR
+
+    def told(self, file: str) -> str:
+        """Return the problem with its place: "part.ngc:12:7: G41: ...".
+
+        Args:
+            file: name of the program.
+        """
+        place = f"{file}:{self.line}:{self.column}" if self.column else f"{file}:{self.line}"
+        return printable(f"{place}: {self.word + ': ' if self.word else ''}{self.text}")
+
+
+@dataclass(frozen=True, slots=True)
+class ToolNote:
+    """A tool as the program's comments tell of it.
+
+    Attributes:
+        number: T number, 0 where the comment names none and no T word was near.
+        kind: "flat", "ball", "bull", "v", "drill", "taper", or "" where it is not told.
+        diameter, corner_radius: mm, 0 = not told. angle: full angle of the tip, radians, 0 = not told.
+        line: 1-based line of the comment.
+        tip_diameter: mm, 0 = not told.
+    """
+
+    number: int
+    kind: str = ""
+    diameter: float = 0.0
+    corner_radius: float = 0.0
+    angle: float = 0.0
+    line: int = 0
+    tip_diameter: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class StockNote:
+    """The stock as the program's comments tell of it.
+
+    Attributes:
+        low, high: corners of the box, mm, program coordinates; NaN where a coordinate is not told.
+        size: x, y, z of the box, mm; NaN where it is not told.
+        line: 1-based line of the comment.
+    """
+
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+    size: tuple[float, float, float]
+    line: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class OperationNote:
+    """An operation as the header of our own tells of it.
+
+    Attributes:
+        kind: "pocket", "rest", "contour" or "drill".
+        tool: T number.
+        depth, leave: from the stock's top down to the floor, and what is left on walls, mm.
+        side: where a contour runs.
+        layers: that it alone machines; empty = all. Controls that write capitals alone write these so too.
+        floor_to_leave: mm.
+        leads: of a contour outside: what room they need beside the wall's path, mm; 0 = not told.
+        holes: of a drill operation: least and most diameter of its circles, 0 = the drill's own, and how far it goes below the depth, mm.
+    """
+
+    kind: str
+    tool: int
+    depth: float
+    leave: float
+    side: Side = Side.INSIDE
+    layers: tuple[str, ...] = ()
+    floor_to_leave: float = 0.0
+    leads: float = 0.0
+    holes: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class HeaderNote:
+    """What the header of our own tells beside tools and stock (`app.gcode.writer.header_notes`); None or nothing where it does not.
+
+    Attributes:
+        origin: the program's zero in the coordinates of the drawing, mm.
+        operations: in their order.
+        drawing_units: of the drawing.
+        layers: that were machined; empty = all visible ones. Controls that write capitals alone write these so too.
+        reading: what else was said about reading the drawing.
+        join_tolerance: within which loose ends were joined, mm.
+        path_tolerance: by how much the written path may be too near to the walls, mm.
+        allowance: so thick a skin may paths made from pixels leave along the walls, mm.
+        copies: of the part.
+        keep_out: layers of clamps, and how high these are, mm.
+        tabs, dog_bones: where metal was left standing, and where walls were cut into, part coordinates.
+        plunge_rates: T numbers, and how fast each may be fed straight down, mm/min.
+    """
+
+    origin: tuple[float, float, float] | None = None
+    operations: tuple[OperationNote, ...] = ()
+    drawing_units: Units | None = None
+    layers: tuple[str, ...] = ()
+    join_tolerance: float | None = None
+    path_tolerance: float | None = None
+    allowance: float | None = None
+    copies: Copies | None = None
+    keep_out: tuple[tuple[str, ...], float] = ((), 0.0)
+    tabs: tuple[Tab, ...] = ()
+    dog_bones: tuple[DogBone, ...] = ()
+    reading: ReadOptions = AS_DRAWN
+    plunge_rates: tuple[tuple[int, float], ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class NcProgram:
+    """A program as the control would run it, up to its end or to the first error.
+
+    Attributes:
+        motions: in the order of doing, loops and subroutines unrolled.
+        states: what `Motions.state` counts in; never empty.
+        events: in order.
+        homeward: motions to a place of the machine (G28, G30, G53). Where that is in these coordinates only the machine's work
+            offset tells, so their ends, and the starts of those behind them, are no places of the part.
+        problems: in the order of the text's running; at most one error, the last one.
+        tools, stock: what comments say.
+        line_count: lines of the text.
+        header: what the header of our own says beside that; None in any other program.
+    """
+
+    motions: Motions
+    states: tuple[ModalState, ...] = (ModalState(),)
+    events: tuple[Event, ...] = ()
+    homeward: tuple[int, ...] = ()
+    problems: tuple[Problem, ...] = ()
+    tools: tuple[ToolNote, ...] = ()
+    stock: StockNote | None = None
+    line_count: int = 0
+    header: HeaderNote | None = None
+
+    @property
+    def error(self) -> Problem | None:
+        """The error that ended the reading, if there was one."""
+        return next((problem for problem in self.problems if problem.severity is Severity.ERROR), None)

@@ -1,0 +1,42 @@
+"""Read an NC program: the door of this room, as a whole or block by block."""
+
+from __future__ import annotations
+
+from ...core.progress import NO_PROGRESS, Progress
+from .options import ReadOptions
+from .program import NcProgram
+from .steps import Step
+
+DEFAULT = ReadOptions()
+
+
+def read_steps(data: bytes, options: ReadOptions, progress: Progress = NO_PROGRESS) -> tuple[NcProgram, tuple[Step, ...]]:
+    """Return what a control does with a program, and every block that it did, in the order of doing.
+
+    Several times slower than `read_program`, which does plain lines at once.
+
+    Args, errors: as `read_program`.
+    """
+    from .run import Run  # compiled code: loaded where it is used
+
+    steps: list[Step] = []
+    program = Run(data, options, progress, steps.append).read()
+    return program, tuple(steps)
+
+
+def read_program(data: bytes, options: ReadOptions = DEFAULT, progress: Progress = NO_PROGRESS) -> NcProgram:
+    """Return what a control does with a program.
+
+    The text is never refused: an error ends the reading where it is found, is the last of the program's problems,
+    and what was read up to there is given.
+
+    Args:
+        data: the file's bytes, UTF-8 or Latin-1, lines ended in any way.
+        options: dialect, tool table, limits.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    from .run import Run  # compiled code: loaded where it is used
+
+    return Run(data, options, progress).read()

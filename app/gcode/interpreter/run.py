@@ -1,0 +1,338 @@
+"""The reader's loop: line by line through a program, plain ones by the compiled lane, until it ends or cannot go on."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from ...core.errors import MOST_QUOTED, shortened
+from ...core.progress import Progress
+from .block import SLASH, Block, Parsed, block_of, parse
+from .codes import CYCLES, TAKES, Group
+from .control import Control
+from .dialect import Dialect
+from .fault import Fault
+from .flow import MOST_KEPT, Flow
+from .foreign import adapt, call_macro, is_leader, warn_of_numbers
+from .lane import Plain, plain_blocks
+from .macro import call_or_return, is_macro, obey_macro
+from .moves import move
+from .notes import notes
+from .options import ReadOptions
+from .places import Cursor, Places
+from .polar import check_polar, turn_polar_into_axes
+from .program import EventKind, FeedMode, NcProgram, Problem, Severity
+from .settings import before_motion, set_once
+from .steps import Step, Watch
+from .text import Text, code_of, column_of
+
+LINES_A_STEP = 20_000
+"""Lines between two looks at whether the job was cancelled."""
+
+PLAIN_LINES_A_BLOCK = 16
+"""Repeated plain lines that count as one repeated block: they take the lane less time than that."""
+
+LEADER = 4096
+"""Bytes before the per cent sign that may be something else."""
+
+_PLAIN = re.compile(rb"(?:[ \txyzijkrfnXYZIJKRFN0-9.+\-]+|[gG][ \t]*0?[0-3](?![ \t]*[0-9.]))*+(?:[(;][^\n]*)?\n")
+"""A line that the lane may know how to do."""
+
+_LEADER = re.compile(rb"[ \t\n\v\f\0]*%")
+_CLOSED = re.compile(rb"^[ \t]*%[ \t]*$", re.MULTILINE)
+_PERCENT = re.compile(rb"^[ \t]*%", re.MULTILINE)
+_O_WORD = re.compile(r"/?(?:n[0-9.]+)?[o:]")
+_PROGRAM_NUMBER = re.compile(r"^(/?(?:n[0-9.]+)?)[o:]")
+_MOTIONS = ("G0", "G1", "G2", "G3")
+_ENDS = ("M2", "M30")
+
+
+class Run:
+    """One reading of a program.
+
+    Attributes:
+        stopped: whether the reading ended at the line of `stop_at`. inside: ... within a subroutine or a loop.
+    """
+
+    def __init__(self, data: bytes, options: ReadOptions, progress: Progress, watch: Watch | None = None) -> None:
+        """Stand before the first line; with a watch every block is done by itself, and told to it."""
+        self._text, self._options, self._progress = Text(data), options, progress
+        self._control = Control(options)
+        self._habits = self._control.habits
+        self._flow = Flow(Places(self._text), self._control)
+        self._bytes = np.frombuffer(self._text.data, np.uint8)
+        self._plain = Plain()
+        self._kept: dict[int, Parsed | str] = {}
+        self._problems: list[Problem] = []
+        self._furthest, self._told = -1, 0
+        self._stop = len(self._text.data) + 1
+        self._watch, self._opened = watch, False
+        self.stopped = self.inside = False
+
+    @property
+    def control(self) -> Control:
+        """The control as it stands; after `read`, where the reading ended."""
+        return self._control
+
+    def stop_at(self, line: int) -> None:
+        """Let the reading end where it comes to a line, before it does what stands there.
+
+        Args:
+            line: 1-based, not beyond the last one.
+        """
+        self._stop = 0
+        for _ in range(line - 1):
+            self._stop = self._text.line_end(self._stop) + 1
+
+    def read(self) -> NcProgram:
+        """Read all that can be read.
+
+        Raises:
+            Cancelled: the job was asked to stop.
+        """
+        try:
+            self._skip_leader()
+            warn_of_numbers(self._control, self._text.data)
+            while self._flow.next.offset < len(self._text.data):
+                if not self._step():
+                    break
+            else:
+                self._miss_end()
+            if self._control.compensation is not None and not self.stopped:
+                self._control.compensation.flush(self._control.columns)
+        except Fault as fault:
+            self._problems.append(self._located(fault, Severity.ERROR))
+        except RecursionError:
+            self._problems.append(self._located(Fault("the block is too long or too deep to be read."), Severity.ERROR))
+        control = self._control
+        if control.compensation is not None:
+            control.compensation.spill(control.columns)
+        self._warn_of_start()
+        warnings = [Problem(line, 0, letter.upper(), text, Severity.WARNING) for text, (letter, line) in control.warnings.items()]
+        told = notes(self._text.data)
+        motions = control.columns.motions(control.splines, control.known_from())
+        homeward = tuple(row for row in control.homeward if row < len(motions))  # a block that fails has named its way, and not gone it
+        return NcProgram(
+            motions, control.states, tuple(control.events), homeward, (*warnings, *self._problems), told.tools, told.stock,
+            self._text.line_count, told.header,
+        )  # fmt: skip
+
+    def _miss_end(self) -> None:
+        """Tell that the text has no end, if the control wants one."""
+        if self._options.dialect is Dialect.LINUXCNC and self._control.row:
+            self._control.line = self._text.line_count
+            self._control.warn("the program has no end; LinuxCNC wants M2, M30 or % behind it.")
+
+    def _warn_of_start(self) -> None:
+        """Tell that the program moves from where it has not said that the tool is."""
+        control = self._control
+        axes = control.taken_for_known()
+        if axes:
+            control.line = int(control.columns.line[min(row for row in control.known[3:] if row >= 0)])
+            control.warn("the tool moves in G91 before the program has said where it is; it is taken to begin at "
+                         f"{' '.join(f'{letter}0' for letter in axes)} of the work offsets' table.", "g")  # fmt: skip
+
+    def _skip_leader(self) -> None:
+        """Begin behind the per cent sign of a program that has one; Fanuc's and Haas' readers skip what stands before it."""
+        data = self._text.data
+        found = _LEADER.match(data) or (_PERCENT.search(data, 0, LEADER) if self._habits.fanuc_flow else None)
+        if found is not None and is_leader(data[: found.start()]):
+            offset = self._text.line_end(found.end()) + 1
+            self._flow.next = Cursor(offset, data.count(b"\n", 0, offset) + 1)
+            closed = _CLOSED.search(data, offset)
+            self._flow.places.end_at(closed.start() if closed else len(data))
+            self._opened = True
+
+    def _step(self) -> bool:
+        """Do plain lines, or one line of any kind; False at the end of the program."""
+        flow = self._flow
+        if flow.next.offset == self._stop:
+            self.stopped, self.inside = True, flow.nested
+            return False
+        self._count()
+        longest = flow.next.offset + self._options.limits.line_length + 1
+        if self._watch is None and _PLAIN.match(self._text.data, flow.next.offset, longest) is not None and self._plain_lines():
+            return True
+        flow.here, self._control.line = flow.next, flow.next.line
+        flow.next = Cursor(self._text.line_end(flow.here.offset) + 1, flow.here.line + 1)
+        return self._obey(flow.here)
+
+    def _count(self) -> None:
+        """Count what is read again; look up now and then."""
+        at = self._flow.next
+        if at.offset > self._furthest:
+            self._furthest = at.offset
+        else:
+            self._control.unroll()
+        self._told += 1
+        if self._told >= LINES_A_STEP:
+            self._told = 0
+            self._progress.step(at.offset / len(self._text.data), "Reading NC")
+
+    def _plain_lines(self) -> bool:
+        """Let the lane do what it can; False where that is nothing."""
+        control, plain, flow = self._control, self._plain, self._flow
+        modal = control.modal
+        if control.curve is not None or control.compensation is not None or control.stray is not None:
+            return False
+        if modal.feed_mode is not FeedMode.PER_MINUTE or modal.rotation != 0.0:
+            return False
+        room = self._options.limits.motions - control.columns.count
+        plain.position[:], plain.feed, plain.known[:] = control.at, control.feed, control.known
+        plain.motion = _MOTIONS.index(control.motion) if control.motion in _MOTIONS else -1
+        plain.scale, plain.bare_scale = control.unit, control.unit * control.least
+        plain.absolute, plain.arc_absolute, plain.plane = modal.absolute, modal.arc_absolute, int(modal.plane)
+        plain.shift[:], plain.state = modal.shift, control.state()
+        begin = flow.next
+        text = self._bytes if begin.offset > self._stop else self._bytes[: self._stop]
+        offset, line = plain_blocks(text, (begin.offset, begin.line), plain, control.columns, min(room, LINES_A_STEP))
+        if line == begin.line:
+            return False
+        x, y, z = plain.position.tolist()
+        control.at, control.feed, control.known = (x, y, z), plain.feed, plain.known.tolist()
+        if plain.motion >= 0:
+            control.motion, control.cycle = _MOTIONS[plain.motion], None
+        flow.here, flow.next = begin, Cursor(offset, line)
+        self._told += line - begin.line - 1
+        if begin.offset < self._furthest:
+            control.unroll((line - begin.line) // PLAIN_LINES_A_BLOCK)
+        return True
+
+    def _obey(self, at: Cursor) -> bool:
+        """Do a line of any kind; False at the end of the program."""
+        line = self._kept.get(at.offset)
+        if line is None:
+            line = self._understood(at)
+            if (self._flow.nested or at.offset < self._furthest) and len(self._kept) < MOST_KEPT:
+                self._kept[at.offset] = line
+        if isinstance(line, Parsed):
+            return self._done(line)
+        if not line or line.startswith("%"):
+            if line:
+                self._check_percent(at)
+            return not line
+        rest = self._jump(line)
+        return not rest or self._done(self._parse(rest))
+
+    def _done(self, parsed: Parsed) -> bool:
+        """Do a line's block; False at the end of the program."""
+        control, block = self._control, block_of(parsed, self._control.parameters)
+        if self._watch is None:
+            return self._execute(block)
+        line, before, row, said = control.line, control.modal, control.row, block.copy()
+        goes_on = self._execute(block)
+        self._watch(Step(line, parsed, said, (before, control.modal), control.motion, control.feed, (row, control.row)))
+        return goes_on
+
+    def _check_percent(self, at: Cursor) -> None:
+        """Refuse a per cent sign that ends nothing, as LinuxCNC does."""
+        alone = self._text.line(at.offset).strip() == "%"
+        if self._options.dialect is Dialect.LINUXCNC and not (self._opened and alone):
+            raise Fault("a per cent sign ends a program that begins with one, alone in its line; take it out.", column=-1, word="%")
+
+    def _understood(self, at: Cursor) -> Parsed | str:
+        """Return a line in words, or its code: "" where there is nothing to do, or what begins with % or is a jump."""
+        if self._text.line_end(at.offset) - at.offset > self._options.limits.line_length:
+            raise Fault(f"the line is longer than {self._options.limits.line_length} characters.")
+        code = code_of(self._text.line(at.offset), nested=self._options.dialect is not Dialect.LINUXCNC)
+        if self._options.block_delete and SLASH.match(code) is not None:
+            self._control.warn("blocks that begin with a slash are left out.", "/")
+            return ""
+        if code.startswith("$") and self._options.dialect is Dialect.GRBL:
+            self._control.warn("commands of the control itself ($) are passed over.")
+            return ""
+        if not code:
+            return ""
+        if code.startswith("%") or _O_WORD.match(code) is not None or (self._habits.fanuc_flow and is_macro(code)):
+            return code
+        return self._parse(code)
+
+    def _parse(self, code: str) -> Parsed:
+        return parse(code, self._options.limits.nesting, free=self._habits.fanuc_flow, polar=self._habits.ngc_flow)
+
+    def _jump(self, code: str) -> str:
+        """Obey a line that is a jump; return what is left of it to obey."""
+        if self._habits.fanuc_flow and is_macro(code):
+            return obey_macro(self._flow, self._control, code)
+        if self._habits.ngc_flow:
+            self._flow.obey(code)
+        elif not self._habits.fanuc_flow:
+            raise Fault(f"{self._habits.title} knows no O words.", column=-1)
+        else:
+            return _PROGRAM_NUMBER.sub(r"\1n", code, count=1)  # a number, and so as long that columns stay
+        return ""
+
+    def _execute(self, block: Block) -> bool:
+        """Do a block; False at the end of the program."""
+        control = self._control
+        if self._habits.fanuc_flow:
+            adapt(control, block)
+        self._check_codes(block)
+        check_polar(control, block)
+        if block.codes.get(Group.ONCE) == "G65":
+            call_macro(self._flow, control, block)
+            return True
+        before_motion(control, block)
+        set_once(control, block)
+        turn_polar_into_axes(control, block)
+        move(control, block)
+        stop = block.codes.get(Group.STOP)
+        if stop in _ENDS:
+            control.event(EventKind.END)
+            return False
+        if stop is not None:
+            control.event(EventKind.OPTIONAL_STOP if stop == "M1" else EventKind.STOP)
+        if not call_or_return(self._flow, control, block):
+            control.warn("M99 begins the program again, for ever; it is read once.", "m")
+            control.event(EventKind.END)
+            return False
+        return True
+
+    def _check_codes(self, block: Block) -> None:
+        """Refuse, or pass over, what the control does not know."""
+        title, strict = self._habits.title, self._options.dialect in (Dialect.LINUXCNC, Dialect.GRBL)
+        for code in [*block.codes.values(), *block.coolant]:
+            if code in self._habits.missing:
+                raise Fault(f"{title} does not know {code}.", letter=code[0].lower())
+        for code in block.unknown:
+            own = code[0] == "M" and 100 <= float(code[1:]) < 200
+            if (code[0] == "G" or strict) and not (own and self._options.dialect is Dialect.LINUXCNC):
+                raise Fault(f"{code} is not known.", letter=code[0].lower())
+            self._control.warn(f"{code} is the machine builder's own; what it does is not followed.", code[0].lower())
+        unused = "" if block.unknown or any(code in block.codes.values() for code in ("M98", "G65")) else self._unused(block)
+        if unused and strict:
+            raise Fault("no code in this block takes this word.", letter=unused)
+        if unused:
+            self._control.warn(f"{unused.upper()} stands in a block where no code takes it; it is passed over.", unused)
+
+    def _unused(self, block: Block) -> str:
+        """Return a letter that neither the block's codes nor the motion in force takes, or ""."""
+        letter, motion = block.unused(), block.codes.get(Group.MOTION, self._control.motion)
+        repeats = letter == "k" and self._habits.fanuc_flow and motion in CYCLES
+        return "" if repeats or (letter and letter in TAKES.get(motion, "")) else letter
+
+    def _located(self, fault: Fault, severity: Severity) -> Problem:
+        """Return a fault with its place in the text."""
+        at = self._flow.here
+        line = self._text.line(at.offset)[: self._options.limits.line_length]
+        column, word = fault.column, fault.word
+        if fault.letter and not column:
+            column, word = self._word(line, fault.letter.lower(), fault.text)
+        elif column < 0:
+            column = column_of(line, -1 - column)
+        return Problem(at.line, min(max(column, 0), len(line) + 1), word[:MOST_QUOTED], shortened(fault.text), severity)
+
+    def _word(self, line: str, letters: str, text: str) -> tuple[int, str]:
+        """Return column and spelling of the word that a fault is about: the one that its text names, else the first."""
+        try:
+            words = self._parse(code_of(line, nested=True).removeprefix("/")).words
+        except Fault:
+            return 0, ""
+        mine = [word for word in words if word.letter in letters]
+        named = [word for word in mine if isinstance(word.value, float) and f"{word.letter.upper()}{word.value:g}" in text]
+        if not mine:
+            return 0, ""
+        word = (named or mine)[0]
+        begin, end = column_of(line, word.begin), column_of(line, word.end - 1)
+        return begin, line[begin - 1 : end]

@@ -1,0 +1,370 @@
+"""Codes that set what is in force, in the order in which a control obeys those of one block."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+from ...model.motion import Plane
+from ...model.part import Units
+from .block import Block
+from .codes import Group
+from .compensation import Compensation
+from .control import Control
+from .expression import whole
+from .fault import Fault
+from .feeds import set_feed
+from .offsets import ZERO, Place, added, offset_name, replaced, taken
+from .options import ToolOffset
+from .program import EventKind
+
+PLANES = {"G17": Plane.XY, "G18": Plane.ZX, "G19": Plane.YZ}
+LARGEST_SPEED = 1e7
+LARGEST_DWELL_S = 1e6
+
+
+def before_motion(control: Control, block: Block) -> None:
+    """Obey everything of a block that comes before its motion, and is no offset.
+
+    Raises:
+        Fault: a word is missing or out of range, or there is something that no milling machine can do.
+    """
+    if control.compensation is not None and Group.RADIUS not in block.codes:
+        _check_compensation(control, block)
+    set_feed(control, block)
+    _speed(control, block)
+    _tool_word(control, block)
+    for group, step in _STEPS:
+        if group in block.codes:
+            step(control, block)
+
+
+def _speed(control: Control, block: Block) -> None:
+    if Group.SPINDLE_MODE in block.codes:
+        control.change(constant_surface=block.codes[Group.SPINDLE_MODE] == "G96")
+    value = block.values.get("s")
+    if value is None:
+        return
+    if not 0 <= value < LARGEST_SPEED:
+        raise Fault(f"the spindle speed is {value:g}; it must be 0 or more.", letter="s")
+    if value != control.modal.speed:
+        control.change(speed=value)
+
+
+def _tool_word(control: Control, block: Block) -> None:
+    value = block.get("t")
+    if value is None:
+        return
+    number = whole(value, "the tool number")
+    if not 0 <= number < 10**8:
+        raise Fault(f"the tool number is {number}; it must be 0 or more.", letter="t")
+    control.selected = number
+
+
+def _tool_change(control: Control, block: Block) -> None:
+    code = block.codes[Group.TOOL]
+    if not control.habits.tool_changes:
+        raise Fault(f"{control.habits.title} changes no tools; write one file for each tool.", letter="m")
+    number = control.selected
+    if code == "M61":
+        number = whole(block.need("q", code), "the tool number")
+    control.change(tool=number, spindle=control.modal.spindle if code == "M61" else 0)
+    control.event(EventKind.TOOL_CHANGE, float(number))
+
+
+def _spindle(control: Control, block: Block) -> None:
+    code = block.codes[Group.SPINDLE]
+    if code in ("M3", "M4", "M5"):
+        control.change(spindle={"M3": 1, "M4": -1, "M5": 0}[code])
+    elif code == "M19":
+        control.change(spindle=0)
+
+
+def _coolant(control: Control, block: Block) -> None:
+    for code in block.coolant:
+        control.change(**{"M7": {"mist": True}, "M8": {"flood": True}, "M9": {"mist": False, "flood": False}}[code])
+
+
+def _dwell(control: Control, block: Block) -> None:
+    if block.codes.get(Group.ONCE) != "G4":
+        return
+    letter = next((letter for letter in "pxu" if block.has(letter)), "")
+    if not letter or (letter != "p" and not control.habits.fanuc_flow):
+        raise Fault("G4 needs how long to wait; write P.", letter="g")
+    habits = control.habits
+    unit = habits.dwell_unit_s if letter in block.whole else habits.dwell_unit_with_point_s
+    seconds = block.values.pop(letter) * unit
+    if not 0 <= seconds <= LARGEST_DWELL_S:
+        raise Fault(f"the dwell is {seconds:g} s; it must be 0 or more.", letter=letter)
+    control.event(EventKind.DWELL, seconds)
+
+
+def _plane(control: Control, block: Block) -> None:
+    control.change(plane=PLANES[block.codes[Group.PLANE]])
+
+
+def _units(control: Control, block: Block) -> None:
+    control.change(units=Units.INCH if block.codes[Group.UNITS] == "G20" else Units.MM)
+
+
+def _radius(control: Control, block: Block) -> None:
+    code = block.codes[Group.RADIUS]
+    if code == "G40":
+        control.end_compensation()
+        return
+    if control.compensation is not None:
+        raise Fault(f"{code}: cutter compensation is on already; write G40 before.", letter="g")
+    if control.modal.plane is Plane.YZ:
+        raise Fault(f"{code} works in the planes G17 and G18.", letter="g")
+    radius = _cutter_diameter(control, block, code) / 2
+    if radius:
+        sign = 1 if code.startswith("G41") else -1
+        control.compensation = Compensation(sign * radius, control.modal.plane, control.stray or control.at)
+
+
+def _cutter_diameter(control: Control, block: Block, code: str) -> float:
+    """Return the diameter that G41 or G42 means, mm."""
+    if code.endswith(".1"):
+        value = control.length(block, "d")
+        if value is None:
+            raise Fault(f"{code} needs a word D with the diameter.", letter="g")
+        return value
+    number = whole(block.values.get("d", float(control.modal.tool)), "the D number")
+    if number == 0:
+        return 0.0
+    row = control.tool_table.get(number)
+    if row is None or not row.diameter:
+        letter = "d" if block.has("d") else "g"
+        raise Fault(f"{code} needs the diameter of tool {number}, which is in no tool table; read the program with one.", letter)
+    return row.diameter
+
+
+def _check_compensation(control: Control, block: Block) -> None:
+    """Refuse what cannot be done while cutter compensation is on."""
+    for group in (Group.PLANE, Group.OFFSET, Group.LENGTH, Group.TOOL):
+        code = block.codes.get(group)
+        if code not in (None, "G17", "G18", "G19") or (code is not None and PLANES.get(code) is not control.modal.plane):
+            raise Fault(f"{code} cannot be while cutter compensation is on; write G40 before.", letter=code[0].lower())
+    once = block.codes.get(Group.ONCE)
+    if once not in (None, "G4", "G9"):
+        raise Fault(f"{once} cannot be while cutter compensation is on; write G40 before.", letter="g")
+
+
+def _length(control: Control, block: Block) -> None:
+    code = block.codes[Group.LENGTH]
+    number, tool = 0, ZERO
+    if code == "G43.1":
+        tool = _replaced_by_words(control, block, control.offsets.tool)
+        for letter in "xyz":
+            block.values.pop(letter, None)
+    elif code != "G49":
+        number = _length_number(control, block, code)
+        tool = _table_offset(control, number)
+        tool = added(control.offsets.tool, tool) if code == "G43.2" else tool
+        tool = taken(ZERO, tool) if code == "G44" else tool
+    moved = taken(control.offsets.tool, tool)
+    if moved != ZERO:
+        control.at = added(control.at, moved)
+    control.offsets.tool = tool
+    control.change(length_offset=number)
+
+
+def _length_number(control: Control, block: Block, code: str) -> int:
+    """Return the H number that a G43 means."""
+    value = block.get("h")
+    if value is None:
+        if not control.habits.length_from_tool:
+            raise Fault(f"{code} needs a word H on a {control.habits.title} control.", letter="g")
+        return control.modal.tool
+    number = whole(value, "the H number")
+    if number < 0:
+        raise Fault(f"the H number is {number}; it must be 0 or more.", letter="h")
+    return number
+
+
+def _table_offset(control: Control, number: int) -> Place:
+    if number == 0 or not control.tool_table:
+        return ZERO
+    row = control.tool_table.get(number)
+    if row is None:
+        raise Fault(f"tool {number} is not in the tool table.", letter="h")
+    return row.offset
+
+
+def _replaced_by_words(control: Control, block: Block, place: Place) -> Place:
+    for axis, value in control.axis_words(block):
+        place = replaced(place, axis, value)
+    return place
+
+
+def _work_offset(control: Control, block: Block) -> None:
+    code = block.codes[Group.OFFSET]
+    control.offsets.name = code
+    if code == "G54.1":
+        number = block.values.pop("p", None)
+        if number is None:
+            raise Fault("G54.1 needs a word P.", letter="g")
+        control.offsets.name = offset_name(whole(number, "P of G54.1"), extended=True)
+    control.offsets_changed()
+
+
+def _path(control: Control, block: Block) -> None:
+    code = block.codes[Group.PATH]
+    words, tolerance = [code], 0.0 if code != "G64" else None
+    if code == "G64":
+        if block.has("r"):
+            control.warn("R of G64 is LinuxCNC's from 2.10 on; older ones refuse it.", "r")
+        for letter in "pqr":
+            value = block.values.pop(letter, None) if block.has(letter) else None
+            if value is not None:
+                words.append(f"{letter.upper()}{value:g}")
+                tolerance = max(value * control.unit, 0.0) if letter == "p" else tolerance
+    control.change(path=" ".join(words), path_tolerance=tolerance)
+
+
+def _distance(control: Control, block: Block) -> None:
+    control.change(absolute=block.codes[Group.DISTANCE] == "G90")
+
+
+def _arc_distance(control: Control, block: Block) -> None:
+    control.change(arc_absolute=block.codes[Group.ARC_DISTANCE] == "G90.1")
+
+
+def _return_level(control: Control, block: Block) -> None:
+    control.change(retract_to_r=block.codes[Group.RETURN] == "G99")
+
+
+def _refused(control: Control, block: Block) -> None:
+    """Refuse what would move the tool in a way that the reader does not follow."""
+    refused = {"G7": "the diameter mode of lathes", "G16": "polar coordinates", "G51": "scaling", "G68": "rotation"}
+    for code in block.codes.values():
+        if code in refused:
+            raise Fault(f"{refused[code]} ({code}) is not followed; the reader stops here.", letter="g")
+
+
+_STEPS: tuple[tuple[Group, Callable[[Control, Block], None]], ...] = (
+    (Group.TOOL, _tool_change), (Group.SPINDLE, _spindle), (Group.COOLANT, _coolant), (Group.ONCE, _dwell), (Group.PLANE, _plane),
+    (Group.UNITS, _units), (Group.RADIUS, _radius), (Group.LENGTH, _length), (Group.OFFSET, _work_offset), (Group.PATH, _path),
+    (Group.DISTANCE, _distance), (Group.ARC_DISTANCE, _arc_distance), (Group.RETURN, _return_level), (Group.ONCE, _refused),
+    (Group.LATHE, _refused), (Group.POLAR, _refused), (Group.SCALING, _refused), (Group.TURNING, _refused),
+)  # fmt: skip
+"""What each group does, in the order in which a control does it."""
+
+
+def set_once(control: Control, block: Block) -> None:
+    """Obey what changes offsets or tables at once: G10, G52, G92 and their like; takes their axis words.
+
+    Raises:
+        Fault: a word is missing or out of range.
+    """
+    code = block.codes.get(Group.ONCE)
+    act = _ONCE.get(code or "")
+    if code is None or act is None:
+        return
+    act(control, block)
+    control.offsets_changed()
+    if code in ("G10", "G52", "G92"):
+        for letter in "xyz":
+            block.values.pop(letter, None)
+
+
+def _set_local(control: Control, block: Block) -> None:
+    _need_axes(block, "G52")
+    for axis, value in control.axis_words(block):
+        control.offsets.set_local(axis, value)
+
+
+def _call_here(control: Control, block: Block) -> None:
+    if not block.has("xyz"):
+        if control.habits.fanuc_flow and block.has("s"):
+            return
+        _need_axes(block, "G92")
+    for axis, value in control.axis_words(block):
+        control.offsets.call_here(control.at, axis, value)
+
+
+def _need_axes(block: Block, code: str) -> None:
+    if not block.has("xyzabcuvw"):
+        raise Fault(f"{code} needs axis words.", letter="g")
+
+
+def _forget_here(control: Control, block: Block) -> None:
+    control.offsets.set_here, control.offsets.set_here_on = ZERO, True
+
+
+def _suspend_here(control: Control, block: Block) -> None:
+    control.offsets.set_here_on = False
+
+
+def _restore_here(control: Control, block: Block) -> None:
+    control.offsets.set_here_on = True
+
+
+def _home_here(name: str) -> Callable[[Control, Block], None]:
+    def act(control: Control, block: Block) -> None:
+        control.homes[name] = added(control.at, control.offsets.tool)
+
+    return act
+
+
+def _set_table(control: Control, block: Block) -> None:
+    """Obey G10: L2 and L20 set a work offset, L1 and L10 to L13 the tool table."""
+    kind = whole(block.need("l", "G10"), "L of G10")
+    number = whole(block.need("p", "G10"), "P of G10")
+    if kind in (2, 20):
+        _set_work(control, block, kind, number)
+    elif kind in (1, 10, 11, 12, 13):
+        _set_tool(control, block, kind, number)
+    elif not control.habits.fanuc_flow:
+        raise Fault(f"G10 L{kind} is not known; expected L1, L2, L10, L11 or L20.", letter="l")
+
+
+def _set_work(control: Control, block: Block, kind: int, number: int) -> None:
+    offsets = control.offsets
+    values = dict(control.axis_words(block))
+    if number == 0 and control.habits.fanuc_flow:
+        offsets.common = _replaced_by_words(control, block, offsets.common)
+        return
+    extended = kind == 20 and control.habits.fanuc_flow
+    name = offsets.name if number == 0 else offset_name(number, extended)
+    if kind == 20 and not extended:
+        offsets.call_work(name, control.at, values)
+        return
+    place = offsets.work.get(name, ZERO)
+    for axis, value in values.items():
+        place = replaced(place, axis, value if control.modal.absolute or not control.habits.fanuc_flow else place[axis] + value)
+    offsets.work[name] = place
+    if block.has("r"):
+        offsets.turned[name] = math.radians(block.values["r"])
+
+
+def _set_tool(control: Control, block: Block, kind: int, number: int) -> None:
+    """Obey G10 L1 (LinuxCNC's row), or Fanuc's L10 to L13 (length, its wear, radius, its wear; wear is added)."""
+    before = control.tool_table.get(number, ToolOffset())
+    radius = control.length(block, "r")
+    if control.habits.fanuc_flow:
+        if radius is None:
+            raise Fault("G10 needs a word R with the tool's value.", letter="g")
+        if kind in (10, 11):
+            z = radius + (before.offset[2] if kind == 11 else 0.0)
+            control.tool_table[number] = replace(before, offset=replaced(before.offset, 2, z))
+        return
+    place = before.offset
+    for axis, value in control.axis_words(block):
+        tip = control.at[axis] + control.offsets.tool[axis]
+        place = replaced(place, axis, value if kind == 1 else tip - _goal(control, kind, axis, value))
+    control.tool_table[number] = ToolOffset(place, before.diameter if radius is None else 2 * radius)
+
+
+def _goal(control: Control, kind: int, axis: int, value: float) -> float:
+    """Return where G10 L10 (in program coordinates) and L11 (from G59.3) say that the tool's tip is, table coordinates."""
+    if kind == 10:
+        return value + control.modal.shift[axis]
+    return value + control.offsets.work.get("G59.3", ZERO)[axis]
+
+
+_ONCE: dict[str, Callable[[Control, Block], None]] = {
+    "G10": _set_table, "G52": _set_local, "G92": _call_here, "G92.1": _forget_here, "G92.2": _suspend_here, "G92.3": _restore_here,
+    "G28.1": _home_here("G28"), "G30.1": _home_here("G30"),
+}  # fmt: skip

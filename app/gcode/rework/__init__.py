@@ -1,0 +1,1 @@
+"""Programs compared, begun in the middle, framed, written anew in parts."""

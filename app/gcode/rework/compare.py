@@ -1,0 +1,335 @@
+"""Two NC programs side by side: which motions are the same, and what differs between them.
+
+Motions that are alike within the tolerance are aligned first. A stretch that is left over is measured as a path: a line
+written as two halves, an arc as a fan of chords are "the same path, other blocks" and no difference of the motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from enum import Enum
+from itertools import chain, pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core import tolerances
+from ...core.progress import NO_PROGRESS, Progress
+from ...model.motion import Floats, MotionKind, Motions
+from ...model.motion_path import lengths
+from ..checks.path_distance import Farthest, Paths, Polyline, farthest, leash
+from ..interpreter.program import EventKind, ModalState, NcProgram
+from .align import Run, Table, align
+
+FEED = 0.1
+"""mm/min; feeds that differ by less are the same: F words have one decimal."""
+CHORD = 1 / 20
+"""Chords that stand for arcs keep to them within this part of the tolerance."""
+
+Rows = NDArray[np.int64]
+Pauses = tuple[tuple[EventKind, float], ...]
+
+
+class DifferenceKind(Enum):
+    """What differs."""
+
+    SAME_PATH = "same path, other blocks"
+    PATH = "another path"
+    RAPID = "rapid or feed"
+    MISSING = "missing"
+    EXTRA = "extra"
+    FEED = "feed"
+    TOOL = "tool"
+    SPINDLE = "spindle"
+    COOLANT = "coolant"
+    WORK_OFFSET = "work offset"
+    LENGTH_OFFSET = "tool length"
+    PATH_MODE = "path mode"
+    PAUSE = "dwell or stop"
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A stretch of one program.
+
+    Attributes:
+        first, stop: motions, `stop` excluded; alike where the program has none there.
+        first_line, last_line: 1-based lines of its text; of a stretch without motions, the line of the motion before it.
+    """
+
+    first: int
+    stop: int
+    first_line: int
+    last_line: int
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """One stretch in which the programs differ.
+
+    Attributes:
+        a, b: where, in each program.
+        distance: largest distance of the paths there, both ways, mm; 0 where the motions are alike.
+        place: where on the path of a the distance is largest, mm; None where there is no distance to tell.
+        text: what differs, in a sentence without its end.
+    """
+
+    kind: DifferenceKind
+    a: Span
+    b: Span
+    distance: float = 0.0
+    place: tuple[float, float, float] | None = None
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class Differences:
+    """What comparing two programs gives.
+
+    Attributes:
+        items: in the order of program a.
+        runs: motions that are the same in both, in order.
+        tolerance: what counted as the same, mm.
+    """
+
+    items: tuple[Difference, ...]
+    runs: tuple[Run, ...]
+    tolerance: float
+
+    @property
+    def same_motion(self) -> bool:
+        """Whether both programs cut the same: they differ at most in how paths are written as blocks."""
+        return all(item.kind is DifferenceKind.SAME_PATH for item in self.items)
+
+    @property
+    def largest_distance(self) -> float:
+        """Largest distance of the paths where they differ, mm."""
+        return max((item.distance for item in self.items), default=0.0)
+
+
+def compare(a: NcProgram, b: NcProgram, tolerance: float = tolerances.LEVEL, progress: Progress = NO_PROGRESS) -> Differences:
+    """Return what differs between two programs.
+
+    Args:
+        a, b: as the reader gives them.
+        tolerance: paths no farther apart than this are the same, mm, > 0.
+        progress: told of how much is done.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    runs = align(_table(a.motions, tolerance), _table(b.motions, tolerance), tolerance, progress.part(0.0, 0.5))
+    return _Comparison(a, b, tolerance).differences(runs, progress.part(0.5, 1.0))
+
+
+def _table(motions: Motions, tolerance: float) -> Table:
+    """Return what must be alike of motions that are the same."""
+    curves = np.zeros(len(motions), np.int64)
+    for row, spline in motions.splines.items():
+        curves[row] = hash((spline.degree, *np.round(np.concatenate([spline.points.ravel(), spline.weights]) / tolerance).tolist()))
+    round_ = (motions.kind == MotionKind.ARC_CW) | (motions.kind == MotionKind.ARC_CCW)
+    numbers = np.hstack([motions.start, motions.end, np.nan_to_num(motions.centre)])
+    return Table(numbers, np.column_stack([motions.kind, np.where(round_, motions.plane, 0), motions.turns, curves]).astype(np.int64))
+
+
+@dataclass(frozen=True)
+class _Side:
+    """One program, with what the comparison asks of it again and again.
+
+    Attributes:
+        length: (n,) of each motion, mm.
+        events: kind and value of what happens before a motion.
+    """
+
+    program: NcProgram
+    paths: Paths
+    length: Floats
+    events: dict[int, Pauses]
+
+    @staticmethod
+    def of(program: NcProgram, chord: float) -> _Side:
+        events: dict[int, Pauses] = {}
+        for event in program.events:
+            if event.kind not in (EventKind.TOOL_CHANGE, EventKind.END):
+                events[event.before] = (*events.get(event.before, ()), (event.kind, event.value))
+        return _Side(program, Paths(program.motions, chord), lengths(program.motions), events)
+
+    def span(self, first: int, stop: int) -> Span:
+        """Return where motions stand in the text."""
+        line = self.program.motions.line
+        if stop > first:
+            return Span(first, stop, int(line[first : stop].min()), int(line[first : stop].max()))
+        before = int(line[first - 1]) if first else 1
+        return Span(first, stop, before, before)
+
+    def stretches(self, first: int, stop: int) -> list[tuple[bool, int, int]]:
+        """Return the stretches of rapids (True) and of other motions that move between two motions."""
+        rows = first + np.flatnonzero(self.length[first:stop] > 0)
+        if not len(rows):
+            return []
+        rapid = self.program.motions.kind[rows] == MotionKind.RAPID
+        edges = [0, *(np.flatnonzero(rapid[1:] != rapid[:-1]) + 1).tolist(), len(rows)]
+        return [(bool(rapid[i]), int(rows[i]), int(rows[j - 1]) + 1) for i, j in pairwise(edges)]
+
+    def state(self, row: int) -> ModalState:
+        """Return what is in force while a motion is done."""
+        return self.program.states[int(self.program.motions.state[row])]
+
+
+class _Comparison:
+    """Two programs on the way to their differences."""
+
+    def __init__(self, a: NcProgram, b: NcProgram, tolerance: float) -> None:
+        self._tolerance = tolerance
+        self._a, self._b = (_Side.of(program, tolerance * CHORD) for program in (a, b))
+
+    def differences(self, runs: tuple[Run, ...], progress: Progress) -> Differences:
+        """Return everything that differs, given the motions that are the same."""
+        items: list[Difference] = []
+        pairs = [np.stack([run.a + np.arange(run.count), run.b + np.arange(run.count)]) for run in runs]
+        size = (len(self._a.length), len(self._b.length))
+        edges = chain([(0, 0)], *(((run.a, run.b), (run.a + run.count, run.b + run.count)) for run in runs), [size])
+        for before, after in list(pairwise(edges))[::2]:
+            if before != after:
+                progress.step(before[0] / max(size[0], 1), "measuring")
+                item, same = self._gap(before, after)
+                items.append(item)
+                pairs += same
+        items += self._changes(np.concatenate(pairs, axis=1)) if pairs else []
+        items += self._pauses(pairs, size)
+        return Differences(tuple(sorted(items, key=lambda item: (item.a.first, item.b.first))), runs, self._tolerance)
+
+    def _gap(self, before: tuple[int, int], after: tuple[int, int]) -> tuple[Difference, list[Rows]]:
+        """Return what a stretch that could not be aligned is, and pairs of motions that run along the same path in it."""
+        spans = self._a.span(before[0], after[0]), self._b.span(before[1], after[1])
+        parts_a, parts_b = self._a.stretches(before[0], after[0]), self._b.stretches(before[1], after[1])
+        if not parts_a or not parts_b:
+            return self._one_sided(spans, bool(parts_a), bool(parts_b)), []
+        if [rapid for rapid, *_ in parts_a] != [rapid for rapid, *_ in parts_b]:
+            return self._apart(spans, whole=True), []
+        lines = [(self._a.paths.polyline(*p[1:]), self._b.paths.polyline(*q[1:])) for p, q in zip(parts_a, parts_b, strict=True)]
+        longest = max(leash(*each) for each in lines)
+        if longest > self._tolerance:
+            return self._apart(spans, whole=False), []
+        counts = f"{spans[0].stop - spans[0].first} and {spans[1].stop - spans[1].first} motions"
+        item = Difference(DifferenceKind.SAME_PATH, *spans, longest, None, f"the same path in {counts}")
+        return item, [_side_by_side(*each) for each in lines]
+
+    def _one_sided(self, spans: tuple[Span, Span], in_a: bool, in_b: bool) -> Difference:
+        """Return what a stretch is of which one program has nothing."""
+        if not in_a and not in_b:
+            return Difference(DifferenceKind.SAME_PATH, *spans, text="motions that do not move")
+        kind, side, span = (DifferenceKind.MISSING, self._a, spans[0]) if in_a else (DifferenceKind.EXTRA, self._b, spans[1])
+        length = float(side.length[span.first : span.stop].sum())
+        x, y, z = side.program.motions.end[span.stop - 1].tolist()
+        text = f"{span.stop - span.first} motions, {length:.3f} mm, only in the {'first' if in_a else 'second'}"
+        return Difference(kind, *spans, 0.0, (x, y, z), text)
+
+    def _apart(self, spans: tuple[Span, Span], whole: bool) -> Difference:
+        """Return how far two paths are apart; `whole`: they do not rapid and feed at the same places."""
+        lines = [side.paths.polyline(span.first, span.stop) for side, span in zip((self._a, self._b), spans, strict=True)]
+        found: Farthest = farthest(lines[0], lines[1])
+        if whole and leash(lines[0], lines[1]) <= self._tolerance:
+            return Difference(DifferenceKind.RAPID, *spans, found.distance, found.a, "the same path, but rapid in one and fed in the other")
+        text = f"{found.distance:.3f} mm apart at X {found.a[0]:.3f} Y {found.a[1]:.3f} Z {found.a[2]:.3f}"
+        return Difference(DifferenceKind.PATH, *spans, found.distance, found.a, text if found.distance > self._tolerance else
+                          "the same places in another order or sense")
+
+    def _changes(self, pairs: Rows) -> Iterator[Difference]:
+        """Yield where motions along the same path have another feed, or something else in force."""
+        pairs = pairs[:, np.argsort(pairs[0], kind="stable")]
+        a, b = self._a.program, self._b.program
+        feeds = a.motions.feed[pairs[0]], b.motions.feed[pairs[1]]
+        differ = ~(np.abs(feeds[0] - feeds[1]) <= FEED) & ~(np.isnan(feeds[0]) & np.isnan(feeds[1]))
+        yield from self._grouped(DifferenceKind.FEED, pairs, differ & (a.motions.kind[pairs[0]] != MotionKind.RAPID))
+        for kind, told in _IN_FORCE.items():
+            names: dict[str, int] = {}
+            codes = [np.array([names.setdefault(told(state), len(names)) for state in side.states])[side.motions.state[rows]]
+                     for side, rows in zip((a, b), pairs, strict=True)]
+            yield from self._grouped(kind, pairs, codes[0] != codes[1])
+
+    def _grouped(self, kind: DifferenceKind, pairs: Rows, differ: NDArray[np.bool_]) -> Iterator[Difference]:
+        """Yield one difference for each group of neighbours that differ."""
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], differ.astype(np.int8), [0]])))
+        for first, stop in edges.reshape(-1, 2).tolist():
+            rows_a, rows_b = pairs[:, first:stop]
+            text = self._told(kind, int(rows_a[0]), int(rows_b[0]))
+            spans = self._a.span(int(rows_a[0]), int(rows_a[-1]) + 1), self._b.span(int(rows_b[0]), int(rows_b[-1]) + 1)
+            yield Difference(kind, *spans, text=text)
+
+    def _told(self, kind: DifferenceKind, a: int, b: int) -> str:
+        """Return what the first motions of a group have."""
+        if kind is DifferenceKind.FEED:
+            first, second = (_feed(float(side.program.motions.feed[row])) for side, row in ((self._a, a), (self._b, b)))
+        else:
+            first, second = _IN_FORCE[kind](self._a.state(a)), _IN_FORCE[kind](self._b.state(b))
+        return f"{first} in the first, {second} in the second"
+
+    def _pauses(self, pairs: list[Rows], size: tuple[int, int]) -> Iterator[Difference]:
+        """Yield dwells and stops that only one program has before motions that are the same, or at its end."""
+        if not self._a.events and not self._b.events:
+            return
+        partner = dict(chain(*(zip(*each.tolist(), strict=True) for each in pairs), [size]))
+        back = {b: a for a, b in partner.items()}
+        places = [(a, partner[a]) for a in self._a.events if a in partner]
+        places += [(back[b], b) for b in self._b.events if b in back and back[b] not in self._a.events]
+        for a, b in places:
+            events = self._a.events.get(a, ()), self._b.events.get(b, ())
+            if events[0] != events[1]:
+                text = f"{_pause(events[0])} in the first, {_pause(events[1])} in the second"
+                yield Difference(DifferenceKind.PAUSE, self._a.span(a, a), self._b.span(b, b), text=text)
+
+
+def _side_by_side(a: Polyline, b: Polyline) -> Rows:
+    """Return (2, k) pairs of motions that run along the same path at the same time."""
+    ends: Floats = np.sort(np.concatenate([path.along / (path.along[-1] or 1.0) for path in (a, b)]))
+    middle = (ends[1:] + ends[:-1])[ends[1:] > ends[:-1]] / 2
+    owners = [path.owner[np.clip(np.searchsorted(path.along, middle * path.along[-1]), 1, len(path.along) - 1)] for path in (a, b)]
+    pairs = np.stack(owners)
+    fresh = np.any(pairs[:, 1:] != pairs[:, :-1], axis=0)
+    return pairs[:, np.concatenate([[True], fresh])] if pairs.shape[1] else pairs
+
+
+def _pause(events: Pauses) -> str:
+    return ", ".join(f"{kind.value} {value:g} s" if value else kind.value for kind, value in events) or "none"
+
+
+def _feed(value: float) -> str:
+    return "no feed" if np.isnan(value) else f"F {value:.1f} mm/min"
+
+
+def _tool(state: ModalState) -> str:
+    return f"T{state.tool}" if state.tool else "no tool"
+
+
+def _spindle(state: ModalState) -> str:
+    if not state.spindle:
+        return "spindle off"
+    return f"S {state.speed:g} {'M3' if state.spindle > 0 else 'M4'}{' G96' if state.constant_surface else ''}"
+
+
+def _coolant(state: ModalState) -> str:
+    return " and ".join(name for name, on in (("flood", state.flood), ("mist", state.mist)) if on) or "no coolant"
+
+
+def _work_offset(state: ModalState) -> str:
+    return state.work_offset
+
+
+def _length_offset(state: ModalState) -> str:
+    return f"G43 H{state.length_offset}" if state.length_offset else "no length (G49)"
+
+
+def _path_mode(state: ModalState) -> str:
+    """Return the path mode with its P in mm, to two digits: one tolerance written in mm and in inch is the same."""
+    words = [word for word in state.path.split() if not word.startswith("P")]
+    if words[0] == "G64" and state.path_tolerance is not None:
+        words.insert(1, f"P {state.path_tolerance:.2g} mm")
+    return " ".join(words)
+
+
+_IN_FORCE: dict[DifferenceKind, Callable[[ModalState], str]] = {
+    DifferenceKind.TOOL: _tool, DifferenceKind.SPINDLE: _spindle, DifferenceKind.COOLANT: _coolant,
+    DifferenceKind.WORK_OFFSET: _work_offset, DifferenceKind.LENGTH_OFFSET: _length_offset, DifferenceKind.PATH_MODE: _path_mode,
+}  # fmt: skip

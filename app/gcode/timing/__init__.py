@@ -1,0 +1,1 @@
+"""How long a program runs, and whether a machine can hold it."""

@@ -1,0 +1,160 @@
+"""What a program may say so that another control can be told it; what has no counterpart there is refused by its name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from ...core.errors import InputError
+from ..interpreter.block import ALWAYS, POLAR
+from ..interpreter.codes import CYCLES, ROTARY, TAKES, Group
+from ..interpreter.dialect import HABITS, Dialect
+from ..interpreter.program import Problem
+from ..interpreter.steps import Step
+from ..interpreter.text import column_of
+from ..posts.post import Post
+
+ARC_MODES = (Dialect.LINUXCNC, Dialect.GRBL, Dialect.MACH3)
+"""They know G91.1 and G92.1."""
+_ALIKE_TEXT = """G0 G1 G2 G3 G4 G17 G18 G19 G20 G21 G40 G49 G54 G55 G56 G57 G58 G59 G61 G61.1 G64 G80 G90 G91 G90.1 G91.1 G93 G94 G97
+G98 G99 G187 G15 G50 G69 M0 M1 M2 M30 M3 M4 M5 M7 M8 M9"""
+ALIKE = frozenset(_ALIKE_TEXT.split())
+"""Codes that mean the same everywhere, are said in another way, or end what is never in force in a program that can be read."""
+_SAID_OTHERWISE = ("G61.1", "G64", "G90.1", "G97", "G98", "G99", "G187")
+"""Of these only what they mean is written, so that it is nothing whether the other control has the word."""
+WRITTEN_OUT = ("G73", "G81", "G82", "G83", "G85", "G89")
+"""Cycles that can be written as moves and dwells; in the others the spindle stops or turns back."""
+TABLE_LETTERS = frozenset("lpxyz")
+
+
+@dataclass(frozen=True)
+class Source:
+    """A program in its own control's words.
+
+    Attributes:
+        name: of its file. lines: of its text.
+        dialect: of its control.
+        post: the words that it is to be written in.
+    """
+
+    name: str
+    lines: tuple[str, ...]
+    dialect: Dialect
+    post: Post
+
+    def refusal(self, line: int, text: str, word: tuple[int, int] | None = None) -> InputError:
+        """Return the error that something cannot be said.
+
+        Args:
+            line: 1-based.
+            text: why, without its end.
+            word: where it begins and ends in the line's code; None = the whole line.
+        """
+        written = self.lines[line - 1]
+        column, shown = 0, ""
+        if word is not None:
+            column, last = column_of(written, word[0]), column_of(written, word[1] - 1)
+            shown = written[column - 1 : last]
+        keep = f"take it out, or keep the program for {HABITS[self.dialect].title}"
+        return InputError(Problem(line, column, shown, f"{text}; {keep}.").told(self.name))
+
+    def refuse(self, step: Step, letter: str, code: str, text: str) -> InputError:
+        """Return the error that a word of a block cannot be said; `code` = "" where the letter alone finds it."""
+        words = [word for word in step.parsed.words if word.letter == letter]
+        said = [word for word in words if isinstance(word.value, float) and code == f"{letter.upper()}{round(word.value, 2):g}"]
+        found = next(iter(said or words), None)
+        return self.refusal(step.line, text, None if found is None else (found.begin, found.end))
+
+
+def check_step(step: Step, source: Source) -> None:
+    """Refuse a block that the other control cannot be told.
+
+    Raises:
+        InputError: it names line, word and why.
+    """
+    title = source.post.title
+    if step.parsed.settings:
+        raise source.refusal(step.line, f"parameters (#) are not written for {title}")
+    for word in step.parsed.words:
+        if not isinstance(word.value, float):
+            raise source.refusal(step.line, f"an expression is not written for {title}", (word.begin, word.end))
+    for code in [*step.block.codes.values(), *step.block.coolant, *step.block.unknown]:
+        why = _missing(code, step, source)
+        if why:
+            raise source.refuse(step, code[0].lower(), code, why)
+    for letter, why in _odd_words(step):
+        raise source.refuse(step, letter, "", why.format(title))
+
+
+def _missing(code: str, step: Step, source: Source) -> str:
+    """Return why a code cannot be said in the other control's words, or ""."""
+    post, habits = source.post, HABITS[source.post.dialect]
+    if code == "M6":
+        return "" if habits.tool_changes else f"{post.title} changes no tools, so each needs a file of its own"
+    if code in CYCLES:
+        return "" if code in WRITTEN_OUT else f"{code} has no counterpart on {post.title} that is known to do the same"
+    if code in habits.missing and code not in _SAID_OTHERWISE:
+        return f"{post.title} has no {code}"
+    if code in ALIKE or code in ("G43", "G95"):
+        return ""
+    special = _SPECIAL.get(code)
+    if special is not None and special(step, source):
+        return ""
+    return f"{code} has no counterpart on {post.title} that is known to do the same"
+
+
+def _same_zero(step: Step, source: Source) -> bool:
+    """It changes nothing, and so need not be said."""
+    return step.states[0].shift == step.states[1].shift
+
+
+def _arc_mode_control(step: Step, source: Source) -> bool:
+    return _same_zero(step, source) or {source.dialect, source.post.dialect} <= set(ARC_MODES)
+
+
+def _fanuc_likes(step: Step, source: Source) -> bool:
+    return _same_zero(step, source) or not {source.dialect, source.post.dialect} & {Dialect.LINUXCNC, Dialect.GRBL}
+
+
+def _extended(step: Step, source: Source) -> bool:
+    return {source.dialect, source.post.dialect} <= {Dialect.FANUC, Dialect.HAAS}
+
+
+def _home(step: Step, source: Source) -> bool:
+    """Without axis words every control means other axes."""
+    return step.block.has("xyz") and not step.block.has("p")
+
+
+def _machine(step: Step, source: Source) -> bool:
+    """Fanuc goes under G53 at rapid rate whatever else is said."""
+    return step.motion == "G0" and step.states[1].absolute and step.block.has("xyz")
+
+
+def _table(step: Step, source: Source) -> bool:
+    values = step.block.values
+    return values.get("l") == 2 and values.get("p", 0) in range(1, 7) and values.keys() <= TABLE_LETTERS and step.states[1].absolute
+
+
+def _here(step: Step, source: Source) -> bool:
+    return step.block.has("xyz")
+
+
+_SPECIAL = {
+    "G10": _table, "G28": _home, "G30": _home, "G53": _machine, "G92": _here, "G92.1": _arc_mode_control, "G52": _fanuc_likes,
+    "G54.1": _extended,
+}  # fmt: skip
+
+
+def _odd_words(step: Step) -> Iterator[tuple[str, str]]:
+    """Yield words that no code of the block takes, or that turn another axis, with the reason to refuse them."""
+    block, codes = step.block, [*step.block.codes.values(), *step.block.coolant]
+    taken = set(ALWAYS).union(*(TAKES.get(code, "") for code in [*codes, step.motion]))
+    for letter, value in block.values.items():
+        if letter in POLAR:
+            yield letter, "polar coordinates are not written for {}"
+        elif letter in ROTARY:
+            yield letter, f"the axis {letter.upper()} is not written for {{}}"
+        elif letter not in taken:
+            yield letter, "no code here takes this word, so it cannot be said for {}"
+        elif letter == "p" and step.motion in ("G2", "G3") and not block.codes.keys() & {Group.ONCE, Group.PATH} and value != 1:
+            yield letter, "several turns in one block have no counterpart on {}"

@@ -1,0 +1,218 @@
+"""The motions of a block in another control's words: each place rounded once, arcs as that control takes them, cycles written out
+where it has none that is known to do the same."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...model.motion import Floats, MotionKind, Motions
+from ...model.motion_path import ArcPaths, arc_paths
+from ..interpreter.codes import CYCLES, Group
+from ..interpreter.dialect import HABITS
+from ..interpreter.program import EventKind, NcProgram
+from ..interpreter.steps import Step
+from ..posts.post import ArcCentre
+from ..writer.arcs import ArcRules, MeantArc, written_pieces
+from ..writer.grid import Position, counts, numeral
+from .sheet import Sheet
+
+_ARC_STEPS = 2.0
+"""A written arc may be so many steps of the last decimal from the meant one."""
+_SAME = 1e-9
+"""mm; heights that differ by less are the same."""
+
+
+class Mover:
+    """Writes the motions of a program's blocks on a sheet."""
+
+    def __init__(self, sheet: Sheet, program: NcProgram) -> None:
+        self._sheet, self._program = sheet, program
+        self._motions: Motions = program.motions
+        self._arcs: ArcPaths = arc_paths(program.motions)
+        self._initial = 0.0
+        self._dwells = {(event.line, event.before): event.value for event in program.events if event.kind is EventKind.DWELL}
+
+    @property
+    def _unit(self) -> float:
+        return self._sheet.modal.units.value
+
+    def write(self, step: Step) -> None:
+        """Write what a block does beside its modes.
+
+        Raises:
+            InputError: it cannot be said.
+        """
+        once = step.block.codes.get(Group.ONCE)
+        if once in ("G28", "G30", "G53"):
+            self._by_machine(step, once)
+        elif once in ("G10", "G92"):
+            self._zero(step, once)
+        elif once in ("G52", "G92.1"):
+            self._zero(step, once if step.states[0].shift != step.states[1].shift else "")
+        elif step.motion in CYCLES and step.rows[1] > step.rows[0]:
+            self._cycle(step)
+        else:
+            for row in range(*step.rows):
+                self._row(step, row, "".join(letter for letter in "XYZ" if step.block.has(letter.lower())))
+
+    def _said(self, step: Step, letters: str) -> list[str]:
+        """Return length words of a block as they stand there."""
+        words, habits = [], HABITS[self._sheet.source.dialect]
+        least = habits.least_inch if self._unit != 1.0 else habits.least_mm
+        for letter in letters:
+            value = step.block.get(letter.lower())
+            if value is not None:
+                digits = self._digits(letter)
+                scaled = value * (least if letter.lower() in step.block.whole else 1.0)
+                words.append(letter + self._numeral(counts(np.array([scaled]), digits)[0], digits))
+        return words
+
+    def _digits(self, letter: str) -> int:
+        return int(getattr(self._sheet.post.digits(self._sheet.modal.units), letter))
+
+    def _numeral(self, count: int, digits: int) -> str:
+        return numeral(count, digits, self._sheet.post.words.trailing_zeros)
+
+    def _by_machine(self, step: Step, once: str) -> None:
+        """Write a way to a place of the machine."""
+        self._sheet.leave_cycle()
+        head = [once, self._sheet.post.words.motion[MotionKind.RAPID]] if once == "G53" else [once]
+        self._sheet.emit(" ".join([*head, *self._said(step, "XYZ")]))
+        self._sheet.motion = ""
+
+    def _zero(self, step: Step, code: str) -> None:
+        """Write what sets a zero; nothing where it stays as it is."""
+        if not code:
+            return
+        self._sheet.leave_cycle()
+        table = [f"L2 P{round(step.block.values['p'])}"] if code == "G10" else []
+        self._sheet.emit(" ".join([code, *table, *self._said(step, "XYZ")]))
+        self._sheet.motion = ""
+
+    def _place(self, row: int, place: Floats) -> Position:
+        """Return a place of a motion as counts of the last decimals, from the zero in force."""
+        state = self._program.states[self._motions.state[row]]
+        own = (place - np.array(state.shift)) / self._unit
+        x, y, z = (counts(own[axis : axis + 1], self._digits("XYZ"[axis]))[0] for axis in range(3))
+        return (x, y, z)
+
+    def _row(self, step: Step, row: int, letters: str) -> None:
+        """Write one motion; of a line with the axes that are named."""
+        kind = MotionKind(self._motions.kind[row])
+        start, end = self._place(row, self._motions.start[row]), self._place(row, self._motions.end[row])
+        if kind in (MotionKind.RAPID, MotionKind.LINE):
+            self._straight(step, kind, (start, end), letters)
+        elif kind in (MotionKind.ARC_CW, MotionKind.ARC_CCW):
+            self._arc(step, row, start, end)
+        else:
+            raise self._sheet.source.refusal(step.line, f"a spline is not written for {self._sheet.post.title}")
+
+    def _straight(self, step: Step, kind: MotionKind, ends: tuple[Position, Position], letters: str) -> None:
+        words = {letter: self._axis(letter, *ends) for letter in letters}
+        length = self._sheet.taken_length() if "Z" in letters else ""
+        if words:
+            self._block(step, kind, words, length)
+
+    def _axis(self, letter: str, start: Position, end: Position) -> str:
+        """Return the number of an axis word: where to, or under G91 how far."""
+        axis = "XYZ".index(letter)
+        count = end[axis] if self._sheet.modal.absolute else end[axis] - start[axis]
+        return self._numeral(count, self._digits(letter))
+
+    def _block(self, step: Step, kind: MotionKind, words: dict[str, str], length: str = "") -> None:
+        sheet = self._sheet
+        sheet.leave_cycle()
+        motion = sheet.post.words.motion[kind]
+        head = [] if motion == sheet.motion and sheet.post.words.modal_motion and not length else [motion]
+        feed = "" if kind is MotionKind.RAPID else sheet.feed_word(step)
+        body = [letter + words[letter] for letter in "XYZIJK" if letter in words]
+        sheet.emit(" ".join([*head, *([length] if length else []), *body, *([feed] if feed else [])]))
+        sheet.motion = motion
+
+    def _arc(self, step: Step, row: int, start: Position, end: Position) -> None:
+        """Write an arc or a helix: its centre anew, as the rounding of both ends allows."""
+        sheet, arcs = self._sheet, self._arcs
+        k = int(np.searchsorted(arcs.rows, row))
+        u, v, w = arcs.axes[k].tolist()
+        if sheet.waiting is not None and start[w] != end[w]:
+            raise sheet.source.refusal(step.line, f"the tool length cannot begin in an arc on {sheet.post.title}")
+        shift = self._program.states[self._motions.state[row]].shift
+        meant = MeantArc(
+            (complex(*arcs.centre[k]) - complex(shift[u], shift[v])) / self._unit, arcs.start_radius[k] / self._unit,
+            arcs.end_radius[k] / self._unit, float(arcs.angle[k]), float(arcs.sweep[k]),
+        )  # fmt: skip
+        at = start
+        for piece in written_pieces(meant, (start[u], start[v]), (end[u], end[v]), self._rules()):
+            place = list(start)
+            place[u], place[v] = piece.end
+            place[w] = end[w] if piece.fraction == 1.0 else round(start[w] + (end[w] - start[w]) * piece.fraction)
+            to = (place[0], place[1], place[2])
+            if piece.centre is None:
+                self._straight(step, MotionKind.LINE, (at, to), "XYZ"[u] + "XYZ"[v] + ("XYZ"[w] if to[w] != at[w] else ""))
+            else:
+                self._turn(step, MotionKind(self._motions.kind[row]), (at, to), ((u, v, w), piece.centre))
+            at = to
+        if at != end:
+            self._straight(step, MotionKind.LINE, (at, end), "".join("XYZ"[axis] for axis in (u, v, w) if at[axis] != end[axis]))
+
+    def _turn(self, step: Step, kind: MotionKind, ends: tuple[Position, Position],
+              centre: tuple[tuple[int, int, int], tuple[int, int]]) -> None:  # fmt: skip
+        (u, v, w), offsets = centre
+        digits = self._sheet.post.digits(self._sheet.modal.units)
+        words = {letter: self._axis(letter, *ends) for letter in ("XYZ"[u], "XYZ"[v])}
+        if ends[0][w] != ends[1][w]:
+            words["XYZ"[w]] = self._axis("XYZ"[w], *ends)
+        for axis, offset in zip((u, v), offsets, strict=True):
+            if self._sheet.post.arcs.centre is ArcCentre.ABSOLUTE:
+                offset += ends[0][axis] * 10 ** (digits.I - self._digits("XYZ"[axis]))
+            words["IJK"[axis]] = self._numeral(offset, digits.I)
+        self._block(step, kind, words)
+
+    def _rules(self) -> ArcRules:
+        post, digits = self._sheet.post, self._sheet.post.digits(self._sheet.modal.units)
+        arcs = post.arcs
+        return ArcRules(
+            digits.X, digits.I, _ARC_STEPS * 10.0**-digits.X, math.radians(arcs.largest_sweep_deg), arcs.smallest_radius_mm / self._unit,
+            arcs.largest_radius_mm / self._unit, arcs.radius_mismatch_mm / self._unit,
+        )  # fmt: skip
+
+    def _cycle(self, step: Step) -> None:
+        """Write a drilling cycle: as the control's own where that is surely the same, else move by move."""
+        if self._drilled(step):
+            return
+        self._sheet.leave_cycle()
+        for row in range(*step.rows):
+            self._wait(step, row)
+            moved = self._motions.end[row] != self._motions.start[row]
+            self._row(step, row, "".join(letter for letter, moves in zip("XYZ", moved.tolist(), strict=True) if moves))
+        self._wait(step, step.rows[1])
+
+    def _wait(self, step: Step, row: int) -> None:
+        """Write the dwell that a cycle has before a motion."""
+        seconds = self._dwells.get((step.line, row))
+        if row > step.rows[0] and seconds is not None:
+            self._sheet.dwell(step, seconds)
+
+    def _drilled(self, step: Step) -> bool:
+        """Write a hole as the control's own drilling cycle; False where it is none that is surely the same."""
+        sheet, motions, words = self._sheet, self._motions, self._sheet.post.drilling
+        state = step.states[1]
+        lines = [row for row in range(*step.rows) if motions.kind[row] == MotionKind.LINE]
+        plain = step.motion == words.drill == "G81" and state.absolute and not state.plane and not step.block.has("lk")
+        if not plain or len(lines) != 1 or sheet.waiting is not None:
+            return False
+        row, first, last = lines[0], step.rows[0], step.rows[1] - 1
+        high, r, clear = float(motions.start[first, 2]), float(motions.start[row, 2]), float(motions.end[last, 2])
+        initial = self._initial if sheet.cycle else high
+        level = r if state.retract_to_r else initial
+        if high < r - _SAME or abs(clear - level) > _SAME or last != row + 1:
+            return False
+        (_, _, top), (x, y, z) = self._place(row, motions.start[row]), self._place(row, motions.end[row])
+        values = (("X", x, "X"), ("Y", y, "Y"), ("Z", z, "Z"), ("R", top, "Z"))
+        body = [letter + self._numeral(count, self._digits(like)) for letter, count, like in values]
+        feed = sheet.feed_word(step)
+        sheet.emit(" ".join([words.to_r if state.retract_to_r else words.to_initial, words.drill, *body, *([feed] if feed else [])]))
+        sheet.cycle, sheet.motion, self._initial = words.drill, "", initial
+        return True

@@ -1,0 +1,229 @@
+"""A whole program in another control's words, and the proof that both controls do the same."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import InputError
+from ...core.progress import NO_PROGRESS, Progress
+from ...model.motion import MotionKind, Plane
+from ...model.part import Units
+from ..checks.elsewhere import elsewhere, read_elsewhere
+from ..interpreter.codes import Group
+from ..interpreter.dialect import HABITS
+from ..interpreter.options import PATIENT, ReadOptions
+from ..interpreter.program import NcProgram
+from ..interpreter.reader import read_program, read_steps
+from ..interpreter.steps import Step
+from ..interpreter.text import Text, code_of
+from ..posts.post import Post
+from ..rework.compare import Difference, DifferenceKind, compare
+from .allowed import Source, check_step
+from .moves import Mover
+from .sheet import Sheet
+
+_STEPS = 2.0
+"""So many steps of the last decimal may the written path be off: a place is half a step off along each axis, an arc all of it."""
+_LINES_A_STEP = 1000
+_COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
+_COMMENT = re.compile(r"\(([^()]*)\)|;(.*)$")
+_NUMBER = re.compile(r"(?:/|n[0-9.]+)*[o:]([0-9]+)$")
+_STALE = re.compile(
+    r"hitofude for |hitofude: blend_mm|hitofude smooth:|proven on the path|the control may add|"
+    r"(?:tolerance|largest bend|effective points)\b.*(?:proven|after|corrected)", re.IGNORECASE,
+)  # fmt: skip
+"""Comments of our own that were true of the program as it was."""
+
+
+@dataclass(frozen=True, eq=False)
+class Translated:
+    """A program in another control's words.
+
+    Attributes:
+        data: its text. program: as the other control reads it.
+        off: how far its path may be from the first one's, mm: proven.
+        rows: (n,) of each of its motions the one of the first program that it is, -1 where it is only a part of one.
+    """
+
+    data: bytes
+    program: NcProgram
+    off: float
+    rows: NDArray[np.int64]
+
+
+def translated(name: str, data: bytes, read: ReadOptions, post: Post, progress: Progress = NO_PROGRESS) -> Translated:
+    """Return a program in the words of a post, proven by reading it back as that post's control would.
+
+    Comments stay, as the control takes them. Cycles that it has not, or that its own settings change, are moves; a length that
+    its G43 takes up by moving stands with the next move along Z.
+
+    Args:
+        name: of the file, for messages.
+        data: its bytes; it can be read to its end.
+        read: how.
+        post: whose control it is for.
+
+    Raises:
+        InputError: something has no counterpart there; named with its line and word.
+        Cancelled: the job was asked to stop.
+    """
+    program, steps = read_steps(data, read, progress.part(0.0, 0.3))
+    text = Text(data)
+    source = Source(name, tuple(text.data.decode(text.encoding).split("\n")), read.dialect, post)
+    made = _written(source, program, steps, progress.part(0.3, 0.5))
+    after = read_program(made, ReadOptions(post.dialect, limits=read.limits), progress.part(0.5, 0.6))
+    return _proven(source, (program, after), made, progress.part(0.6, 1.0))
+
+
+def _written(source: Source, program: NcProgram, steps: tuple[Step, ...], progress: Progress) -> bytes:
+    """Return the text; every line of the first one in its order."""
+    by_line = {step.line: step for step in reversed(steps)}
+    times = Counter(step.line for step in steps)
+    units = program.states[0].units
+    sheet = Sheet(source, units if units is Units.INCH else Units.MM, _number(source))
+    sheet.comment(f"Hitofude for {source.post.title}, out of a program for {HABITS[source.dialect].title}")
+    head = next((step.line for step in steps), len(source.lines) + 1)
+    mover, last = Mover(sheet, program), max(by_line, default=0)
+    for line, text in enumerate(source.lines, 1):
+        if line % _LINES_A_STEP == 0:
+            progress.step(line / len(source.lines), f"Writing for {source.post.title}")
+        if line == head:
+            sheet.begin()
+        for comment in _comments(text):
+            sheet.comment(comment)
+        step = by_line.get(line)
+        if step is None:
+            _check_rest(source, line, last)
+        else:
+            if times[line] > 1:
+                raise source.refusal(line, f"lines that are done more than once are not written for {source.post.title}")
+            check_step(step, source)
+            sheet.modes(step)
+            mover.write(step)
+            _stop(sheet, step)
+    sheet.end()
+    return ("\n".join(sheet.lines) + "\n").encode("ascii", "replace")
+
+
+def _number(source: Source) -> int:
+    """Return the program's number: the first program's own, else the post's."""
+    for line in source.lines[:20]:
+        found = _NUMBER.match(_code(line))
+        if found and 0 < int(found[1]) < 10_000 and HABITS[source.dialect].fanuc_flow:
+            return int(found[1])
+    return source.post.program.number
+
+
+def _code(line: str) -> str:
+    return code_of(line, nested=True) if "(" not in line or ")" in line else line.lower()
+
+
+def _comments(line: str) -> list[str]:
+    """Return the comments of a line, without those that are true no more."""
+    found = ["".join(match.groups("")).strip() for match in _COMMENT.finditer(line)]
+    return [text for text in found if text and not _STALE.match(text)]
+
+
+def _check_rest(source: Source, line: int, last: int) -> None:
+    """Refuse a line that was not done as a block, but where it is empty, the tape's mark or the program's number."""
+    code = _code(source.lines[line - 1])
+    title = source.post.title
+    if not code or code.startswith("%") or (_NUMBER.match(code) and line <= last and HABITS[source.dialect].fanuc_flow):
+        return
+    if code.startswith("/") or re.match(r"n[0-9.]+/", code):
+        raise source.refusal(line, f"a block that may be left out (/) is not read, so it cannot be written for {title}")
+    if line > last:
+        raise source.refusal(line, f"what stands behind the end is not read, so it cannot be written for {title}")
+    raise source.refusal(line, f"subroutines, loops and jumps are not written for {title}")
+
+
+def _stop(sheet: Sheet, step: Step) -> None:
+    """Write what stops the program behind a block; its end is written by the post's own words."""
+    code = step.block.codes.get(Group.STOP)
+    if code in ("M0", "M1"):
+        sheet.leave_cycle()
+        sheet.emit(code)
+
+
+def _proven(source: Source, programs: tuple[NcProgram, NcProgram], made: bytes, progress: Progress) -> Translated:
+    """Return the new program if both controls do the same.
+
+    Raises:
+        InputError: they do not, or it cannot be read.
+    """
+    before, after = programs
+    title = source.post.title
+    if after.error is not None:
+        raise InputError(f"{source.name} cannot be written for {title}: as written, {after.error.told('line')} Keep the program for "
+                         f"{HABITS[source.dialect].title}.")  # fmt: skip
+    _check_modes(source, after, made)
+    units = {before.states[k].units for k in np.unique(before.motions.state).tolist()} or {Units.MM}
+    off = _STEPS * max(10.0 ** -source.post.digits(unit).X * unit.value for unit in units)
+    (first, kept), (second, others) = _moving(before), _moving(after)
+    found = compare(first, second, off, progress)
+    wrong = [item for item in found.items if not _same(item, first, second)]
+    if wrong:
+        item = wrong[0]
+        raise InputError(f"{source.name}:{item.a.first_line}: what is written for {title} is not the same there ({item.kind.value}: "
+                         f"{item.text}); keep the program for {HABITS[source.dialect].title}.")  # fmt: skip
+    rows = np.full(len(after.motions), -1, np.int64)
+    for run in found.runs:
+        rows[others[run.b : run.b + run.count]] = kept[run.a : run.a + run.count]
+    return Translated(made, after, off, rows)
+
+
+def _check_modes(source: Source, after: NcProgram, made: bytes) -> None:
+    """Refuse a text that leaves units, plane, G90 or the like to what another job has left in force.
+
+    Where the tool stands elsewhere an arc that begins at a place that the program has not told fits no more; there the look ends.
+
+    Raises:
+        InputError: it does; the post's first blocks are to blame.
+    """
+    read = ReadOptions(source.post.dialect, limits=PATIENT)
+    again = read_elsewhere(made, read, elsewhere(after.states[0].units), NO_PROGRESS)
+    here, there = (_modes_by_line(program) for program in (after, again))
+    wrong = sorted(line for line, modes in here.items() if there.get(line, modes) != modes)
+    if wrong or (here and not there):
+        line = wrong[0] if wrong else min(here)
+        raise InputError(f"{source.name} cannot be written for {source.post.title}: line {line} of what is written hangs on modes that "
+                         "another job may have left in force; let the post's program.start say them, as G17 {units} G90 G94 G40.")
+
+
+def _modes_by_line(program: NcProgram) -> dict[int, tuple[object, ...]]:
+    told = [(each.units, each.plane, each.absolute, each.arc_absolute, each.feed_mode, each.work_offset) for each in program.states]
+    return {line: told[state] for line, state in zip(program.motions.line.tolist(), program.motions.state.tolist(), strict=True)}
+
+
+def _moving(program: NcProgram) -> tuple[NcProgram, NDArray[np.int64]]:
+    """Return a program without the straight motions that go nowhere, which not every control makes, and the rows of the others."""
+    motions = program.motions
+    kept = np.flatnonzero(np.any(motions.start != motions.end, axis=1) | (motions.kind > MotionKind.LINE))
+    behind = np.searchsorted(kept, np.arange(len(motions) + 1)).tolist()
+    columns = {name: getattr(motions, name)[kept] for name in _COLUMNS}
+    splines = {behind[row]: spline for row, spline in motions.splines.items()}
+    events = tuple(replace(event, before=behind[event.before]) for event in program.events)
+    homeward = tuple(behind[row] for row in program.homeward if behind[row + 1] > behind[row])
+    return replace(program, motions=replace(motions, splines=splines, **columns), events=events, homeward=homeward), kept
+
+
+def _same(item: Difference, before: NcProgram, after: NcProgram) -> bool:
+    """Tell whether a difference is none: blocks of one path, blending, or a length that no move along Z has met yet."""
+    if item.kind in (DifferenceKind.SAME_PATH, DifferenceKind.PATH_MODE):
+        return True
+    if item.kind is not DifferenceKind.LENGTH_OFFSET:
+        return False
+    return all(not _along_z(program, span.first, span.stop) for program, span in ((before, item.a), (after, item.b)))
+
+
+def _along_z(program: NcProgram, first: int, stop: int) -> bool:
+    """Tell whether a motion of a span moves along Z to a place of the work; upright arcs and splines always do."""
+    motions, homeward = program.motions, set(program.homeward)
+    rows = [row for row in range(first, stop) if row not in homeward]
+    level = (motions.plane == Plane.XY) & (motions.kind != MotionKind.SPLINE) | (motions.kind <= MotionKind.LINE)
+    return any(motions.start[row, 2] != motions.end[row, 2] or not level[row] for row in rows)

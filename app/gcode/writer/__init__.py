@@ -1,0 +1,1 @@
+"""Moves become the text of a control."""

@@ -1,0 +1,174 @@
+"""The comments at the head of a program for the operator; `app.gcode.writer.header_notes` has those for `hitofude cut --against`."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core.tolerances import LEVEL
+from ...model.job import Job
+from ...model.moves import Program
+from ...model.operation import ContourOperation, DrillOperation, Operation, PocketOperation, RestOperation, Side, kind_word
+from ...model.part import Units
+from ...model.stock_box import StockBox, work_origin
+from ...model.tool import Tool
+from ..posts.post import Post
+
+ALLOWED = frozenset("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789 _.,+-/")
+LONGEST_NAME = 60
+
+
+@dataclass(frozen=True, slots=True)
+class Heading:
+    """What the header tells of.
+
+    Attributes:
+        blend_mm: how far the control may leave the path, mm; 0 = exact path.
+        writing_mm: how far the written path may leave the computed one, mm.
+        file, files: which of how many files of the program this is, from 1.
+    """
+
+    program: Program
+    job: Job
+    post: Post
+    box: StockBox
+    blend_mm: float
+    writing_mm: float
+    file: int = 1
+    files: int = 1
+
+
+def safe_name(text: str) -> str:
+    """Return a name as any control takes it in a comment: ASCII letters, digits and a few signs, not too long."""
+    plain = unicodedata.normalize("NFKD", text)
+    kept = "".join(c if c in ALLOWED else "_" for c in plain if not unicodedata.combining(c))
+    return kept.strip()[:LONGEST_NAME].rstrip() or "untitled"
+
+
+def spelled_name(text: str) -> str:
+    """Return a name in safe characters from which it can be read again: others become their code point, "+DF+"."""
+    return "".join(c if c in ALLOWED and c != "+" else f"+{ord(c):X}+" for c in text)
+
+
+def tool_words(tool: Tool, units: Units) -> str:
+    """Return a tool in the trade's habit: "T1 flat 6 mm"; a V or drill with its name, if it has one."""
+    words = f"T{tool.number} {tool.kind.value} {_length(tool.diameter, units)}"
+    return f"{words} {safe_name(tool.name)}" if tool.name else words
+
+
+def operation_words(operation: Operation, job: Job) -> str:
+    """Return an operation in words: "Pocket T1: depth 2 mm, ...", the kind first, as `app.gcode.interpreter.notes_operation` reads it."""
+    cut, units = operation.cut, job.out_units
+    words = [f"depth {_length(cut.depth, units)}"]
+    if isinstance(operation, DrillOperation):
+        words += _drill_words(operation, units)
+    else:
+        words.append(f"stepdown {_length(cut.stepdown, units)}")
+        if isinstance(operation, (PocketOperation, RestOperation)):
+            words.append("stepover " + (_length(operation.stepover, units) if operation.stepover else "automatic"))
+        words += [f"stock to leave {_length(cut.stock_to_leave, units)}", cut.direction.value]
+    if isinstance(operation, ContourOperation):
+        words += _contour_words(operation, units)
+    thin = (("floor to leave", cut.floor_to_leave), ("finish pass", cut.finish_depth))
+    words += [f"{what} {_length(value, units)}" for what, value in thin if value]
+    words += [f"layers {' and '.join(map(safe_name, cut.layers))}"] if cut.layers else []
+    return f"{kind_word(operation).capitalize()} T{cut.tool}: {', '.join(words)}"
+
+
+def _drill_words(operation: DrillOperation, units: Units) -> list[str]:
+    """Return how holes are drilled, and which."""
+    words = [f"through by {_length(operation.through, units)}"] if operation.through else []
+    words.append(f"peck {_length(operation.peck, units)}" if operation.peck else "in one go")
+    bounds = [f"{word} {_length(value, units)}" for word, value in (("from", operation.least), ("to", operation.most)) if value]
+    return words + ([f"circles {' '.join(bounds)}"] if bounds else [])
+
+
+def _contour_words(operation: ContourOperation, units: Units) -> list[str]:
+    """Return what a contour does beside following the walls inside."""
+    words = [] if operation.side is Side.INSIDE else ["outside" if operation.side is Side.OUTSIDE else "on the line"]
+    words += [f"finish {_length(operation.finish_width, units)}"] if operation.finish_width else []
+    words += [f"{operation.spring_passes} spring passes"] if operation.spring_passes else []
+    words += ["dog-bones"] if operation.dog_bones else []
+    return words + (["tabs"] if operation.tabs.wanted else [])
+
+
+def heading_lines(heading: Heading) -> Iterator[str]:
+    """Yield the comments for the operator, without their brackets."""
+    job, units = heading.job, heading.job.out_units
+    yield f"Part {safe_name(job.part.name)}"
+    yield f"Hitofude for {safe_name(heading.post.title)}, lengths in {units.name.lower()}"
+    if heading.files > 1:
+        yield f"File {heading.file} of {heading.files}, with T{heading.program.moves.tool[0]} alone, X and Y zero as in the others"
+        yield "Set Z zero with this tool in the spindle"
+    yield "Stock " + " x ".join(_length(side, units) for side in heading.box.size)
+    origin = ", ".join(f"{axis} {_length(value, units)}" for axis, value in zip("XYZ", work_origin(job, heading.box), strict=True))
+    yield f"Work origin: {job.origin_xy.value}, {job.origin_z.value}"
+    yield f"It is at {origin} of the drawing, whose Z 0 is the top of stock"
+    yield from _copies_and_clamps(job)
+    yield from (tool_words(tool, units) + f", {tool.spindle_speed:.0f} rpm" for tool in tools_of(heading))
+    yield from (operation_words(operation, job) + ("" if cuts else ", makes no moves") for operation, cuts in operations_of(heading))
+    if heading.program.given_up_mm is None:
+        yield f"Path within {_length(path_tolerance(heading), units)} of the exact offset of the drawing"
+    else:
+        yield f"Path made from pixels, nowhere nearer to the walls than asked by more than {_length(path_tolerance(heading), units)}"
+        yield f"It is up to {_length(heading.program.given_up_mm, units)} farther from them"
+    yield _blending_words(heading)
+
+
+def _copies_and_clamps(job: Job) -> Iterator[str]:
+    """Yield what an operator has to set up beside the stock."""
+    copies, units = job.copies, job.out_units
+    if len(copies.shifts) > 1:
+        yield f"{copies.columns} x {copies.rows} copies, {_length(copies.dx, units)} apart along X and {_length(copies.dy, units)} along Y"
+    if job.keep_out_layers:
+        names = " and ".join(map(safe_name, job.keep_out_layers))
+        yield f"Clamps of layer {names}, up to {_length(job.keep_out_height, units)} above the stock"
+        yield f"The tool travels at {_length(job.travel_z, units)} above the stock"
+
+
+def _blending_words(heading: Heading) -> str:
+    """Return what the control may do at corners."""
+    if heading.blend_mm == 0:
+        return "Exact path: the control does not blend"
+    amount = _length(heading.blend_mm, heading.job.out_units)
+    before, field, _ = heading.post.blending.blend.partition("{blend}")
+    if not field:
+        return f"Proven on the path; the control may blend by its own setting, taken as {amount}"
+    return f"Proven on the path; the control may blend by up to {before[-1]} {amount}"
+
+
+def path_tolerance(heading: Heading) -> float:
+    """Return by how much the written path may be too near to the walls, mm: curves as arcs, the path's levels, its writing."""
+    contours = (*(contour for region in heading.program.regions for contour in region.contours), *heading.program.lines)
+    curves = max((contour.deviation for contour in contours), default=0.0)
+    return curves + LEVEL + heading.writing_mm
+
+
+def tools_of(heading: Heading) -> list[Tool]:
+    """Return the tools in the order of their use."""
+    return [heading.job.tool(number) for number in dict.fromkeys(heading.program.moves.tool.tolist())]
+
+
+def operations_of(heading: Heading) -> list[tuple[Operation, bool]]:
+    """Return enabled operations, and whether each has moves; in one of several files those that it holds."""
+    used = set(np.unique(heading.program.moves.operation).tolist())
+    shown = ((i, operation) for i, operation in enumerate(heading.job.operations) if operation.cut.enabled)
+    return [(operation, i in used) for i, operation in shown if i in used or heading.files == 1]
+
+
+def _length(value: float, units: Units) -> str:
+    """Return a length in out units with its unit."""
+    return f"{plain_numbers(value / units.value)} {unit_sign(units)}"
+
+
+def unit_sign(units: Units) -> str:
+    """Return the unit's sign."""
+    return "in" if units is Units.INCH else "mm"
+
+
+def plain_numbers(*values: float, decimals: int = 6) -> str:
+    """Return numbers with at most so many decimals, in 0 ... 9, and no zeros behind, joined by commas."""
+    return ",".join(f"{round(value, decimals) + 0.0:.{decimals}f}".rstrip("0").rstrip(".") for value in values)

@@ -1,0 +1,56 @@
+"""What the blocks of a post may name: the fields of its templates, filled in for a job and for a tool."""
+
+from __future__ import annotations
+
+import re
+
+from ...model.job import Job
+from ...model.part import Units
+from ...model.tool import Tool
+from ..posts.post import Coolant, Post
+from .grid import spelled
+
+Fields = dict[str, str | int]
+
+LAST_NUMBER = 7999
+"""Fanuc and Haas keep higher program numbers for protected ones."""
+
+
+def program_fields(job: Job, post: Post, blend_mm: float) -> Fields:
+    """Return what every template may name.
+
+    Args:
+        job: units, exact path, and the part whose name may hold the program's number.
+        post: the control's words.
+        blend_mm: how far the control may leave the path, mm.
+    """
+    decimals = post.digits(job.out_units).X
+    blend = spelled(round(blend_mm / job.out_units.value * 10**decimals), decimals)
+    return {
+        "units": post.units.inch if job.out_units is Units.INCH else post.units.mm,
+        "blending": post.blending.exact if job.exact_path else post.blending.blend.format(blend=blend),
+        "program": program_number(job.part.name, post.program.number),
+    }
+
+
+def program_number(name: str, otherwise: int) -> int:
+    """Return the number at the end of a part's name if it can be a program's, else the other one."""
+    digits = re.search(r"([0-9]+)\s*$", name)
+    number = int(digits[1][-9:]) if digits else 0
+    return number if 1 <= number <= LAST_NUMBER else otherwise
+
+
+def tool_fields(tool: Tool, post: Post, next_tool: int) -> Fields:
+    """Return what the templates round a tool may name besides.
+
+    Args:
+        tool: the tool.
+        post: the control's words.
+        next_tool: T number of the tool that comes next, or of this one.
+    """
+    coolant, dwell = post.coolant, post.spindle.dwell_s
+    on = {Coolant.NONE: "", Coolant.FLOOD: coolant.flood, Coolant.MIST: coolant.mist}[coolant.use]
+    return {
+        "tool": tool.number, "speed": round(tool.spindle_speed), "dwell_s": f"{dwell:g}", "dwell_ms": round(dwell * 1000),
+        "coolant_on": on, "coolant_off": coolant.off if on else "", "preselect": f"T{next_tool}" if next_tool != tool.number else "",
+    }  # fmt: skip

@@ -1,0 +1,317 @@
+"""A program of tool paths as NC text for one control."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import ParameterError
+from ...core.progress import NO_PROGRESS, Progress
+from ...model.job import Job
+from ...model.moves import Moves, Program
+from ...model.part import Units
+from ...model.stock_box import stock_box, work_origin
+from ..posts.post import Post
+from .arcs import ArcRules
+from .blocks import Blocks
+from .drilling import CycleRules, Hole, holes_of
+from .header import Heading, heading_lines, operation_words, tool_words
+from .header_notes import heading_notes
+from .sequence import check_sequence
+from .template_fields import Fields, program_fields, tool_fields
+from .work_moves import MotionRows, WorkMoves, motion_rows, work_moves
+
+MOVES_A_STEP = 8192
+
+LARGEST_DEVIATION = 1e-3
+"""No written arc leaves the meant one by more, mm, unless the last decimal itself is coarser."""
+
+
+@dataclass(frozen=True)
+class NcText:
+    """A written program.
+
+    Attributes:
+        text: ASCII, lines ended by a line feed.
+        lines: (n,) 1-based line that brings the tool to the end of each move of the program; a move that is nothing
+            after rounding has the line of the one before.
+        home_lines: 1-based lines that send the tool to the machine's own home along Z (G28, G53), which no move means.
+    """
+
+    text: str
+    lines: NDArray[np.int32]
+    home_lines: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class NcFile:
+    """One of the files that a program is written to.
+
+    Attributes:
+        suffix: goes between the chosen name and its extension: "" for the only file, else such as "_1_T3".
+        nc: its text; `nc.lines` are those of the moves from `first` on.
+        first: index of the program's move that is the first of this file.
+    """
+
+    suffix: str
+    nc: NcText
+    first: int = 0
+
+    def named(self, chosen: Path) -> Path:
+        """Return the file's own path for the path that the user chose: "part.nc", or "part_1_T3.nc" where there are several."""
+        return chosen.with_name(f"{chosen.stem}{self.suffix}{chosen.suffix}") if self.suffix else chosen
+
+
+@dataclass(frozen=True)
+class Remarks:
+    """What a program says beside its motions.
+
+    Attributes:
+        head: comments for the operator at its head. notes: for programs that read it, below them.
+        operation: returns what is said where an operation of some index begins.
+        before: comments before a move, by its index.
+    """
+
+    head: tuple[str, ...]
+    notes: tuple[str, ...]
+    operation: Callable[[int], str]
+    before: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
+
+
+def write_moves(moves: Moves, job: Job, post: Post, remarks: Remarks, progress: Progress = NO_PROGRESS) -> tuple[NcFile, ...]:
+    """Return any moves as the files that the control needs, see `write_files`; each has all the remarks of its moves.
+
+    Args:
+        moves: mm from the work origin; each tool begins with a rapid at a height that is clear of everything.
+        job: whose tools, units and name are used.
+
+    Raises:
+        ParameterError: the control cannot promise an exact path, a tool is not in the job, or out units are neither mm nor inch.
+        Cancelled: the job was asked to stop.
+    """
+    _check_words(job, post)
+    files: list[NcFile] = []
+    for _, first, stop, suffix in _by_file(moves, post):
+        sheet = Blocks(post, job.out_units)
+        part = work_moves(moves.part(first, stop), (0.0, 0.0, 0.0), job.out_units, post.digits(job.out_units))
+        said = replace(remarks, before={i - first: words for i, words in remarks.before.items() if first <= i < stop})
+        lines = _Writer(job, post, sheet, part).write(said, progress.part(first / len(moves), stop / len(moves)))
+        nc = NcText("\n".join(sheet.lines) + "\n", lines, tuple(sheet.home_lines))
+        files.append(NcFile(suffix, nc, first))
+    return tuple(files)
+
+
+def _by_file(moves: Moves, post: Post) -> Iterator[tuple[int, int, int, str]]:
+    """Yield number, first move, end and suffix of each file that the control needs."""
+    tools = moves.tool
+    starts = [0, *(np.flatnonzero(np.diff(tools)) + 1).tolist()] if post.file_per_tool else [0]
+    for number, (first, stop) in enumerate(zip(starts, [*starts[1:], len(tools)], strict=True), start=1):
+        yield number, first, stop, f"_{number}_T{tools[first]}" if len(starts) > 1 else ""
+
+
+def write_files(program: Program, job: Job, post: Post, progress: Progress = NO_PROGRESS) -> tuple[NcFile, ...]:
+    """Return the program as the files that the control needs: one, or one a tool where it changes no tools.
+
+    Files come in the order of cutting, a new one at every change of tool. Each is complete by itself, begins and ends at
+    safe Z, and has the same work origin; together they hold every move once.
+
+    Args and errors: as `write_program`.
+    """
+    _check(program, job, post)
+    count = len(program.moves)
+    spans = list(_by_file(program.moves, post))
+    files: list[NcFile] = []
+    for number, first, stop, suffix in spans:
+        share = progress.part(first / count, stop / count)
+        nc = _written(replace(program, moves=program.moves.part(first, stop)), job, post, (number, len(spans)), share)
+        files.append(NcFile(suffix, nc, first))
+    return tuple(files)
+
+
+def write_program(program: Program, job: Job, post: Post, progress: Progress = NO_PROGRESS) -> NcText:
+    """Return the program as NC text; the same program, job and post always give the same bytes.
+
+    Positions are rounded once, to the nearest last decimal; the written path stays within `writing_tolerance` of the
+    moves. Before each tool the spindle stops at safe Z; each begins at safe Z before it moves in X or Y.
+
+    Args:
+        program: moves in part coordinates, with the regions they cut.
+        job: what they were computed from.
+        post: the control's dialect.
+        progress: asked for cancel now and then.
+
+    Raises:
+        ParameterError: the moves are none that a machine should make, a tool is not in the job, out units are neither
+            mm nor inch, the control cannot promise an exact path, it changes no tools and the program needs several, or
+            there is no region to place the stock round.
+        Cancelled: the job was asked to stop.
+    """
+    files = write_files(program, job, post, progress)
+    if len(files) > 1:
+        raise ParameterError(f"{post.title} changes no tools, so this program is {len(files)} files, not one; export it to a folder.")
+    return files[0].nc
+
+
+def _check(program: Program, job: Job, post: Post) -> None:
+    """Refuse what cannot be written."""
+    _check_words(job, post)
+    check_sequence(program.moves, job)
+
+
+def _check_words(job: Job, post: Post) -> None:
+    """Refuse units and paths that the control has no words for."""
+    if job.out_units not in (Units.MM, Units.INCH):
+        raise ParameterError(f"NC programs are in mm or inch, not in {job.out_units.name.lower()}; choose one of the two.")
+    if job.exact_path and not post.blending.exact:
+        raise ParameterError(f"{post.title} has no word for an exact path; switch exact path off.")
+
+
+def _written(program: Program, job: Job, post: Post, file: tuple[int, int], progress: Progress) -> NcText:
+    """Return the text of one file; `file` is its number and how many there are."""
+    box = stock_box(job, program.regions, program.lines)
+    moves = work_moves(program.moves, work_origin(job, box), job.out_units, post.digits(job.out_units))
+    sheet = Blocks(post, job.out_units)
+    heading = Heading(program, job, post, box, blend_mm(job, post), writing_tolerance(job, post), *file)
+    remarks = Remarks(tuple(heading_lines(heading)), tuple(heading_notes(heading)), lambda i: operation_words(job.operations[i], job))
+    lines = _Writer(job, post, sheet, moves).write(remarks, progress)
+    return NcText("\n".join(sheet.lines) + "\n", lines, tuple(sheet.home_lines))
+
+
+def blend_mm(job: Job, post: Post) -> float:
+    """Return how far the control may leave the written path, mm: 0 for an exact path, else what the blending block says.
+
+    Where no block says it, it is what the post takes the control's own setting as.
+    """
+    if job.exact_path:
+        return 0.0
+    if "{blend}" not in post.blending.blend:
+        return post.blending.tolerance_mm
+    scale: int = 10 ** post.digits(job.out_units).X
+    return math.floor(post.blending.tolerance_mm / job.out_units.value * scale + 1e-6) / scale * job.out_units.value
+
+
+def writing_tolerance(job: Job, post: Post) -> float:
+    """Return how far the written path may be from the program's moves, mm.
+
+    Two steps of the last decimal, at most 1 um; where one step is more than that, one step.
+    """
+    step: float = job.out_units.value * 10.0 ** -post.digits(job.out_units).X
+    return max(min(2 * step, LARGEST_DEVIATION), step)
+
+
+class _Writer:
+    """One run over the moves."""
+
+    def __init__(self, job: Job, post: Post, sheet: Blocks, moves: WorkMoves) -> None:
+        self.job, self.post, self.sheet, self.moves = job, post, sheet, moves
+        self.fields = program_fields(job, post, blend_mm(job, post))
+        self.digits = digits = post.digits(job.out_units)
+        unit = job.out_units.value
+        self.z_scale = 10.0**digits.Z
+        gaps = (round(gap / unit * self.z_scale) for gap in (post.drilling.peck_gap_mm, post.drilling.chip_gap_mm))
+        self.holes: dict[int, Hole] = holes_of(moves, CycleRules(post.drilling, round(self.z_scale), *gaps))
+        self.arc_rules = ArcRules(
+            digits.X, digits.I, math.sqrt((writing_tolerance(job, post) / unit) ** 2 - (0.5 / self.z_scale) ** 2),  # Z is rounded too
+            math.radians(post.arcs.largest_sweep_deg),
+            post.arcs.smallest_radius_mm / unit, post.arcs.largest_radius_mm / unit, post.arcs.radius_mismatch_mm / unit,
+        )  # fmt: skip
+
+    def write(self, remarks: Remarks, progress: Progress) -> NDArray[np.int32]:
+        """Write everything; return the line of each move."""
+        moves = self.moves
+        self._blocks(self.post.program.top)
+        for comment in remarks.head:
+            self.sheet.comment(comment)
+        for note in remarks.notes:
+            self.sheet.note(note)
+        self._blocks(self.post.program.start)
+        lines, rows, stops = np.zeros(len(moves), np.int32), MotionRows.none(), self._stops(remarks)
+        i = begun = ready = 0
+        while i < len(moves):
+            if i >= ready:
+                progress.step(i / len(moves), "Writing NC")
+                begun, ready = i, min(i + MOVES_A_STEP, len(moves))
+                rows = motion_rows(moves, (begun, ready), self.arc_rules, self.z_scale)
+            self._head(i, remarks)
+            hole = self.holes.get(i)
+            if hole is not None:
+                self.sheet.hole(hole, [(moves.lists.kind[k], moves.lists.end[k]) for k in range(i, hole.stop)])
+                lines[i : hole.stop] = self.sheet.motion_line
+                i = hole.stop
+                continue
+            stop = min(int(stops[np.searchsorted(stops, i, side="right")]), ready)
+            first = int(rows.stops[i - begun - 1]) if i > begun else 0
+            done = self.sheet.motions(rows.rows, first, int(rows.stops[stop - begun - 1]))
+            lines[i:stop] = done[rows.stops[i - begun : stop - begun] - 1 - first]
+            i = stop
+        self._leave_tool(len(moves) - 1)
+        self._home()
+        self._blocks(self.post.program.end)
+        return lines
+
+    def _stops(self, remarks: Remarks) -> NDArray[np.int64]:
+        """Return before which moves more than motions may have to be written, and the number of moves."""
+        tool, operation = self.moves.tool, self.moves.operation
+        changes = np.flatnonzero((tool[1:] != tool[:-1]) | (operation[1:] != operation[:-1])) + 1
+        own = [len(self.moves), *self.holes, *remarks.before]
+        return np.unique(np.concatenate([changes, np.array(own, np.int64)]))
+
+    def _head(self, i: int, remarks: Remarks) -> None:
+        """Write what stands before move i: its tool, what its operation is, remarks."""
+        moves = self.moves
+        new_tool = i == 0 or moves.tool[i] != moves.tool[i - 1]
+        if new_tool:
+            self._change_tool(i)
+        if i == 0 or moves.operation[i] != moves.operation[i - 1]:
+            self.sheet.comment(remarks.operation(int(moves.operation[i])))
+        if new_tool:
+            self.sheet.rapid_z(int(moves.end[i, 2]))
+        for comment in remarks.before.get(i, ()):
+            self.sheet.comment(comment)
+
+    def _change_tool(self, i: int) -> None:
+        """Leave the tool before, if there is one, and take the tool of move i."""
+        if i:
+            self._leave_tool(i - 1)
+        self._home()
+        self.sheet.forget()
+        tool, z = self.job.tool(int(self.moves.tool[i])), int(self.moves.end[i, 2])
+        self.sheet.comment(tool_words(tool, self.job.out_units))
+        fields = self._tool_fields(i) | {"clearance": self.sheet.number(z, self.digits.Z)}
+        for template in self.post.program.tool:
+            text = template.format(**fields).strip()
+            if "{clearance" in template:
+                self.sheet.clearance(text, z)
+            else:
+                self.sheet.block(text)
+
+    def _leave_tool(self, i: int) -> None:
+        """Go to safe Z, where each tool began, after move i, the last of its tool; then stop spindle and coolant."""
+        self.sheet.rapid_z(int(self.moves.end[0, 2]))
+        for template in self.post.program.leave:
+            self.sheet.block(template.format(**self._tool_fields(i)).strip())
+
+    def _home(self) -> None:
+        """Go to the machine's own home along Z, if the post wants it."""
+        for template in self.post.program.home:
+            self.sheet.home(template.format(**self.fields).strip())
+
+    def _blocks(self, templates: tuple[str, ...]) -> None:
+        """Write the post's blocks."""
+        for template in templates:
+            self.sheet.block(template.format(**self.fields).strip())
+
+    def _tool_fields(self, i: int) -> Fields:
+        """Return what the templates round the tool of move i may name."""
+        return self.fields | tool_fields(self.job.tool(int(self.moves.tool[i])), self.post, self._next_tool(i))
+
+    def _next_tool(self, i: int) -> int:
+        """Return the T number that follows that of move i; after the last one, the first."""
+        tools = self.moves.tool
+        others = tools[i:] != tools[i]
+        return int(tools[i + np.argmax(others)] if others.any() else tools[0])

@@ -1,0 +1,1 @@
+"""Free curves as lines and arcs, within a stated distance."""

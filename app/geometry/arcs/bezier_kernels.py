@@ -1,0 +1,125 @@
+"""Compiled: places, tangents and bounds of plane curves of rational Bézier pieces, see `app.geometry.arcs.bezier.Pieces`.
+
+A curve is its control points (n, p + 1, 3), homogeneous: w x, w y, w; its parameter u runs from 0 to n.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ...core.jit import kernel
+
+_CONTROL, _PIECE, _FOUND = "float64[:, :, ::1]", "float64[:, ::1]", "float64[::1]"
+_NEAR = 1e-5
+"""Of a piece: so far on a curve that stands still at a place is looked at for where it goes."""
+
+
+@kernel(f"void({_CONTROL}, float64, {_PIECE}, {_FOUND})", counts=False)
+def place(control, u, work, found):  # type: ignore[no-untyped-def]
+    """Write the place at a parameter, mm, and a vector along the tangent there, of any length.
+
+    Args:
+        work: (p + 1, 3) is written over. found: (4,) out.
+    """
+    k, degree = min(max(int(u), 0), len(control) - 1), control.shape[1] - 1
+    t = u - k
+    for j in range(degree + 1):
+        for axis in range(3):
+            work[j, axis] = control[k, j, axis]
+    for level in range(degree, 1, -1):
+        for j in range(level):
+            for axis in range(3):
+                work[j, axis] += (work[j + 1, axis] - work[j, axis]) * t
+    w = work[0, 2] + (work[1, 2] - work[0, 2]) * t
+    for axis in range(2):
+        along = work[1, axis] - work[0, axis]
+        found[axis] = (work[0, axis] + along * t) / w
+        found[2 + axis] = along - found[axis] * (work[1, 2] - work[0, 2])
+
+
+@kernel(f"UniTuple(float64, 2)({_CONTROL}, float64, boolean, float64, {_PIECE}, {_FOUND})", counts=False)
+def direction(control, u, forward, still, work, found):  # type: ignore[no-untyped-def]
+    """Return the unit tangent just after (forward) or just before a parameter; (0, 0) where the curve stands still.
+
+    Args:
+        still: a chord no longer than this, mm, has no direction.
+    """
+    sign = 1.0 if forward else -1.0
+    if u == math.floor(u):
+        k, degree = int(u), control.shape[1] - 1
+        k = min(k, len(control) - 1) if forward else max(k - 1, 0)
+        here = 0 if forward else degree
+        for j in range(1, degree + 1):
+            other = j if forward else degree - j
+            dx = sign * (control[k, other, 0] / control[k, other, 2] - control[k, here, 0] / control[k, here, 2])
+            dy = sign * (control[k, other, 1] / control[k, other, 2] - control[k, here, 1] / control[k, here, 2])
+            size = math.hypot(dx, dy)
+            if size > still:
+                return dx / size, dy / size
+        return 0.0, 0.0
+    place(control, u, work, found)
+    x, y, dx, dy = found[0], found[1], found[2], found[3]
+    size = math.hypot(dx, dy)
+    if not size > still:
+        place(control, u + sign * _NEAR, work, found)
+        dx, dy = sign * (found[0] - x), sign * (found[1] - y)
+        size = math.hypot(dx, dy)
+    return (dx / size, dy / size) if size > still else (0.0, 0.0)
+
+
+@kernel(f"void({_CONTROL}, float64, float64, {_PIECE}, {_PIECE})", counts=False)
+def cut(control, first, last, work, piece):  # type: ignore[no-untyped-def]
+    """Write the stretch between two parameters of one piece: control point j is the blossom of its ends, taken p - j and j times."""
+    k, degree = min(max(int((first + last) / 2), 0), len(control) - 1), control.shape[1] - 1
+    for j in range(degree + 1):
+        for i in range(degree + 1):
+            for axis in range(3):
+                work[i, axis] = control[k, i, axis]
+        for level in range(degree):
+            t = (last if level < j else first) - k
+            for i in range(degree - level):
+                for axis in range(3):
+                    work[i, axis] = work[i, axis] * (1.0 - t) + work[i + 1, axis] * t
+        for axis in range(3):
+            piece[j, axis] = work[0, axis]
+
+
+@kernel(f"float64({_PIECE}, float64, float64, float64, float64)", counts=False)
+def off_line(piece, ax, ay, bx, by):  # type: ignore[no-untyped-def]
+    """Return a bound of how far a piece is from the line from a to b, mm: that of its control points, each way by itself."""
+    dx, dy = bx - ax, by - ay
+    length = math.hypot(dx, dy)
+    aside, beyond, still = 0.0, 0.0, 0.0
+    for j in range(len(piece)):
+        x, y = piece[j, 0] / piece[j, 2] - ax, piece[j, 1] / piece[j, 2] - ay
+        still = max(still, math.hypot(x, y))
+        if length > 0.0:
+            along = (x * dx + y * dy) / length
+            aside, beyond = max(aside, abs(y * dx - x * dy) / length), max(beyond, -along, along - length)
+    return math.hypot(aside, beyond) if length > 0.0 else still
+
+
+@kernel(f"float64({_PIECE}, float64, float64, float64, float64, {_CONTROL})", counts=False)
+def off_circle(piece, x, y, cx, cy, products):  # type: ignore[no-untyped-def]
+    """Return a bound of how far a piece is from the circle round a centre c through a place, mm.
+
+    The squared distance from the centre is a polynomial over the squared weight; its Bernstein coefficients enclose it, so nothing
+    between samples can escape. What it is more than the squared radius is reckoned from the place on the circle, where it is small.
+
+    Args:
+        products: (p + 1, p + 1, 2 p + 1) the table that multiplies two polynomials in Bernstein form.
+    """
+    count, rx, ry = len(piece), x - cx, y - cy
+    radius, least, worst = math.hypot(rx, ry), math.inf, 0.0
+    for j in range(count):
+        least = min(least, piece[j, 2])
+    for k in range(2 * count - 1):
+        gap = 0.0
+        for i in range(max(0, k - count + 1), min(k, count - 1) + 1):
+            j = k - i
+            ix, iy = piece[i, 0] - piece[i, 2] * x, piece[i, 1] - piece[i, 2] * y
+            jx, jy = piece[j, 0] - piece[j, 2] * x, piece[j, 1] - piece[j, 2] * y
+            gap += products[i, j, k] * (ix * jx + iy * jy + 2.0 * piece[i, 2] * (jx * rx + jy * ry))
+        gap /= least * least
+        worst = max(worst, abs(gap / (math.sqrt(max(radius * radius + gap, 0.0)) + radius)))
+    return worst

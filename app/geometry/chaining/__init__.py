@@ -1,0 +1,1 @@
+"""Loose curves become contours; what does not meet, lies double or crosses is told."""

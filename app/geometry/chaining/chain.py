@@ -1,0 +1,95 @@
+"""Chain loose curves, in any order and direction, into contours; say where they do not meet, overlap or cross."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ...core import tolerances
+from ...model.finding import Finding
+from ...model.part import Contour, Entity
+from .crossings import crossings
+from .findings import Shared, branch_findings, gap_findings, overlap_findings, repeat_findings
+from .join import Nodes, brought_together, nodes_of
+from .open import open_findings
+from .overlap import Overlap, covered, repeated, shared_stretches, twin_contours
+from .pieces import Piece, pieces_from
+from .trace import Step, paths
+from .trim import trimmed
+from .twins import reach_of
+
+
+@dataclass(frozen=True, slots=True)
+class Chaining:
+    """What a drawing's curves chain into.
+
+    Attributes:
+        contours: closed and open ones, by their first curve; not turned to any orientation.
+        findings: what was removed, joined, left open, or crosses.
+    """
+
+    contours: tuple[Contour, ...] = ()
+    findings: tuple[Finding, ...] = ()
+
+
+def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -> Chaining:
+    """Return the contours that some curves form.
+
+    Ellipses and splines become lines and arcs within 1 um. Curves drawn twice, and curves that lie wholly on another,
+    are removed unless an outline needs them; drawn twice means within the join tolerance all along, of which at most
+    the default counts here. Ends nearer than the join tolerance are moved to meet exactly; arcs stay
+    true arcs. Where three or more ends meet, loops are closed first, then the smallest turn wins.
+
+    Args:
+        entities: curves in any order and direction.
+        join_tolerance: loose ends within this distance are joined, mm, >= 0.
+
+    Returns:
+        Closed contours end exactly where they begin, and every primitive begins exactly where the one before ends.
+        Overlaps that are longer than the tolerance are left as they are and reported, but for arcs of one circle whose
+        loose ends lie on one another: these are cut to meet.
+    """
+    pieces, findings = pieces_from(entities)
+    nodes = nodes_of(pieces, join_tolerance)
+    pieces, nodes, overlaps = _thinned(pieces, nodes, join_tolerance)
+    pieces, nodes, gaps = brought_together(pieces, nodes)
+    found, branches = paths(pieces, nodes)
+    contours, doubles = _once([_contour(pieces, steps, closed) for steps, closed in found], join_tolerance)
+    odd = [place for place, ends in branches if ends % 2]
+    findings += [*overlap_findings(overlaps, contours, join_tolerance), *repeat_findings(doubles), *gap_findings(gaps),
+                 *branch_findings(branches), *open_findings(contours, join_tolerance), *crossings(contours, odd)]
+    return Chaining(tuple(contours), tuple(findings))
+
+
+def _thinned(pieces: list[Piece], nodes: Nodes, join_tolerance: float) -> tuple[list[Piece], Nodes, list[Shared]]:
+    """Return what is left without curves that only repeat others, and all overlaps that were found on the way."""
+    reach = min(tolerances.CURVE, max(join_tolerance, tolerances.WELD))
+    repeats = repeated(pieces, nodes, reach_of(join_tolerance))
+    shared = [Shared(pieces[o.first], pieces[o.second], o) for o in repeats]
+    known = {(s.first.entity, s.second.entity) for s in shared}
+    pieces, nodes = _without(pieces, nodes, repeats)
+    stretches = shared_stretches(pieces, reach)
+    new = [o for o in stretches if (pieces[o.first].entity, pieces[o.second].entity) not in known]
+    overlaps = covered(pieces, nodes, new, reach)
+    drawn = pieces
+    pieces, nodes, overlaps = trimmed(pieces, nodes, overlaps)
+    shared += [Shared(drawn[o.first], drawn[o.second], o) for o in overlaps]
+    return *_without(pieces, nodes, overlaps), shared
+
+
+def _without(pieces: list[Piece], nodes: Nodes, overlaps: Sequence[Overlap]) -> tuple[list[Piece], Nodes]:
+    gone = {overlap.second for overlap in overlaps if overlap.removed}
+    kept = [k for k in range(len(pieces)) if k not in gone]
+    return [pieces[k] for k in kept], nodes[kept] if len(nodes) else nodes
+
+
+def _contour(pieces: Sequence[Piece], steps: Sequence[Step], closed: bool) -> Contour:
+    members = [pieces[k] if forward else pieces[k].reversed() for k, forward in steps]
+    return Contour(tuple(p for piece in members for p in piece.primitives), closed, pieces[min(steps)[0]].layer,
+                   tuple(piece.entity for piece in members), max(piece.deviation for piece in members))
+
+
+def _once(contours: list[Contour], join_tolerance: float) -> tuple[list[Contour], list[tuple[Contour, Contour]]]:
+    """Return the contours without closed ones that repeat another, and the (kept, removed) pairs."""
+    twins = twin_contours(contours, max(reach_of(join_tolerance), tolerances.CURVE))
+    return [c for k, c in enumerate(contours) if k not in twins], [(contours[j], contours[k]) for k, j in twins.items()]

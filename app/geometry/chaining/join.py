@@ -1,0 +1,125 @@
+"""Which ends of curves are one point: equal ends, and loose ends within the join tolerance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core import tolerances
+from ...model.curves import Arc, Line, Point
+from ..near_points import all_within, groups, pairs_within
+from .overlap import repeated
+from .pieces import Piece, length_of, with_ends
+from .twins import reach_of, twins_met
+
+Nodes = NDArray[np.int64]
+
+
+def nodes_of(pieces: Sequence[Piece], join_tolerance: float) -> Nodes:
+    """Return (n, 2) numbers of the points at which each piece starts and ends; -1 for circles.
+
+    Ends within WELD of one another are one point. Of what is loose then, the nearest two within the tolerance are
+    joined first, so that joining never swallows a detail that is already connected; a loose end without such a
+    partner is joined to the nearest point within the tolerance. A curve drawn twice, be it a
+    little apart, does not connect its own copy.
+    """
+    ends = np.array([(*p.start, *p.end) for p in pieces], dtype=np.float64).reshape(-1, 2)
+    nodes, reach = _welded(ends), reach_of(join_tolerance)
+    nodes[np.repeat(np.array([p.is_circle for p in pieces], dtype=bool), 2)] = -1
+    nodes = twins_met(pieces, ends, nodes, reach)
+    if join_tolerance > tolerances.WELD and len(pieces):
+        single = np.ones(len(pieces), dtype=bool)
+        single[[overlap.second for overlap in repeated(pieces, nodes.reshape(-1, 2), reach)]] = False
+        _join_loose(pieces, ends, np.where(np.repeat(single, 2), nodes, -1), (nodes, join_tolerance + tolerances.WELD))
+    return nodes.reshape(-1, 2)
+
+
+def _welded(ends: NDArray[np.float64]) -> Nodes:
+    if len(ends) == 0:
+        return np.zeros(0, np.int64)
+    points, nodes = np.unique(ends, axis=0, return_inverse=True)
+    return groups(len(points), pairs_within(points, tolerances.WELD))[nodes.ravel()]
+
+
+def _join_loose(pieces: Sequence[Piece], ends: NDArray[np.float64], single: Nodes, joined: tuple[Nodes, float]) -> None:
+    """Give points that belong together the same number, in place.
+
+    Args:
+        pieces, ends: what is joined.
+        single: number of each end's point, -1 for circles and for curves that repeat another.
+        joined: the numbers of all ends, which change, and the distance within which to join, mm.
+    """
+    nodes, reach = joined
+    loose = _loose(single)
+    if len(loose) == 0:
+        return
+    pairs = pairs_within(ends[loose], reach)
+    gaps = np.hypot(*(ends[loose[pairs[:, 0]]] - ends[loose[pairs[:, 1]]]).T)
+    free = set(loose.tolist())
+    becomes = np.arange(single.max() + 1)
+    for k in np.lexsort((pairs[:, 1], pairs[:, 0], np.round(gaps, 9))):
+        a, b = int(loose[pairs[k, 0]]), int(loose[pairs[k, 1]])
+        if a in free and b in free and _may_meet(pieces, a, b, float(gaps[k])):
+            becomes[single[b]] = single[a]
+            free -= {a, b}
+    if free:
+        points = np.flatnonzero(single >= 0)
+        left = np.array(sorted(free))
+        place, found = all_within(ends[points], ends[left], reach)
+        for k, a in enumerate(left.tolist()):
+            near = [(math.dist(ends[a], ends[b]), int(b)) for b in points[found[place == k]]]
+            allowed = [b for gap, b in sorted(near) if becomes[single[b]] != becomes[single[a]] and _may_meet(pieces, a, b, gap)]
+            if allowed:
+                becomes[single[a]] = becomes[single[allowed[0]]]
+    nodes[nodes >= 0] = becomes[nodes[nodes >= 0]]
+
+
+def _loose(nodes: Nodes) -> Nodes:
+    """Return the ends whose point no other end shares."""
+    counts = np.bincount(nodes[nodes >= 0], minlength=1)
+    return np.flatnonzero((nodes >= 0) & (counts[np.maximum(nodes, 0)] == 1))
+
+
+def _may_meet(pieces: Sequence[Piece], a: int, b: int, gap: float) -> bool:
+    """A curve may close on itself only when it is much longer than its gap."""
+    if a // 2 != b // 2:
+        return True
+    piece = pieces[a // 2]
+    return not (len(piece.primitives) == 1 and isinstance(piece.primitives[0], Line)) and sum(map(length_of, piece.primitives)) > 3 * gap
+
+
+def brought_together(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[Piece], Nodes, list[tuple[float, Point]]]:
+    """Return the pieces with ends that meet exactly, their nodes, and (size, place) of every gap wider than 1 um.
+
+    Pieces that shrink to nothing are left out. Lines give way to arcs: the point where ends meet is the mean of the
+    arcs' ends there, or of all ends when there are only lines.
+    """
+    ends: dict[int, list[tuple[Point, bool]]] = {}
+    for piece, (a, b) in zip(pieces, nodes.tolist(), strict=True):
+        if a >= 0:
+            ends.setdefault(a, []).append((piece.start, isinstance(piece.primitives[0], Arc)))
+            ends.setdefault(b, []).append((piece.end, isinstance(piece.primitives[-1], Arc)))
+    target: dict[int, Point] = {}
+    gaps: list[tuple[float, Point]] = []
+    for node, members in ends.items():
+        points = {point for point, _ in members}
+        if len(points) == 1:
+            target[node] = members[0][0]
+            continue
+        target[node] = _mean([point for point, is_arc in members if is_arc] or [point for point, _ in members])
+        gap = max(math.dist(p, q) for p in points for q in points)
+        if gap > tolerances.CURVE:
+            gaps.append((gap, target[node]))
+    moved = [piece if a < 0 else with_ends(piece, target[a], target[b])
+             for piece, (a, b) in zip(pieces, nodes.tolist(), strict=True)]
+    kept = [k for k, piece in enumerate(moved) if piece.primitives]
+    return [moved[k] for k in kept], nodes[kept] if len(nodes) else nodes, gaps
+
+
+def _mean(points: list[Point]) -> Point:
+    if len(set(points)) == 1:
+        return points[0]
+    return sum(p[0] for p in points) / len(points), sum(p[1] for p in points) / len(points)

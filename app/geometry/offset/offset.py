@@ -1,0 +1,267 @@
+"""Exact offset of whole regions: lines and arcs in, lines and arcs out, one ring set a level.
+
+A level is the set of points at a given distance from the drawing, on the side of the area to machine (step 120 and
+the frames of steps 142-148). Every ring comes from the drawing itself, never from another ring, so nothing drifts.
+
+Method: each line and arc is moved to its left by the level, each vertex at which the boundary turns right becomes an
+arc; the parts of these to which any primitive comes nearer than the level are cut away in closed form; what remains is
+stitched into rings. Then every move is proven, along its whole length and in other closed forms, to keep its distance from
+the whole drawing. A level that does not close or measures wrong is tried again a fraction of a micrometre further in, and
+falls back to a fine polyline at last.
+"""
+
+from __future__ import annotations
+
+import bisect
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from ...core import tolerances
+from ...core.pool import pool
+from ...core.progress import NO_PROGRESS, Progress
+from ..distance import DistanceField
+from ..primitives import CX, TURN, Indices, Primitives, Rows, lengths, signed_area
+from . import (
+    clearance_kernels as offset_clearance_kernels,
+)
+from . import (
+    offset_kernels,
+    ring_kernels,
+)
+from . import (
+    tree_kernels as offset_tree_kernels,
+)
+from . import (
+    trim_kernels as offset_trim_kernels,
+)
+from .polyline import polyline_loops
+
+_WORTH_TWO_CORES = 2000
+"""Pieces from which a second core is worth its start."""
+
+_FEW = 64
+"""Rows among which it is not worth looking for those that can still block."""
+
+_BANDS = 4
+_BAND = 10_000
+"""Pieces that are cut in less than a fifth of a second."""
+
+_EXACT = 8e-7
+"""How far from its level a path of lines and arcs may measure, mm; more, up to the path's own tolerance, if nothing else closes."""
+
+_NUDGES = (0.0, 1e-7, 3.3e-7, 7.1e-7, -1.3e-7)
+_ATTEMPTS = tuple((nudge, limit) for limit in (_EXACT, tolerances.LEVEL / 2) for nudge in _NUDGES)
+
+
+@dataclass(frozen=True)
+class Ring:
+    """A closed path at one distance from the drawing; the area to machine beyond it lies to its left.
+
+    Attributes:
+        rows: (n, 8) lines and arcs, each beginning exactly where the one before ends.
+        region: number of the region.
+        area: signed area, mm2; negative round an island.
+        length: mm.
+        polyline: True when the exact way failed and this is a fine polyline within tolerance.
+    """
+
+    rows: Rows
+    region: int
+    area: float
+    length: float
+    polyline: bool = False
+
+
+@dataclass(frozen=True)
+class Level:
+    """All rings at one distance, mm, from the drawing."""
+
+    distance: float
+    rings: tuple[Ring, ...]
+
+
+def offset_levels(primitives: Primitives, levels: Sequence[float], progress: Progress = NO_PROGRESS, *,
+                  frame: bool = False) -> tuple[Level, ...]:
+    """Return the rings at each of some distances from a drawing.
+
+    Args:
+        primitives: closed contours, the area to the left.
+        levels: distances, mm, > 0, rising.
+        progress: looked at between levels, and within levels of many pieces.
+        frame: the first level is an outermost frame: a tool that fits a slot or a hole exactly goes there too,
+            along a ring that is as good as a line or a point.
+
+    Returns:
+        One Level a distance, in order; without rings where nothing is that far from the drawing.
+
+    Raises:
+        Cancelled: by progress.
+
+    References:
+        Levels of one distance field instead of the peeling of steps 301-307, whose offsets of offsets drift.
+    """
+    if len(primitives.rows) == 0:
+        return tuple(Level(d, ()) for d in levels)
+    engine = _Engine(primitives)
+    result = []
+    for k, distance in enumerate(levels):
+        if engine.exhausted:
+            break
+        progress.step(k / len(levels), f"Offset {distance:.3f} mm")
+        part = progress.part(k / len(levels), (k + 1) / len(levels))
+        result.append(Level(distance, engine.frame(distance, part) if frame and k == 0 else engine.rings(distance, part)))
+    return *result, *(Level(distance, ()) for distance in levels[len(result):])
+
+
+class _Engine:
+    """Keeps what is still free of each element from one level to the next."""
+
+    def __init__(self, primitives: Primitives) -> None:
+        origin = (primitives.rows[:, :2].min(axis=0) + primitives.rows[:, :2].max(axis=0)) / 2
+        self._shift = np.concatenate([origin, origin, origin, [0, 0]])
+        rows = primitives.rows - self._shift
+        rows[rows[:, TURN] == 0, CX:] = 0.0
+        self._primitives = primitives
+        self._rows = rows
+        self._field = DistanceField.of(rows)
+        self._tree: tuple[Indices, Rows, Rows] = offset_tree_kernels.build_runs(rows, self._field.boxes)
+        self._slack = 2e-13 * max(float(np.abs(rows[:, :4]).max()), 100.0)
+        self._angles = np.empty((2 * len(rows), 2))
+        offset_kernels.element_angles(rows, primitives.previous, self._angles)
+        elements = np.concatenate([np.arange(len(rows)), len(rows) + np.flatnonzero(self._angles[len(rows):, 1] < 0)])
+        self._active = np.zeros((len(elements), 3))
+        self._active[:, 0], self._active[:, 2] = elements, 1.0
+        self._levels = [0.0]
+        self._live = np.zeros(len(rows))
+        self._blockers: tuple[Indices, Rows, Rows] = self._tree
+
+    @property
+    def exhausted(self) -> bool:
+        """Tell whether nothing is as far from the drawing as the last level."""
+        return len(self._active) == 0
+
+    def frame(self, distance: float, progress: Progress) -> tuple[Ring, ...]:
+        """Return the rings at the first distance; for regions that the tool passes only just, those at FIT or NOMINAL less."""
+        loose = _by_region(self.rings(distance - tolerances.NOMINAL, progress, keep_ridges=True))
+        tight = _by_region(self.rings(distance - tolerances.FIT, progress, keep_ridges=True))
+        true = _by_region(self.rings(distance, progress))
+        chosen: list[Ring] = []
+        for region, wide in loose.items():
+            near, exact = tight.get(region, []), true.get(region, [])
+            if not _alike(wide, near, tolerances.NOMINAL):
+                chosen += wide
+            else:
+                chosen += exact if _alike(near, exact, tolerances.FIT) else near
+        return tuple(chosen)
+
+    def rings(self, distance: float, progress: Progress, keep_ridges: bool = False) -> tuple[Ring, ...]:
+        """Return the rings at the next distance, which is greater than the last one."""
+        if len(self._active) == 0:
+            return ()
+        self._blockers = self._still_blocking(distance)
+        for nudge, limit in _ATTEMPTS:
+            pieces = self._trim(distance + nudge, progress)
+            rings = self._stitch(pieces, distance + nudge, limit)
+            if rings is not None:
+                break
+        else:
+            pieces, rings = self._trim(distance, progress), self._polylines(distance)
+        self._active = pieces
+        if len(self._blockers[0]) > _FEW:
+            self._levels.append(distance)
+            self._live[pieces[:, 0].astype(np.int64) % len(self._rows)] = distance
+        return tuple(ring for ring in rings if keep_ridges or not _on_a_ridge(ring))
+
+    def _still_blocking(self, distance: float) -> tuple[Indices, Rows, Rows]:
+        """Return a tree of the rows that can be nearest to any point of this level.
+
+        A point left of a level `last` by distance - last at most is nearer to no row than 2 last - distance, and the
+        row that is nearest was then still live at every level up to that.
+        """
+        if len(self._blockers[0]) <= _FEW:
+            return self._blockers
+        safe = max(2 * self._levels[-1] - distance - 1e-6, 0.0)
+        known = self._levels[bisect.bisect_right(self._levels, safe) - 1]
+        left: tuple[Indices, Rows, Rows] = offset_trim_kernels.blockers(self._rows, self._field.boxes, *self._blockers, self._live, known)
+        return left
+
+    def _trim(self, distance: float, progress: Progress) -> Rows:
+        """Return the pieces (m, 3) of elements to which nothing is nearer than the distance; many are cut on two cores."""
+
+        def trimmed(active: Rows) -> Rows:
+            pieces: Rows = offset_trim_kernels.trim(self._rows, self._field.boxes, *self._blockers, self._angles, active,
+                                                    distance, self._slack)
+            return pieces
+
+        if len(self._active) < _WORTH_TWO_CORES:
+            return trimmed(self._active)
+        bands, parts = np.array_split(self._active, max(_BANDS, len(self._active) // _BAND)), []
+        for k, part in enumerate(pool().map(trimmed, bands)):
+            parts.append(part)
+            progress.step(k / len(bands))
+        return np.concatenate(parts)
+
+    def _stitch(self, pieces: Rows, distance: float, limit: float) -> list[Ring] | None:
+        """Return closed rings made of all pieces, or None when one has no continuation, measures wrong or lies outside."""
+        apart = max(2e-5, 8 * math.sqrt(self._slack * distance))
+        closed, joined, owners, table = ring_kernels.close(self._rows, *self._tree[:2], self._angles, pieces, distance, apart,
+                                                           tolerances.RIDGE)
+        if not closed or not self._measure_right(joined, owners, distance, limit):
+            return None
+        ring_kernels.shift(joined, self._shift[0], self._shift[1])
+        regions = self._primitives.region
+        return [Ring(_lasting(joined[int(first):int(stop)]), int(regions[int(owner)]), area, length)
+                for first, stop, area, length, owner in table.tolist()]
+
+    def _measure_right(self, joined: Rows, owners: Indices, distance: float, limit: float) -> bool:
+        """Return whether all of a level keeps its distance from the whole drawing within a limit, mm."""
+
+        def right(part: slice) -> bool:
+            good: bool = offset_clearance_kernels.measures_right(joined[part], owners[part], self._rows, self._field.boxes, *self._tree,
+                                                                 distance, limit)
+            return good
+
+        if len(joined) < _WORTH_TWO_CORES:
+            return right(slice(None))
+        ends = np.linspace(0, len(joined), max(_BANDS, len(joined) // _BAND) + 1).astype(int)
+        return all(pool().map(right, (slice(*band) for band in pairwise(ends))))
+
+    def _polylines(self, distance: float) -> list[Ring]:
+        """Return the rings as fine polylines that measure right."""
+        rings = []
+        for points, region in polyline_loops(self._field, self._rows, self._primitives, distance):
+            rows = np.hstack([points, np.roll(points, -1, axis=0), np.zeros((len(points), 4))])
+            area, length = signed_area(rows), float(lengths(rows).sum())
+            rows[:, :4] += self._shift[:4]
+            rings.append(Ring(_lasting(rows), region, area, length, polyline=True))
+        return rings
+
+
+def _lasting(rows: Rows) -> Rows:
+    """Return a ring's rows without those that rounding leaves no length where the drawing lies: of an arc it would make a full turn."""
+    still = (rows[:, :2] == rows[:, 2:4]).all(axis=1)
+    return rows[~still] if 0 < np.count_nonzero(still) < len(rows) else rows
+
+
+def _by_region(rings: Sequence[Ring]) -> dict[int, list[Ring]]:
+    """Return the rings of each region, regions in the order of their first rings."""
+    regions: dict[int, list[Ring]] = {}
+    for ring in rings:
+        regions.setdefault(ring.region, []).append(ring)
+    return regions
+
+
+def _alike(wide: Sequence[Ring], exact: Sequence[Ring], apart: float) -> bool:
+    """Tell whether two sets of rings, so far apart, mm, are the same but for that shift."""
+    perimeter = sum(ring.length for ring in wide)
+    lost = sum(ring.area for ring in wide) - sum(ring.area for ring in exact)
+    return len(wide) == len(exact) and lost <= 1.5 * perimeter * apart
+
+
+def _on_a_ridge(ring: Ring) -> bool:
+    """Tell whether the field rises above the ring's level by less than the ridge tolerance inside it."""
+    return ring.length < 4 * tolerances.RIDGE or 0 <= ring.area < ring.length * tolerances.RIDGE

@@ -1,0 +1,1 @@
+"""Regions and outlines laid over one another, without a crossing that is left."""

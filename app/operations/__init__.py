@@ -1,0 +1,1 @@
+"""What a job can ask for, one folder a kind of operation."""

@@ -1,0 +1,137 @@
+"""A job to its program: one table from kind of operation to function, and the order of cutting."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import shapely
+
+from ..core.progress import NO_PROGRESS, Progress
+from ..geometry.overlay.overlay import Overlaid, without_crossings
+from ..geometry.region import nested
+from ..model.finding import Finding, FindingKind, worst_first
+from ..model.job import Job
+from ..model.moves import Program
+from ..model.operation import ContourOperation, DrillOperation, Operation, Order, PocketOperation, RestOperation, Side, follows_lines
+from ..model.part import Contour, Region
+from ..raster.fill import Observer
+from ..toolpath.bitmap_check import BitmapCheck
+from ..toolpath.coverage.flat import region_shapes
+from ..toolpath.coverage.wanted import CHORD
+from ..toolpath.drawn import Drawn, drawn
+from ..toolpath.drill_holes import across_holes
+from ..toolpath.setting import Setting
+from ..toolpath.sheets import Sheets
+from ..toolpath.witness import about_regions
+from .contour.contour import contour
+from .drill.drill import drill
+from .pocket.pocket import pocket
+from .rest.rest import rest
+
+_WAYS: dict[type[Operation], Callable[[Setting, int, Progress], None]] = {
+    PocketOperation: pocket, RestOperation: rest, ContourOperation: contour, DrillOperation: drill,
+}
+
+
+def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | None = None) -> Program:
+    """Return every move of a job.
+
+    Args:
+        observer: is shown the numbered steps of the bitmap fill (201-208); costs nothing when there is none.
+
+    Raises:
+        ParameterError: an operation's parameters do not fit its tool, or a layer is not in the drawing.
+        Cancelled: by progress.
+    """
+    progress.step(0.0, "Chain contours")
+    parts = drawn(job)
+    lines = followed_lines(job, parts)
+    made = machined(parts)
+    about = [*about_drawing(job, parts, lines), *made.findings]
+    setting = Setting(job, made.regions, Sheets(job, parts), findings=about, observer=observer)
+    if not setting.regions and not lines:
+        return Program(setting.builder.moves(), findings=tuple(setting.findings))
+    setting.findings.extend(under_clamps(job, parts, setting.regions))
+    operations = in_order(job)
+    for k, index in enumerate(operations):
+        operation = job.operations[index]
+        _WAYS[type(operation)](setting, index, progress.part(0.05 + 0.95 * k / len(operations), 0.05 + 0.95 * (k + 1) / len(operations)))
+    if job.order is Order.PATENT_1986:
+        setting.findings.extend(slotting(job))
+    areas = setting.sheets.areas()
+    setting.findings.extend(setting.sheets.findings)
+    seen = setting.on_bitmap or BitmapCheck(0.0, 0.0, 0, (0.0, 0.0), 0.0)
+    findings = worst_first(setting.findings)
+    return Program(
+        setting.builder.moves(), setting.regions, findings, setting.strokes, setting.polyline_rings,
+        seen.bitmap_area, seen.exact_area, seen.pitch, areas=areas, lines=lines,
+        clamps=parts.clamps, tabs=tuple(setting.tabs), dog_bones=tuple(setting.dog_bones), stepovers=setting.stepovers,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Machined:
+    """The regions that all closed contours of a drawing bound, and what there is to say of how they came about."""
+
+    regions: tuple[Region, ...]
+    findings: tuple[Finding, ...] = ()
+
+
+def machined(parts: Drawn) -> Machined:
+    """Return the regions that all closed contours bound; those that meet count even-odd."""
+    made = without_crossings(parts.closed) if parts.crossing else Overlaid(parts.closed)
+    nesting = nested(made.contours)
+    return Machined(nesting.regions, (*made.findings, *about_regions(parts.closed, (), nesting)))
+
+
+def regions_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
+    """Return (regions, findings about the drawing) of the layers that a job machines."""
+    parts = drawn(job)
+    made = machined(parts)
+    return made.regions, [*parts.findings, *made.findings]
+
+
+def followed_lines(job: Job, parts: Drawn) -> tuple[Contour, ...]:
+    """Return the open lines that some operation follows."""
+    cuts = [each.cut for each in job.operations if isinstance(each, ContourOperation) and each.side is Side.ON and each.cut.enabled]
+    return tuple(line for line in parts.open if any(not cut.layers or line.layer in cut.layers for cut in cuts))
+
+
+def about_drawing(job: Job, parts: Drawn, lines: Sequence[Contour]) -> list[Finding]:
+    """Return what is to say of a drawing; that lines are open, or cross, counts for nothing where they are but followed."""
+    followed = {number for line in lines for number in line.entity_ids}
+    kept = [each for each in across_holes(parts.findings, job, parts)
+            if each.kind is not FindingKind.OPEN_CONTOUR or not (each.entity_ids and followed.issuperset(each.entity_ids))]  # fmt: skip
+    if any(operation.cut.enabled and not follows_lines(operation) for operation in job.operations):
+        return kept
+    return [replace(each, counts=False) if each.kind is FindingKind.SELF_INTERSECTION else each for each in kept]
+
+
+def under_clamps(job: Job, parts: Drawn, regions: Sequence[Region]) -> list[Finding]:
+    """Return how much of what pockets are to clear lies under clamps."""
+    if not parts.clamps or not any(isinstance(each, PocketOperation) and each.cut.enabled for each in job.operations):
+        return []
+    held = shapely.union_all(region_shapes(parts.clamps, CHORD))
+    lost = shapely.intersection(held, shapely.union_all(region_shapes(regions, CHORD)))
+    if lost.area < CHORD:
+        return []
+    x, y = shapely.get_coordinates(shapely.point_on_surface(lost))[0].tolist()
+    text = (f"{lost.area:.1f} mm2 of what is to be cleared lies under clamps, at ({x:.3f}, {y:.3f}) for one, and stays; "
+            "clear it in another set-up.")
+    return [Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(lost.area))]
+
+
+def in_order(job: Job) -> list[int]:
+    """Return indices of the enabled operations in the order of cutting: the list's, or all contours first (1986)."""
+    enabled = [k for k, operation in enumerate(job.operations) if operation.cut.enabled]
+    first = ContourOperation if job.order is Order.PATENT_1986 else object
+    return sorted(enabled, key=lambda k: not isinstance(job.operations[k], first))
+
+
+def slotting(job: Job) -> list[Finding]:
+    """Return the warning that the 1986 order deserves."""
+    tools = [job.tool(op.cut.tool) for op in job.operations if isinstance(op, ContourOperation) and op.cut.enabled]
+    return [Finding(FindingKind.ENGAGEMENT, f"Order 1986: T{tool.number} {tool.label} cuts first and slots full stock, engaged over 100 % "
+                    "of its diameter. Reduce the stepdown, or let the pocket tool cut first.", counts=False, amount=tool.diameter)
+            for tool in tools]

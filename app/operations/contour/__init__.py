@@ -1,0 +1,1 @@
+"""Contours: the tool follows walls."""

@@ -1,0 +1,228 @@
+"""What of the walls a cutter's rim does not touch: inner corners, and places that are too narrow for it.
+
+A cutter that follows a ring touches the wall at the foot of each of its places: as far to the right of travel as the ring is from the
+walls. What of the walls no foot covers is a gap. Where the ring turns at one place from before a gap to behind it, and the wall between
+turns no more than the ring does, the gap is an inner corner; every other one is a place where the cutter does not fit in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ...geometry.distance import DistanceField
+from ...geometry.near_points import nearest
+from ...geometry.offset.offset import Level
+from ...geometry.primitives import TURN, Indices, Rows, lengths, points_at, sweeps
+from ...toolpath.leads.contour_path import Floats, fractions_at, headings_at, left_of
+from ...toolpath.sheets import Sheet
+
+_LEAST = 1e-3
+"""mm; shorter gaps are the paths' own error."""
+
+_JUMP = 1e-4
+"""mm between the feet before and after a joint that is a corner."""
+
+_SAME = 2e-3
+"""mm between a foot and the end of the gap that it stands at."""
+
+_EXCESS = 0.6
+"""Radians by which the walls of a corner may turn more than the ring does that touches both: they may be round towards the cutter."""
+
+_BOTTOM = 2.1
+"""Radians; walls that turn more than this in more than one place face each other: what lies between is the bottom of a slot."""
+
+_BESIDE = 0.35
+"""Radians by which the walls beside a sharp corner may turn."""
+
+
+@dataclass(frozen=True, eq=False)
+class Gap:
+    """A run of wall that the cutter does not touch, in the wall's direction: the area to machine on its left.
+
+    Attributes:
+        rows: (m, 8) the wall, cut to the gap.
+        walls: indices of these rows among the sheet's.
+        region: number of its region.
+        bare: True when it begins or ends at a clamp or the frame.
+        corner: (x, y) where the centre of the cutter turns that touches the wall before and behind it; None where there is none.
+        excess: by how much more the wall turns left than the ring does there, radians; inf where there is no such place.
+        turn: of the ring there, radians, in [0, pi].
+    """
+
+    rows: Rows
+    walls: tuple[int, ...]
+    region: int
+    bare: bool
+    corner: tuple[float, float] | None = None
+    excess: float = np.inf
+    turn: float = 0.0
+
+    @property
+    def length(self) -> float:
+        """Of the wall, mm."""
+        return float(lengths(self.rows).sum())
+
+    @property
+    def is_corner(self) -> bool:
+        """True of inner corners; elsewhere the cutter does not fit in.
+
+        A corner may be sharp or made by an arc or a chamfer, but not the bottom of a slot, whose walls face each other.
+        """
+        if self.corner is None or self.bare or self.excess > _EXCESS:
+            return False
+        return bool(self.left.sum() <= _BOTTOM or self.left.max() >= self.left.sum() - _BESIDE)
+
+    @cached_property
+    def left(self) -> Floats:
+        """(k,) by how much the wall turns left at each of its joints and in each of its arcs, radians; right turns are left out."""
+        bent = np.where(self.rows[:, TURN] > 0, sweeps(self.rows), 0.0)
+        return np.concatenate([np.maximum(_turns(self.rows[:-1], self.rows[1:]), 0.0), bent])
+
+
+def gaps(level: Level, sheet: Sheet) -> list[Gap]:
+    """Return all gaps in the walls of regions that a level's rings are in; clamps and the frame are no walls."""
+    if not level.rings:
+        return []
+    known = {ring.region for ring in level.rings}
+    spans = _covered(level, sheet)
+    chains = _chains(_uncovered(spans, sheet, known), sheet)
+    found = [_gap(chain, sheet) for chain in chains]
+    found = [gap for gap in found if gap.length > _LEAST]
+    return _with_corners(found, level)
+
+
+def feet(rows: Rows, fraction: float, distance: float) -> Floats:
+    """Return where a cutter touches the wall (n, 2) at a fraction of each row of a ring."""
+    part = np.full(len(rows), fraction)
+    touched: Floats = points_at(rows, part) - distance * left_of(headings_at(rows, part))
+    return touched
+
+
+def _covered(level: Level, sheet: Sheet) -> tuple[Indices, Floats, Floats]:
+    """Return (wall row, from, to) of what each row of a level's rings covers of the walls, sorted by both."""
+    rings, distance = np.concatenate([ring.rows for ring in level.rings]), level.distance
+    region = np.repeat([ring.region for ring in level.rings], [len(ring.rows) for ring in level.rings])
+    walls = sheet.distances.rows
+    row = _touched(feet(rings, 0.5, distance), region, sheet)
+    a, b = (fractions_at(walls[row], feet(rings, part, distance)) for part in (0.0, 1.0))
+    low, high = np.minimum(a, b), np.maximum(a, b)
+    order = np.lexsort((low, row))
+    return row[order], low[order], high[order]
+
+
+def _touched(points: Floats, region: Indices, sheet: Sheet) -> Indices:
+    """Return the wall row (n,) that each point lies on: where walls of two regions lie on each other, that of its own region."""
+    row: Indices = sheet.distances.nearest(points)[1].copy()
+    owner = sheet.primitives.region
+    for each in np.unique(region[owner[row] != region]).tolist():
+        own = np.flatnonzero(owner == each)
+        asked = np.flatnonzero((region == each) & (owner[row] != each))
+        if len(own):
+            off, which = DistanceField.of(sheet.distances.rows[own]).nearest(points[asked])[:2]
+            row[asked[off < _SAME]] = own[which[off < _SAME]]
+    return row
+
+
+def _uncovered(spans: tuple[Indices, Floats, Floats], sheet: Sheet, known: set[int]) -> dict[int, list[tuple[float, float]]]:
+    """Return for each row of the walls of some regions the parts of it that no span covers."""
+    row, low, high = spans
+    size = lengths(sheet.distances.rows)
+    bounds = np.searchsorted(row, np.arange(len(size) + 1))
+    found: dict[int, list[tuple[float, float]]] = {}
+    for k in np.flatnonzero(~sheet.bare & np.isin(sheet.primitives.region, list(known))).tolist():
+        least, at, free = _LEAST / max(size[k], 1e-300), 0.0, []
+        for j in range(bounds[k], bounds[k + 1]):
+            if low[j] - at > least:
+                free.append((at, float(low[j])))
+            at = max(at, float(high[j]))
+        if 1 - at > least or at == 0.0:
+            free.append((at, 1.0))
+        if free:
+            found[k] = free
+    return found
+
+
+def _chains(free: dict[int, list[tuple[float, float]]], sheet: Sheet) -> list[list[tuple[int, float, float]]]:
+    """Return runs of (row, from, to) that go on from row to row of the walls."""
+    following = np.empty(len(sheet.primitives.previous), np.int64)
+    following[sheet.primitives.previous] = np.arange(len(following))
+
+    def begins(row: int) -> bool:
+        return row in free and free[row][0][0] == 0.0
+
+    def ends(row: int) -> bool:
+        return row in free and free[row][-1][1] == 1.0
+
+    chains = []
+    used: set[int] = set()  # rows whose first part has its place in a chain
+
+    def chain_from(row: int, part: int) -> list[tuple[int, float, float]]:
+        chain = [(row, *free[row][part])]
+        while part == len(free[row]) - 1 and ends(row):
+            row, part = int(following[row]), 0
+            if not begins(row) or row in used:
+                break
+            used.add(row)
+            chain.append((row, *free[row][0]))
+        return chain
+
+    for row, parts in free.items():
+        for k in range(len(parts)):
+            if k or not (begins(row) and ends(int(sheet.primitives.previous[row]))):
+                if k == 0:
+                    used.add(row)
+                chains.append(chain_from(row, k))
+    for row in free:  # what is left are whole contours
+        if row not in used and begins(row):
+            used.add(row)
+            chains.append(chain_from(row, 0))
+    return chains
+
+
+def _gap(chain: Sequence[tuple[int, float, float]], sheet: Sheet) -> Gap:
+    walls = np.array([row for row, _, _ in chain])
+    low, high = np.array([part[1] for part in chain]), np.array([part[2] for part in chain])
+    rows = sheet.distances.rows[walls].copy()
+    rows[:, :2], rows[:, 2:4] = points_at(rows, low), np.where((high == 1.0)[:, None], rows[:, 2:4], points_at(rows, high))
+    before, last = int(sheet.primitives.previous[walls[0]]), int(walls[-1])
+    after = np.flatnonzero(sheet.primitives.previous == last)
+    bare = bool((low[0] == 0.0 and sheet.bare[before]) or (high[-1] == 1.0 and sheet.bare[after].any()))
+    return Gap(rows, tuple(walls.tolist()), int(sheet.primitives.region[last]), bare)
+
+
+def _with_corners(found: Sequence[Gap], level: Level) -> list[Gap]:
+    """Return the gaps, each with the place where a ring turns from before it to behind it."""
+    before, behind, joints, turn = (np.concatenate(each) for each in zip(*(_joints(ring.rows, level.distance) for ring in level.rings),
+                                                                         strict=True))
+    jump = np.hypot(*(before - behind).T) > _JUMP
+    if not jump.any() or not found:
+        return list(found)
+    before, behind, joints, turn = before[jump], behind[jump], joints[jump], turn[jump]
+    ends = np.array([[*gap.rows[0, :2], *gap.rows[-1, 2:4]] for gap in found])
+    off, which = (each[:, 0] for each in nearest(np.hstack([before, behind]), ends, 1))
+    result = []
+    for gap, far, k in zip(found, off.tolist(), which.tolist(), strict=True):
+        if far > _SAME:
+            result.append(gap)
+            continue
+        corner = float(joints[k, 0]), float(joints[k, 1])
+        excess = float(gap.left.sum()) - float(turn[k])
+        result.append(replace(gap, corner=corner, excess=excess, turn=float(turn[k])))
+    return result
+
+
+def _joints(rows: Rows, distance: float) -> tuple[Floats, Floats, Floats, Floats]:
+    """Return (foot before, foot behind, place, left turn in radians) of each joint of a ring, at the end of each row."""
+    after = np.roll(rows, -1, axis=0)
+    return feet(rows, 1.0, distance), feet(after, 0.0, distance), rows[:, 2:4], np.maximum(_turns(rows, after), 0.0)
+
+
+def _turns(before: Rows, behind: Rows) -> Floats:
+    """Return by how much (n,) a path turns left from the end of each row to the beginning of the one behind it, radians."""
+    ahead, onward = headings_at(before, np.ones(len(before))), headings_at(behind, np.zeros(len(behind)))
+    turn: Floats = np.arctan2(ahead[:, 0] * onward[:, 1] - ahead[:, 1] * onward[:, 0], (ahead * onward).sum(axis=1))
+    return turn

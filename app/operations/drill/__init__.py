@@ -1,0 +1,1 @@
+"""Drilling: circles, straight down at their centres."""

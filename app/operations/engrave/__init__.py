@@ -1,0 +1,1 @@
+"""Engraving: the cutter's centre on the drawn lines."""

@@ -1,0 +1,122 @@
+"""Paths with the cutter's centre on the drawn lines: engraving, slots, scribed outlines."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.progress import Progress
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import Rows, contour_rows, lengths, points_at, reversed_rows, signed_area
+from ...model.finding import Finding, FindingKind
+from ...model.operation import Direction
+from ...model.tool import Tool
+from ...toolpath.leads.contour_path import Floats, Path
+from ...toolpath.sheets import Sheet
+from ...toolpath.side import ranks
+
+_FINEST = 1e-3
+"""mm; how exactly the place is found where a clamp cuts a line off, on the safe side."""
+
+_TELL = 50
+"""Places that are told one by one; the rest is counted."""
+
+
+def line_paths(sheet: Sheet, tool: Tool, direction: Direction, progress: Progress) -> tuple[tuple[Path, ...], list[Finding]]:
+    """Return the paths on a sheet's lines, and what of them clamps cut off.
+
+    Climb milling keeps what a closed contour encloses on the right, or, where an odd number of others lie round it, on the left, as if
+    the drawing were the outline of a part with its holes. Open lines go as they are drawn, or the other way for conventional milling.
+    """
+    loops = [contour for contour in sheet.lines if contour.closed]
+    rank = dict(zip(map(id, loops), ranks([contour_rows(contour) for contour in loops]), strict=True))
+    paths: list[Path] = []
+    cut_off: list[tuple[float, float, float]] = []
+    for k, contour in enumerate(sheet.lines):
+        progress.step(k / len(sheet.lines), "Lines")
+        rows = contour_rows(contour)
+        area = signed_area(rows) if contour.closed else 0.0
+        depth = rank[id(contour)] if contour.closed else len(loops)  # open lines before any loop that may free a part
+        clockwise = direction is Direction.CLIMB if depth % 2 == 0 else direction is not Direction.CLIMB
+        wrong = (area > 0) == clockwise if contour.closed else direction is not Direction.CLIMB
+        parts = -abs(area) if depth % 2 == 0 else abs(area)
+        whole = Path(reversed_rows(rows) if wrong else rows, contour.closed, 0, depth, parts, k + 1 if contour.closed else 0)
+        kept, lost = _beside_clamps(whole, sheet, tool.radius)
+        paths.extend(kept)
+        cut_off.extend(lost)
+    return tuple(paths), _told(cut_off, tool)
+
+
+def _beside_clamps(path: Path, sheet: Sheet, radius: float) -> tuple[list[Path], list[tuple[float, float, float]]]:
+    """Return (what of a path is clear of clamps, (x, y, length) of what is not)."""
+    row, low, high = clear_parts(path.rows, sheet.distances, radius)
+    size = lengths(path.rows)
+    begin = path.ends - size
+    starts, stops = begin[row] + low * size[row], begin[row] + high * size[row]
+    if len(row) == len(path.rows) and (high - low == 1).all():
+        return [path], []
+    spans: list[tuple[float, float]] = []
+    for a, b in zip(starts.tolist(), stops.tolist(), strict=True):
+        if spans and a - spans[-1][1] < 1e-9:
+            spans[-1] = spans[-1][0], b
+        else:
+            spans.append((a, b))
+    length = path.length
+    if path.closed and len(spans) > 1 and spans[0][0] < 1e-9 and spans[-1][1] > length - 1e-9:
+        spans = [*spans[1:-1], (spans[-1][0], length + spans[0][1])]
+    elif path.closed and len(spans) == 1 and spans[0] == (0.0, length):
+        return [path], []
+    kept = [Path(path.span(a, b, np.zeros(0))[0], False, 0, path.rank, path.area, path.loop) for a, b in spans]
+    return kept, _between(path, spans)
+
+
+def _between(path: Path, spans: list[tuple[float, float]]) -> list[tuple[float, float, float]]:
+    """Return (x, y, length) of each part of a path between some spans of it."""
+    length = path.length
+    if not spans:
+        gaps = [(0.0, length)]
+    elif path.closed:
+        gaps = [(b, a) for (_, b), (a, _) in zip(spans, [*spans[1:], (spans[0][0] + length, 0.0)], strict=True)]
+    else:
+        gaps = [(b, a) for (_, b), (a, _) in zip([(0.0, 0.0), *spans], [*spans, (length, 0.0)], strict=True)]
+    gaps = [(a, b) for a, b in gaps if b - a > _FINEST]
+    places = path.points(np.array([(a + b) / 2 for a, b in gaps])) if gaps else np.zeros((0, 2))
+    return [(float(x), float(y), b - a) for (x, y), (a, b) in zip(places, gaps, strict=True)]
+
+
+def clear_parts(rows: Rows, field: DistanceField, radius: float) -> tuple[NDArray[np.int64], Floats, Floats]:
+    """Return (row, from, to) of all parts of rows, as fractions, in which a cutter is clear of what a sheet is bounded by.
+
+    Distance changes by no more than the way gone, so one distance, from the middle of a part, can decide it all; what it does not decide
+    is divided. The smallest parts count as clear when both their ends and their middle are.
+    """
+    size = lengths(rows)
+    row, low, high = np.arange(len(rows)), np.zeros(len(rows)), np.ones(len(rows))
+    found: list[tuple[NDArray[np.int64], Floats, Floats]] = []
+    while len(row):
+        middle = points_at(rows[row], (low + high) / 2)
+        half = (high - low) * size[row] / 2
+        spare = field.nearest(middle)[0] - radius
+        inside = field.inside(middle)
+        small = half < _FINEST / 2
+        both = np.minimum(*(field.nearest(points_at(rows[row], part))[0] for part in (low, high))) - radius
+        clear = inside & ((spare >= half) | (small & (np.minimum(both, spare) >= -1e-9)))
+        reach = np.where(inside, -spare, spare + 2 * radius)  # nearer than this nothing is clear
+        open_still = ~clear & ~small & (half > reach)
+        found.append((row[clear], low[clear], high[clear]))
+        again, a, b = row[open_still], low[open_still], high[open_still]
+        row, low, high = np.concatenate([again, again]), np.concatenate([a, (a + b) / 2]), np.concatenate([(a + b) / 2, b])
+    rows_found, lows, highs = (np.concatenate([each[k] for each in found]) for k in range(3))
+    order = np.lexsort((lows, rows_found))
+    return rows_found[order], lows[order], highs[order]
+
+
+def _told(cut_off: list[tuple[float, float, float]], tool: Tool) -> list[Finding]:
+    findings = [Finding(FindingKind.LEFT_OUT, f"A keep-out area cuts {length:.3f} mm of a line off from T{tool.number} {tool.label} at "
+                        f"({x:.3f}, {y:.3f}); move the clamp and cut the rest.", x, y, amount=length)
+                for x, y, length in cut_off[:_TELL]]  # fmt: skip
+    more = cut_off[_TELL:]
+    if more:
+        findings.append(Finding(FindingKind.LEFT_OUT, f"Keep-out areas cut {len(more)} more places of lines off, "
+                                f"{sum(each[2] for each in more):.3f} mm in all.", *more[0][:2], amount=sum(each[2] for each in more)))
+    return findings

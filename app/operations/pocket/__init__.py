@@ -1,0 +1,1 @@
+"""Pockets: the area cleared in rings."""

@@ -1,0 +1,185 @@
+"""Pocket paths: rings of one distance field from the outermost frame inwards, linked to one stroke (steps 141-148)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ...core import tolerances
+from ...core.errors import ParameterError
+from ...core.progress import NO_PROGRESS, Progress
+from ...geometry.distance import DistanceField
+from ...geometry.offset.offset import Level, offset_levels
+from ...geometry.primitives import lengths
+from ...model.job import Job
+from ...model.operation import ContourOperation, Cut, PocketOperation, Side
+from ...model.tool import Tool
+from ...toolpath.build import Stroke
+from ...toolpath.linking.link import Manner, link
+from ...toolpath.linking.runs import NOTHING, Filling, between, fill
+from ...toolpath.narrow import finest, necks, too_small
+from ...toolpath.setting import Setting, emit, passes_of
+from ...toolpath.sheets import Sheet
+
+_SHARES = (1.6, 1.8, 1.7, 1.75, 1.65, 1.5, 1.4)
+"""Of the radius: stepovers that are compared; the first is the best guess."""
+
+MOST_COMPARED = 20_000
+"""Rows of a drawing up to which stepovers are compared."""
+
+MOST_LINKED = 0.05
+"""Share of a path that bridges and runs between rings should not exceed."""
+
+_FAR_TOO_LINKED = 0.075
+"""Where it is this much, larger stepovers are not looked at."""
+
+_ABOUT = 0.005
+"""mm; so exactly is the largest disc of a region known."""
+
+
+def pocket(setting: Setting, index: int, progress: Progress) -> None:
+    """Steps 141-148: rings inside A', linked to one stroke a connected area."""
+    operation = setting.job.operations[index]
+    assert isinstance(operation, PocketOperation)
+    sheet, tool = setting.sheets.of(operation), setting.job.tool(operation.cut.tool)
+    if sheet is None:
+        return
+    wall = wall_distance(setting.job, operation)
+    outermost = max(wall, operation.cut.stock_to_leave) + tool.radius
+    stepovers = (stepover_of(operation, tool),) if operation.stepover else candidates(tool.radius, len(sheet.primitives.rows))
+    manner = Manner(operation.cut.direction, operation.outside_in)
+    chosen = shortest(sheet, Wanted(outermost, tool.radius, manner), stepovers, progress.part(0, 0.9))
+    setting.note((*chosen.levels, *chosen.filling.halves))
+    first = chosen.levels[0] if chosen.levels else Level(outermost, ())
+    small = too_small(sheet.regions, first, tool, 0.0 if wall else finest(setting.job, operation))
+    setting.findings.extend(each for each in small if not _left_to_contours(each.amount or 0.0, setting.job, operation))
+    setting.findings.extend(necks(first, sheet.primitives, sheet.distances, tool))
+    if chosen.strokes:
+        setting.stepovers[index] = chosen.stepover
+    setting.strokes += len(chosen.strokes) * passes_of(setting, index)
+    emit(setting, index, sheet, chosen.strokes, progress.part(0.9, 1.0))
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """How an area is to be cleared.
+
+    Attributes:
+        outermost: distance of the outermost rings from the walls, mm.
+        radius: of the tool, mm.
+        manner: direction and order.
+    """
+
+    outermost: float
+    radius: float
+    manner: Manner
+
+
+@dataclass(frozen=True, eq=False)
+class Cleared:
+    """Rings that clear an area, and the strokes through them.
+
+    Attributes:
+        levels: rings, outermost first. filling: what cuts all that they leave. strokes: all of it.
+        length: of all strokes, mm.
+        linked: share of it that is no ring: bridges, and runs between rings.
+        stepover: between the rings, mm.
+    """
+
+    levels: tuple[Level, ...] = ()
+    filling: Filling = NOTHING
+    strokes: tuple[Stroke, ...] = ()
+    length: float = 0.0
+    linked: float = 0.0
+    stepover: float = 0.0
+
+
+def candidates(radius: float, rows: int) -> tuple[float, ...]:
+    """Return the stepovers that are looked at for the shortest path, mm; one alone where a drawing has very many rows."""
+    return tuple(share * radius for share in (_SHARES if rows <= MOST_COMPARED else _SHARES[:1]))
+
+
+def shortest(sheet: Sheet, wanted: Wanted, stepovers: Sequence[float], progress: Progress = NO_PROGRESS) -> Cleared:
+    """Return the shortest of the ways to clear an area, each with another stepover, that keep to the share of links if one does.
+
+    Raises:
+        Cancelled: by progress.
+    """
+    plans = [(spaced, between(spaced, stepover, wanted.radius)) for stepover in stepovers
+             if (spaced := pocket_distances(wanted.outermost, stepover, sheet.distances))]
+    each = sorted({distance for plan in plans for part in plan for distance in part})
+    found = dict(zip(each, offset_levels(sheet.primitives, each, progress.part(0, 0.5), frame=True), strict=True))
+    best, too_far = Cleared(), math.inf
+    for k, (distances, halves) in enumerate(plans):
+        progress.step(0.5 + 0.5 * k / len(plans), "Link rings")
+        levels = without_empty(tuple(found[distance] for distance in distances))
+        if not levels:
+            return best
+        rings = sum(ring.length for level in levels for ring in level.rings)
+        if best.strokes and ((best.linked <= MOST_LINKED and rings >= best.length) or stepovers[k] > too_far):
+            continue
+        filling = fill(levels, [found[distance] for distance in halves], sheet.distances, wanted.radius) if halves else NOTHING
+        strokes = link(levels, sheet.distances, wanted.manner, filling, 0.0 if halves else stepovers[k])
+        length = sum(float(lengths(stroke.rows).sum()) for stroke in strokes)
+        made = Cleared(levels, filling, strokes, length, 1 - rings / length, stepovers[k])
+        if not best.strokes or (made.linked > MOST_LINKED, length) < (best.linked > MOST_LINKED, best.length):
+            best = made
+        if made.linked > _FAR_TOO_LINKED:
+            too_far = min(too_far, stepovers[k])
+    return best
+
+
+def wall_distance(job: Job, operation: PocketOperation) -> float:
+    """Return how far A' lies inside the walls, mm: the contour tool's radius and the stock it leaves (step 120).
+
+    Without a contour operation that goes inside the walls of the same layers, as deep, the pocket goes up to the walls itself.
+    """
+    return max((job.tool(cut.tool).radius + cut.stock_to_leave for cut in _followers(job, operation)), default=0.0)
+
+
+def _followers(job: Job, operation: PocketOperation) -> list[Cut]:
+    """Return the contour operations inside the walls of the same layers, as deep."""
+    return [each.cut for each in job.operations if isinstance(each, ContourOperation) and each.cut.enabled
+            and each.side is Side.INSIDE and each.cut.layers == operation.cut.layers and each.cut.floor >= operation.cut.floor]  # fmt: skip
+
+
+def _left_to_contours(disc: float, job: Job, operation: PocketOperation) -> bool:
+    """Tell whether a region with so large a disc, mm, is cleared by a path along its walls alone, so that no pocket tool is missing."""
+    return any(cut.stock_to_leave - _ABOUT <= disc / 2 - job.tool(cut.tool).radius <= cut.stock_to_leave + job.tool(cut.tool).radius
+               for cut in _followers(job, operation))  # fmt: skip
+
+
+def stepover_of(operation: PocketOperation, tool: Tool) -> float:
+    """Return the distance between rings, mm: as asked, or the largest at which rings cover everything by themselves.
+
+    A stepover s <= R leaves no point farther than R from some ring. Overlap of the 1986 text = 2 R - s.
+
+    Raises:
+        ParameterError: the stepover is larger than the tool.
+    """
+    if operation.stepover is None:
+        return tool.radius
+    if operation.stepover > tool.diameter:
+        raise ParameterError(f"Stepover is {operation.stepover:g} mm, more than the diameter of T{tool.number} ({tool.diameter:g} mm); "
+                             "use that or less.")
+    return operation.stepover
+
+
+def pocket_distances(outermost: float, stepover: float, field: DistanceField) -> tuple[float, ...]:
+    """Return the distances of all rings from the drawing, mm: outermost + k stepover, as far as any point can be.
+
+    Args:
+        outermost: contour tool radius + stock to leave + pocket tool radius, mm.
+        stepover: mm, > 0.
+    """
+    x0, y0, x1, y1 = field.boxes[:, 0].min(), field.boxes[:, 1].min(), field.boxes[:, 2].max(), field.boxes[:, 3].max()
+    deepest = min(x1 - x0, y1 - y0) / 2
+    count = max(0, math.floor((deepest - outermost + tolerances.NOMINAL) / stepover) + 1)
+    return tuple(outermost + k * stepover for k in range(count))
+
+
+def without_empty(levels: tuple[Level, ...]) -> tuple[Level, ...]:
+    """Return the levels up to the last one that has rings."""
+    last = max((k for k, level in enumerate(levels) if level.rings), default=-1)
+    return levels[:last + 1]

@@ -1,0 +1,1 @@
+"""Rest machining: what the operations before have left."""

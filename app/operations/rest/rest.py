@@ -1,0 +1,175 @@
+"""Rest machining: what the operations before have left, cleared by a tool that reaches it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...core.errors import ParameterError
+from ...core.progress import Progress
+from ...geometry.offset.offset import Level, offset_levels
+from ...geometry.primitives import Rows
+from ...model.job import Job
+from ...model.moves import MoveKind, Purpose
+from ...model.operation import ContourOperation, Cut, RestOperation, Side
+from ...model.tool import Tool
+from ...toolpath.cleared import flat_radius
+from ...toolpath.coverage.flat import move_rows
+from ...toolpath.linking.chain_net import Corridor
+from ...toolpath.linking.chains import chains
+from ...toolpath.linking.rest_runs import Cells, Chunks, Run, all_runs, runs
+from ...toolpath.rest_left import Floats, Ground, Reach, core_cells, left_of, rim_cells, suspects
+from ...toolpath.setting import Setting, emit
+from ...toolpath.sheets import Sheet
+from .sides import sensed
+
+_DEPTH = 1e-6
+"""mm by which a move may miss the floor and still count as on it."""
+
+_FAR = 15.0
+"""Tool diameters; ways to the next run as long as this are gone rather than that the tool lifts, however slow the feed."""
+
+_RAPID = 5000.0
+"""mm/min; of a slow machine."""
+
+_STOPS = 1.0
+"""Seconds that the stops of a lift take."""
+
+_FINEST = 8
+"""Parts of a radius that rings to choose runs from are apart at least."""
+
+_CHOSEN = 2
+"""Times that runs are chosen; what these leave, for the size of cells, every ring near it clears."""
+
+
+def rest(setting: Setting, index: int, progress: Progress) -> None:
+    """Clear what is left within reach of the operation's tool.
+
+    What counts as cut are all moves so far that are as deep as the operation's floor, and the contours that operations later
+    in the list will follow as deep. What the operations before left at the floor they left at every depth, so the same paths
+    are cut at all depths. A run with metal on one side is cut in the direction asked for; only slots go either way.
+
+    Raises:
+        ParameterError: the stepover is larger than the tool, or the operation is deeper than the stock.
+        Cancelled: by progress.
+    """
+    operation = setting.job.operations[index]
+    assert isinstance(operation, RestOperation)
+    sheet, tool = setting.sheets.of(operation), setting.job.tool(operation.cut.tool)
+    if sheet is None:
+        return
+    progress.step(0.0, "Looking for what is left")
+    before = paths_before(setting, operation.cut.floor)
+    within = clears_within(operation, tool)
+    reach = Reach(sheet, tool.radius, tool.radius + operation.cut.stock_to_leave, max(within, tool.radius / 4) / 16)
+    clearing = Clearing(reach, [*before, *contours_later(setting, index, sheet)], within)
+    chunks, found = clearing.runs(progress.part(0.0, 0.5))
+    setting.note(clearing.levels)
+    if not found:
+        return
+    ground = Ground.of(before)
+    corridor = Corridor(sheet.distances, reach.closest, ground, tool.radius)
+    found = sensed(chunks, found, ground, tool.radius, operation.cut.direction)
+    strokes = chains(chunks, found, corridor, longest_way(setting.job, tool, operation.cut), progress.part(0.5, 0.8))
+    emit(setting, index, sheet, strokes, progress.part(0.8, 1.0))
+
+
+def longest_way(job: Job, tool: Tool, cut: Cut) -> float:
+    """Return the longest way at the floor, mm, that is gone rather than that the tool lifts."""
+    lift = _STOPS / 60 + 2 * (job.travel_z + cut.floor) / _RAPID + (job.retract_z + cut.floor) / tool.plunge_rate
+    return max(_FAR * tool.diameter, lift * tool.feed_rate)
+
+
+def clears_within(operation: RestOperation, tool: Tool) -> float:
+    """Return how far beside it a run is to clear, mm: half the stepover; without one the tool's radius.
+
+    Raises:
+        ParameterError: the stepover is larger than the tool.
+    """
+    if operation.stepover is None:
+        return tool.radius
+    if operation.stepover > tool.diameter:
+        raise ParameterError(f"Stepover is {operation.stepover:g} mm, more than the diameter of T{tool.number} ({tool.diameter:g} mm); "
+                             "use at most the diameter.")
+    return operation.stepover / 2
+
+
+def paths_before(setting: Setting, floor: float) -> list[tuple[Rows, float]]:
+    """Return (rows, radius of the level ground it leaves, mm) of each tool's moves so far that lie as deep as a floor, mm, or deeper."""
+    moves = setting.builder.moves()
+    deep = (np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -floor + _DEPTH) & (moves.kind != MoveKind.RAPID)
+    deep &= moves.purpose != Purpose.DRILL  # a drill's point leaves no level ground
+    rows = move_rows(moves)
+    tools = {int(number): setting.job.tool(int(number)) for number in np.unique(moves.tool[deep])}
+    return [(rows[deep & (moves.tool == number)], flat_radius(tool)) for number, tool in tools.items() if flat_radius(tool) > 0]
+
+
+def contours_later(setting: Setting, index: int, sheet: Sheet) -> list[tuple[Rows, float]]:
+    """Return (rows, radius, mm) of the wall paths that operations later in the list will follow in the same area, as deep."""
+    job = setting.job
+    own = job.operations[index].cut
+    followers = [each.cut for each in job.operations[index + 1:] if isinstance(each, ContourOperation) and each.side is Side.INSIDE
+                 and each.cut.enabled and each.cut.layers == own.layers and each.cut.floor >= own.floor]
+    return [_wall_path(cut, job.tool(cut.tool), sheet) for cut in followers if flat_radius(job.tool(cut.tool)) > 0]
+
+
+def _wall_path(cut: Cut, tool: Tool, sheet: Sheet) -> tuple[Rows, float]:
+    (level,) = offset_levels(sheet.primitives, [tool.radius + cut.stock_to_leave], frame=True)
+    rows = np.concatenate([np.zeros((0, 8)), *(ring.rows for ring in level.rings)])
+    return rows[~sheet.follows_bare(rows)], flat_radius(tool)
+
+
+@dataclass
+class Clearing:
+    """Finds runs that clear what paths have left.
+
+    Rings no farther apart than the radius leave nothing, so all of them near what is left clear it. They are offered closer
+    together, and as few and short pieces of them are chosen as do.
+
+    Attributes:
+        reach: of the cutter.
+        paths: (rows, radius, mm) of what is cut without it.
+        within: how far beside it a run is to clear, mm, at most the cutter's radius; nearer to walls it is the radius.
+        levels: the rings.
+    """
+
+    reach: Reach
+    paths: list[tuple[Rows, float]]
+    within: float
+    levels: tuple[Level, ...] = field(default=(), init=False)
+
+    def runs(self, progress: Progress) -> tuple[Chunks, list[Run]]:
+        """Return the rings in short rows, and the runs along them."""
+        reach, ground = self.reach, Ground.of(self.paths)
+        squares = suspects(ground, reach, progress)
+        chunks = self._chunks([reach.closest], progress.part(0.2, 0.3))
+        rim = rim_cells(ground, reach, squares, chunks.rows[~ground.in_air(chunks.rows, reach.radius)])
+        core = core_cells(ground, reach, squares)
+        if not len(chunks.rows) or not len(core) + len(rim):
+            return chunks, []
+        step = max(self.within / 4, reach.radius / _FINEST)
+        deepest = float(reach.sheet.distances.nearest(np.concatenate([core, rim]))[0].max())
+        count = 1 + int(max(0.0, deepest + step - reach.closest) / step)
+        chunks = self._chunks([reach.closest + k * step for k in range(count)], progress.part(0.3, 0.6))
+        return chunks, self._choose(chunks, (core, rim), progress.part(0.6, 1.0))
+
+    def _chunks(self, distances: list[float], progress: Progress) -> Chunks:
+        self.levels = offset_levels(self.reach.sheet.primitives, distances, progress, frame=True)
+        return Chunks.of(self.levels, max(self.within, self.reach.radius / 2) / 4)
+
+    def _choose(self, chunks: Chunks, left: tuple[Floats, Floats], progress: Progress) -> list[Run]:
+        """Return runs that clear cells of the core and of the rim."""
+        reach, found = self.reach, list[Run]()
+        cutting = ~Ground.of(self.paths).in_air(chunks.rows, reach.radius)
+        rim_rows = chunks.rows[cutting & (chunks.level[chunks.ring] == 0)]
+        for done in range(_CHOSEN + 1):
+            centres = np.unique(np.concatenate(left), axis=0)
+            if not len(centres) or not cutting.any():
+                break
+            progress.step(done / (_CHOSEN + 1), "Choosing runs")
+            cells = Cells.of(centres, chunks.rows[cutting], self.within - reach.corner if not done else reach.radius - reach.corner)
+            found += runs(chunks, cutting, cells, reach.radius) if done < _CHOSEN else all_runs(chunks, cutting, cells, reach)
+            ground = Ground.of([*self.paths, *((chunks.path(run.chunk, run.count), reach.radius) for run in found)])
+            left = left_of(ground, reach, left, rim_rows)
+        return found

@@ -1,0 +1,74 @@
+"""Where the bitmap lies on the part, and the only place that turns one's rows into the other's heights."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.errors import ParameterError
+
+Floats = NDArray[np.float64]
+
+POINTS = 400
+"""Rows and columns of the workstation's display."""
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """A grid of square pixels over the part; image row 0 is the TOP row, part coordinates run upwards.
+
+    Attributes:
+        rows, cols: size in pixels, 1 ... 32768.
+        pitch: size of a pixel, mm, > 0.
+        x0, y0: lower left corner of the grid (not the centre of a pixel), mm.
+    """
+
+    rows: int = POINTS
+    cols: int = POINTS
+    pitch: float = 0.25
+    x0: float = 0.0
+    y0: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not (1 <= self.rows <= 32768 and 1 <= self.cols <= 32768):
+            raise ParameterError(f"The bitmap is {self.cols} x {self.rows} px; each side must be 1 to 32768 px.")
+        if not 0 < self.pitch < 1e6:
+            raise ParameterError(f"The pitch is {self.pitch:g} mm; it must be greater than 0.")
+
+    @classmethod
+    def around(cls, extent: tuple[float, float, float, float], size: int = POINTS, margin_px: int = 2) -> Frame:
+        """Return a square frame with the extent in its middle.
+
+        Args:
+            extent: x0, y0, x1, y1 of what must be seen, mm.
+            size: rows and columns, px.
+            margin_px: free pixels on every side, 0 <= margin_px < size / 2.
+        """
+        if not 0 <= 2 * margin_px < size:
+            raise ParameterError(f"A margin of {margin_px} px leaves nothing of a bitmap of {size} px.")
+        x0, y0, x1, y1 = extent
+        longest = max(x1 - x0, y1 - y0)
+        pitch = longest / (size - 2 * margin_px) if longest > 0 else 0.25
+        half = size * pitch / 2
+        return cls(size, size, pitch, (x0 + x1) / 2 - half, (y0 + y1) / 2 - half)
+
+    def to_px(self, points: Floats) -> Floats:
+        """Return (n, 2) image coordinates (column, row from the top) of points (n, 2) in mm; px (r, c) spans [c, c+1) x [r, r+1)."""
+        return np.stack([(points[:, 0] - self.x0) / self.pitch, self.rows - (points[:, 1] - self.y0) / self.pitch], axis=1)
+
+    def to_mm(self, points: Floats) -> Floats:
+        """Return (n, 2) part coordinates in mm of image coordinates (column, row from the top); the inverse of `to_px`."""
+        return np.stack([self.x0 + points[:, 0] * self.pitch, self.y0 + (self.rows - points[:, 1]) * self.pitch], axis=1)
+
+    def centres(self) -> tuple[Floats, Floats]:
+        """Return x (cols,) of the columns' and y (rows,) of the rows' pixel centres, mm; y[0] is the top row's."""
+        x = self.x0 + np.arange(0.5, self.cols, dtype=np.float64) * self.pitch
+        y = self.y0 + np.arange(self.rows - 0.5, 0, -1, dtype=np.float64) * self.pitch
+        return x, y
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """x0, y0, x1, y1 of the whole grid, mm."""
+        return (self.x0, self.y0, self.x0 + self.cols * self.pitch, self.y0 + self.rows * self.pitch)

@@ -1,0 +1,1 @@
+"""What of a tool does not cut: shank and holder."""

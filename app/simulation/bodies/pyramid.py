@@ -1,0 +1,119 @@
+"""How deep bodies that do not cut go into metal that stays as it is, at any cell of the grid."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from concurrent.futures import wait
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import ParameterError
+from ...core.pool import pool
+from ...model.motion import Floats
+from ..cutter import Cutter
+from ..field.workpiece import Workpiece
+
+PARTS = 8
+"""In which items are looked at, side by side."""
+
+Whole = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class Led:
+    """Bodies on ways, n items.
+
+    Attributes:
+        ways: (w, 6) start and end of each way, x, y, z, mm.
+        shapes: (m, 4) rows of bodies (`shape_rows`).
+        way, shape: (n,) of each item. low: (n,) what is added to its body's lift, mm.
+    """
+
+    ways: Floats
+    shapes: Floats
+    way: Whole
+    shape: Whole
+    low: Floats
+
+    def of(self, items: NDArray[np.intp]) -> Led:
+        """Return some items."""
+        return Led(self.ways, self.shapes, self.way[items], self.shape[items], self.low[items])
+
+    def __len__(self) -> int:
+        return len(self.way)
+
+
+@dataclass(frozen=True, eq=False)
+class Pyramid:
+    """The heights of a work piece, and above them the highest of every four, up to one.
+
+    Attributes:
+        heights: of all levels, one after the other. levels: (n, 3) where each begins, its rows and columns.
+    """
+
+    metal: Workpiece
+    heights: NDArray[np.float32]
+    levels: Whole
+
+    @staticmethod
+    def of(metal: Workpiece) -> Pyramid:
+        """Return the pyramid over a work piece; where there is no metal is far below."""
+        ground = np.where(metal.heights > metal.floor, metal.heights, np.float32(-math.inf))
+        stack = [ground]
+        while len(stack) == 1 or stack[-1].size > 1:
+            rows, cols = stack[-1].shape
+            even = np.full((rows + rows % 2, cols + cols % 2), -math.inf, np.float32)
+            even[:rows, :cols] = stack[-1]
+            tall = np.maximum(even[::2], even[1::2])
+            stack.append(np.maximum(tall[:, ::2], tall[:, 1::2]))
+        begin = np.cumsum([0, *(level.size for level in stack[:-1])])
+        levels = np.column_stack([begin, np.array([level.shape for level in stack])]).astype(np.int64)
+        return Pyramid(metal, np.concatenate([level.ravel() for level in stack]), levels)
+
+    def deeper(self, led: Led, least: Floats) -> tuple[Floats, Whole]:
+        """Return how deep each item goes where it is deeper than its `least` (n,), and in which cell; else `least` and -1."""
+        return self._asked(led, least, False)
+
+    def deepest(self, led: Led, least: Floats) -> tuple[Floats, Whole]:
+        """Return what `deeper` does where an item is deeper than all before it of the same shape, and than `least` (m,), by shape.
+
+        `least` is raised to what is found. Items are looked at in the order of the list.
+        """
+        return self._asked(led, least, True)
+
+    def _asked(self, led: Led, least: Floats, shared: bool) -> tuple[Floats, Whole]:
+        from .body_kernels import ask
+
+        grid, count = self.metal.grid, len(led)
+        depth, cell = np.zeros(count), np.full(count, -1, np.int64)
+        where = (float(grid.x0), float(grid.y0), float(grid.pitch))
+        tables = (self.heights, self.levels, where, led.ways, led.shapes, led.way, led.shape, led.low)
+        if shared:
+            ask(*tables, least, True, depth, cell, 0, count)
+            return depth, cell
+        steps = np.linspace(0, count, PARTS + 1).astype(int).tolist()
+        threads = [pool().submit(ask, *tables, least, False, depth, cell, first, last)
+                   for first, last in pairwise(steps) if last > first]  # fmt: skip
+        wait(threads)
+        for thread in threads:
+            thread.result()
+        return depth, cell
+
+
+def shape_rows(bodies: Sequence[Cutter], touch: float) -> Floats:
+    """Return the rows of bodies, each slimmer all round by `touch`, mm, as long as that leaves half of its radius.
+
+    Raises:
+        ParameterError: one is rounded; bodies are discs and frustums.
+    """
+    rows = np.zeros((len(bodies), 4))
+    for k, body in enumerate(bodies):
+        if body.fillet:
+            raise ParameterError(f"A body with a corner of {body.fillet:g} mm is none; bodies that do not cut are discs and frustums.")
+        slim = body.shrunk(min(touch, body.radius / 2)) or body
+        rows[k] = slim.radius, slim.flat, 0.0 if math.isinf(slim.slope) else slim.slope, slim.lift
+    return rows

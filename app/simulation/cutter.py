@@ -1,0 +1,140 @@
+"""A cutter as numbers: a flat disc, rounded by a fillet, that goes over into a cone; every tool kind is a case of it.
+
+The profile is height(radius) over the tip. It is convex and does not fall, so the cutter (all that lies above it, within
+its radius) is convex, and the height of a cell over a straight move has one minimum. A concave form would be several
+convex pieces, each swept for itself: the lowest of their heights.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..core.errors import ParameterError
+from ..model.motion import Floats
+from ..model.tool import Tool, ToolKind
+
+DRILL_ANGLE = math.radians(118.0)
+"""Full angle of a drill's point where the tool does not tell it (the trade's usual grind)."""
+
+LEAST_ANGLE = math.radians(1.0)
+"""A cone more pointed than this is a mistake."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cutter:
+    """A convex cutter, tip at radius 0.
+
+    Attributes:
+        radius: the largest, mm, > 0.
+        flat: radius of the flat disc at the tip, mm, in [0, radius].
+        fillet: radius of the rounding between the disc and the cone, or the wall, mm, >= 0.
+        slope: rise of the cone per mm of radius, > 0; infinite where the fillet ends in a vertical wall or there is no cone.
+        centre_cutting: whether it may go straight down into metal.
+        lift: how far the tip is above the point that is led along the path, mm.
+    """
+
+    radius: float
+    flat: float = 0.0
+    fillet: float = 0.0
+    slope: float = math.inf
+    centre_cutting: bool = True
+    lift: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not (0 < self.radius < 1e6 and 0 <= self.flat <= self.radius and 0 <= self.fillet <= self.radius and self.slope > 0):
+            raise ParameterError(f"A cutter of radius {self.radius:g} mm with a flat of {self.flat:g} mm, a corner of {self.fillet:g} mm "
+                                 f"and a slope of {self.slope:g} is no shape; the flat and the corner must lie within the radius.")
+        if self.rim_of_fillet > self.radius * (1 + 1e-12):
+            raise ParameterError(f"A corner of {self.fillet:g} mm round a flat of {self.flat:g} mm reaches over the cutter's "
+                                 f"radius, {self.radius:g} mm; use a smaller corner.")
+        if math.isinf(self.slope) and self.rim_of_fillet < self.radius * (1 - 1e-12):
+            raise ParameterError(f"A cutter of radius {self.radius:g} mm has no shape between its corner, at "
+                                 f"{self.rim_of_fillet:g} mm, and its rim; give its angle.")
+
+    @property
+    def fillet_span(self) -> float:
+        """How much radius the fillet takes, mm: all of its own where a wall follows, less where a cone does."""
+        return self.fillet if math.isinf(self.slope) else self.fillet * self.slope / math.hypot(1.0, self.slope)
+
+    @property
+    def rim_of_fillet(self) -> float:
+        """Radius at which the fillet ends, mm."""
+        return self.flat + self.fillet_span
+
+    def radius_at(self, height: float) -> float:
+        """Return how wide the cutter is at most up to a height over the tip, mm; 0 below the tip."""
+        if height < 0:
+            return 0.0
+        top = self.fillet - math.sqrt(max(self.fillet**2 - self.fillet_span**2, 0.0))
+        if height < top:
+            return self.flat + math.sqrt(max(self.fillet**2 - (self.fillet - height) ** 2, 0.0))
+        return self.radius if math.isinf(self.slope) else min(self.radius, self.rim_of_fillet + (height - top) / self.slope)
+
+    def grown(self, by: float) -> Cutter:
+        """Return the cutter that cuts, at a point, at least as deep as this one does within `by` mm of it; by >= 0."""
+        return replace(self, radius=self.radius + by, flat=self.flat + by)
+
+    def shrunk(self, by: float) -> Cutter | None:
+        """Return a cutter that cuts, at a point, nowhere deeper than this one does within `by` mm of it; None where nothing is left.
+
+        The flat goes first, sideways. A fillet that ends in a wall shrinks towards its middle, which the profile moved
+        sideways lies below; a cone or a fillet before one, nowhere steeper than the cone, moves up by its rise.
+        """
+        if by >= self.radius:
+            return None
+        rest = max(by - self.flat, 0.0)
+        flat, radius = max(self.flat - by, 0.0), self.radius - by
+        if not math.isinf(self.slope):
+            whole = self.rim_of_fillet - self.flat + flat <= radius
+            if not whole:
+                return Cutter(radius, lift=self.lift + by * self.slope, slope=self.slope)
+            return replace(self, radius=radius, flat=flat, lift=self.lift + rest * self.slope)
+        return replace(self, radius=radius, flat=flat, fillet=min(self.fillet - rest, radius - flat), lift=self.lift + rest)
+
+    def heights(self, radii: Floats) -> Floats:
+        """Return the profile over the tip, mm; infinite beyond the radius.
+
+        Args:
+            radii: distances from the axis, mm, >= 0.
+        """
+        beyond = np.maximum(np.asarray(radii) - self.flat, 0.0)
+        rounded = np.minimum(beyond, self.fillet_span)
+        heights = self.fillet - np.sqrt(np.maximum(self.fillet**2 - rounded**2, 0.0))
+        if not math.isinf(self.slope):
+            heights = heights + self.slope * (beyond - rounded)
+        return np.where(np.asarray(radii) <= self.radius, heights, math.inf)
+
+
+def cutter_of(tool: Tool) -> Cutter:
+    """Return the cutter that a tool is.
+
+    A drill whose angle is not known has 118 degrees. Drills, balls, V tools and tapered mills cut at their centre; flat and
+    bull-nose mills with two or three flutes are taken to, with more they are not.
+
+    Raises:
+        ParameterError: the tool lacks what its shape needs, or its numbers make no shape.
+    """
+    centre = tool.kind not in (ToolKind.FLAT, ToolKind.BULL) or tool.flutes <= 3
+    radius = tool.radius
+    if tool.kind is ToolKind.BALL:
+        return Cutter(radius, 0.0, radius, math.inf, centre)
+    if tool.kind is ToolKind.FLAT:
+        return Cutter(radius, radius, 0.0, math.inf, centre)
+    if tool.kind is ToolKind.BULL:
+        return Cutter(radius, radius - tool.corner_radius, tool.corner_radius, math.inf, centre)
+    slope = _cone_slope(tool)
+    if tool.kind is ToolKind.TAPER:
+        return Cutter(radius, 0.0, tool.tip_diameter / 2, slope, centre)
+    return Cutter(radius, tool.tip_diameter / 2, 0.0, slope, centre)
+
+
+def _cone_slope(tool: Tool) -> float:
+    """Return how a tool's cone rises per mm of radius."""
+    angle = tool.tip_angle or (DRILL_ANGLE if tool.kind is ToolKind.DRILL else 0.0)
+    if not LEAST_ANGLE <= angle < math.pi - LEAST_ANGLE:
+        raise ParameterError(f"T{tool.number}: the full angle of its cone is {math.degrees(angle):g} degrees; a {tool.kind.value} tool "
+                             "needs one from 1 to 179 degrees to be cut with.")
+    return 1.0 / math.tan(angle / 2)

@@ -1,0 +1,1 @@
+"""The field of heights that is cut, and what it is compared with."""

@@ -1,0 +1,192 @@
+"""The field of heights that is cut: a grid of square cells, and the metal's top over each of them."""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import ParameterError
+from ...model.stock_box import StockBox
+
+Heights = NDArray[np.float32]
+
+MOST_CELLS = 30_000
+"""Along a side: where an index of a cell still fits into 32 bits."""
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """Square cells.
+
+    Attributes:
+        x0, y0: lower left corner of the grid (not the centre of a cell), mm.
+        pitch: side of a cell, mm, > 0.
+        rows, cols: cells along Y and X; row 0 is the lowest Y.
+    """
+
+    x0: float
+    y0: float
+    pitch: float
+    rows: int
+    cols: int
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.x0) and math.isfinite(self.y0) and 0 < self.pitch < math.inf):
+            raise ParameterError(f"A grid at {self.x0:g}, {self.y0:g} with cells of {self.pitch:g} mm is none; cells must be wider than 0.")
+        if not (1 <= self.rows <= MOST_CELLS and 1 <= self.cols <= MOST_CELLS):
+            raise ParameterError(f"A grid of {self.cols} x {self.rows} cells is out of range; use 1 to {MOST_CELLS} along each side.")
+
+    @staticmethod
+    def over(box: tuple[float, float, float, float], cells: int) -> Grid:
+        """Return the grid over a rectangle with `cells` along its longer side; along the shorter one as many as cover it.
+
+        Args:
+            box: x0, y0, x1, y1, mm.
+            cells: >= 1.
+
+        Raises:
+            ParameterError: the rectangle is empty, or there are too many cells.
+        """
+        x0, y0, x1, y1 = box
+        if not (x1 > x0 and y1 > y0):
+            raise ParameterError(f"The rectangle from {x0:g}, {y0:g} to {x1:g}, {y1:g} mm is empty; "
+                                 "its second corner must lie right of and above the first.")
+        if not 1 <= cells <= MOST_CELLS:
+            raise ParameterError(f"A grid of {cells} cells along a side is out of range; use 1 to {MOST_CELLS}.")
+        pitch = max(x1 - x0, y1 - y0) / cells
+        cols, rows = (max(1, math.ceil(side / pitch - 1e-6)) for side in (x1 - x0, y1 - y0))
+        return Grid(x0, y0, pitch, rows, cols)
+
+    @property
+    def box(self) -> tuple[float, float, float, float]:
+        """x0, y0, x1, y1, mm."""
+        return self.x0, self.y0, self.x0 + self.cols * self.pitch, self.y0 + self.rows * self.pitch
+
+    def xs(self) -> NDArray[np.float64]:
+        """Return (cols,) X of the cells' centres, mm."""
+        return np.asarray(self.x0 + (np.arange(self.cols) + 0.5) * self.pitch)
+
+    def ys(self) -> NDArray[np.float64]:
+        """Return (rows,) Y of the cells' centres, mm."""
+        return np.asarray(self.y0 + (np.arange(self.rows) + 0.5) * self.pitch)
+
+    def place(self, cell: int) -> tuple[float, float]:
+        """Return the centre of a cell, row * cols + column, mm."""
+        row, col = divmod(cell, self.cols)
+        return self.x0 + (col + 0.5) * self.pitch, self.y0 + (row + 0.5) * self.pitch
+
+
+@dataclass(frozen=True, eq=False)
+class Workpiece:
+    """The metal over a grid.
+
+    Attributes:
+        grid: where.
+        heights: (rows, cols) top of the metal at the cells' centres, mm; `floor` where there is none.
+        floor: underside, mm: nothing is lower.
+        hidden: cells that a vertical line through their centre meets the solid in more than once; only its top is kept.
+    """
+
+    grid: Grid
+    heights: Heights
+    floor: float
+    hidden: int = 0
+
+    def __post_init__(self) -> None:
+        if self.heights.shape != (self.grid.rows, self.grid.cols) or self.heights.dtype != np.float32:
+            raise ValueError("heights do not fit the grid")
+        self.heights.setflags(write=False)
+
+
+class Stock(Protocol):
+    """Metal that can be laid over any grid: all of it, or a window at a finer pitch."""
+
+    @property
+    def box(self) -> tuple[float, float, float, float]:
+        """x0, y0, x1, y1 of all of it, mm."""
+
+    def over(self, grid: Grid) -> Workpiece:
+        """Return what of it lies over a grid."""
+
+
+@dataclass(frozen=True, slots=True)
+class BoxStock:
+    """A box of metal."""
+
+    solid: StockBox
+
+    def __post_init__(self) -> None:
+        if not all(size > 0 for size in self.solid.size):
+            raise ParameterError(f"A stock of {' x '.join(f'{size:g}' for size in self.solid.size)} mm is none; "
+                                 "each side must be longer than 0.")
+
+    @property
+    def box(self) -> tuple[float, float, float, float]:
+        """x0, y0, x1, y1, mm."""
+        return self.solid.x0, self.solid.y0, self.solid.x1, self.solid.y1
+
+    def over(self, grid: Grid) -> Workpiece:
+        """Return the box over a grid; cells whose centre is beside it have no metal."""
+        ensure_memory(grid, 4)
+        heights = np.full((grid.rows, grid.cols), self.solid.z1, np.float32)
+        xs, ys = grid.xs(), grid.ys()
+        slack = 1e-9 * grid.pitch
+        heights[:, (xs < self.solid.x0 - slack) | (xs > self.solid.x1 + slack)] = self.solid.z0
+        heights[(ys < self.solid.y0 - slack) | (ys > self.solid.y1 + slack)] = self.solid.z0
+        return Workpiece(grid, heights, self.solid.z0)
+
+
+@dataclass(frozen=True, eq=False)
+class HeightStock:
+    """What an earlier set-up has left. Over another grid each cell takes the height of the cell that its centre lies in."""
+
+    workpiece: Workpiece
+
+    @property
+    def box(self) -> tuple[float, float, float, float]:
+        """x0, y0, x1, y1, mm."""
+        return self.workpiece.grid.box
+
+    def over(self, grid: Grid) -> Workpiece:
+        """Return the metal over a grid; there is none beside the old one."""
+        old = self.workpiece.grid
+        if grid == old:
+            return self.workpiece
+        ensure_memory(grid, 4)
+        cols = np.floor((grid.xs() - old.x0) / old.pitch).astype(np.int64)
+        rows = np.floor((grid.ys() - old.y0) / old.pitch).astype(np.int64)
+        heights = self.workpiece.heights[np.clip(rows, 0, old.rows - 1)[:, None], np.clip(cols, 0, old.cols - 1)]
+        heights[(rows < 0) | (rows >= old.rows)] = self.workpiece.floor
+        heights[:, (cols < 0) | (cols >= old.cols)] = self.workpiece.floor
+        return Workpiece(grid, heights, self.workpiece.floor)
+
+
+def ensure_memory(grid: Grid, bytes_a_cell: int) -> None:
+    """Tell before it is taken whether a field would not fit into the memory that is free.
+
+    Raises:
+        ParameterError: it would not.
+    """
+    needed, free = grid.rows * grid.cols * bytes_a_cell, free_memory()
+    if free is not None and needed > free:
+        raise ParameterError(f"A grid of {grid.cols} x {grid.rows} cells takes {needed / 1e9:.1f} GB and {free / 1e9:.1f} GB are free; "
+                             "use fewer cells.")
+
+
+def free_memory() -> int | None:
+    """Return the bytes of memory that the system can give; None where it does not tell."""
+    try:
+        with open("/proc/meminfo", encoding="ascii") as lines:
+            kilobytes = next(line.split()[1] for line in lines if line.startswith("MemAvailable"))
+        return int(kilobytes) * 1024
+    except (OSError, StopIteration, ValueError):
+        pass
+    try:
+        return os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (AttributeError, OSError, ValueError):
+        return None

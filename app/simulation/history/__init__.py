@@ -1,0 +1,1 @@
+"""Every state of a work piece on its way."""

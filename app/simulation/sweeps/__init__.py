@@ -1,0 +1,1 @@
+"""What motions sweep, and how a field is cut by it."""

@@ -1,0 +1,98 @@
+"""What tools can reach of a solid without touching it: grey dilation by a tool's profile, and erosion by it.
+
+The tool's tip may be where no part of the solid is in the tool: no lower than the greatest of part minus profile round it (dilation). The
+lowest that it cuts at a place is the least of tip plus profile round it (erosion). On cells both are known to half a cell's
+diagonal, so there are two answers: what is surely reached, by a cutter that keeps as much more away, and what may be, by
+one that keeps as much less.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.progress import NO_PROGRESS, Progress
+from ..cutter import Cutter
+from ..field.solid import SolidStock
+from ..field.target import MOST_REACH, cutter_profile, dilated, solid_target
+from ..field.workpiece import Grid, Heights
+
+CELLS = 1024
+"""Along the longer side of the stock at most."""
+
+PIN = np.zeros((1, 1), np.float32)
+"""Profile of a cutter that is narrower than a cell."""
+
+
+@dataclass(frozen=True, eq=False)
+class Reach:
+    """The lowest heights that some tool gets to, (rows, cols) each, mm.
+
+    Attributes:
+        grid: the stock, and the widest tool's radius round it.
+        sure: some tool gets as low as that. possible: none gets lower.
+    """
+
+    grid: Grid
+    sure: Heights
+    possible: Heights
+
+    def over(self, grid: Grid) -> tuple[Heights, Heights]:
+        """Return sure and possible at the cells of another grid."""
+        cols = np.clip(((grid.xs() - self.grid.x0) / self.grid.pitch).astype(np.int64), 0, self.grid.cols - 1)
+        rows = np.clip(((grid.ys() - self.grid.y0) / self.grid.pitch).astype(np.int64), 0, self.grid.rows - 1)
+        place = np.ix_(rows, cols)
+        return self.sure[place], self.possible[place]
+
+
+def reach_of(solid: SolidStock, leave: float, box: tuple[float, float, float, float], cutters: Iterable[Cutter],
+             progress: Progress = NO_PROGRESS) -> Reach:  # fmt: skip
+    """Return what some cutters reach of a solid with stock to leave on it.
+
+    Args:
+        box: x0, y0, x1, y1 of the stock, mm.
+        cutters: at least one.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    cutters = tuple(cutters)
+    widest = max(cutter.radius for cutter in cutters)
+    x0, y0, x1, y1 = box
+    pitch = max((x1 - x0) / CELLS, (y1 - y0) / CELLS, widest / MOST_REACH)
+    more = widest + 2 * pitch
+    rows, cols = (math.ceil((side + 2 * more) / pitch) for side in (y1 - y0, x1 - x0))
+    grid = Grid(x0 - more, y0 - more, pitch, rows, cols)
+    wanted, half = solid_target(solid, grid, leave, progress).wanted, pitch / math.sqrt(2.0)
+    sure = [_lowest(wanted, cutter.grown(half), cutter, pitch, progress) for cutter in cutters]
+    possible = [_lowest(wanted, cutter.shrunk(half), cutter, pitch, progress) for cutter in cutters]
+    return Reach(grid, np.minimum.reduce(sure), np.minimum.reduce(possible))
+
+
+def _lowest(wanted: Heights, led: Cutter | None, cuts: Cutter, pitch: float, progress: Progress) -> Heights:
+    """Return how low a cutter gets where another one is led clear of the part."""
+    form = cutter_profile(led, pitch) if led is not None else PIN
+    tip = dilated(wanted, form, progress)
+    return np.asarray(-dilated(-tip, cutter_profile(cuts, pitch), progress))
+
+
+def reachable(left: NDArray[np.bool_], sure: NDArray[np.bool_], possible: NDArray[np.bool_], cells: int) -> NDArray[np.bool_]:
+    """Return which of the cells that are left count as within reach: sure ones, and possible ones in places that are wide enough.
+
+    Beside inner corners possible reach is too wide by a part of a cell; what is no wider than so many cells is no finding. What may be
+    reached and hangs together with what counts is the rim of that place: on slopes heights differ within a cell by more than a rim does.
+    """
+    import cv2
+
+    maybe = (left & possible).astype(np.uint8)
+    opened = cv2.morphologyEx(maybe, cv2.MORPH_OPEN, np.ones((cells, cells), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0)
+    sure_ones = (left & sure) | opened.astype(bool)
+    count, labels = cv2.connectedComponents((maybe.astype(bool) | sure_ones).astype(np.uint8), connectivity=8)
+    found = np.zeros(count, np.bool_)
+    found[labels[sure_ones]] = True
+    found[0] = False
+    return np.asarray(found[labels])

@@ -1,0 +1,301 @@
+"""A course over a grid, made ready to be cut: what each motion does and with which cutter, its pieces, and the tiles that these meet."""
+
+from __future__ import annotations
+
+import math
+import os
+import threading
+from collections import deque
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import wait
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import Cancelled
+from ...core.pool import pool
+from ...core.progress import NO_PROGRESS, Progress
+from ...model.motion import Floats, MotionKind
+from ...model.motion_path import anchored
+from ..cutter import Cutter
+from ..field.workpiece import Grid, Heights
+from .course import Course, Ints, Rapids, TrimOptions
+from .outdone import outdone
+from .pieces import Splitter, Window, helix_chord
+
+BATCH = 2_000_000
+"""Pieces that are made at a time: about 250 MB."""
+
+CHUNKS = 4
+"""Parts in which pieces are sorted."""
+
+WORKERS = max(2, os.cpu_count() or 2)
+
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """Heights that are being cut, and the motion that cut each cell last.
+
+    Attributes:
+        heights: (rows, cols) mm, overwritten.
+        owner: (rows, cols) row of the motion, -1 = none, overwritten; (0, 0): it is not noted.
+    """
+
+    heights: Heights
+    owner: Ints
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """Between which heights there is something to cut.
+
+    Attributes:
+        top: no metal is higher, mm. floor: none is lower.
+        touch: depth from which a motion that is asked is told of, mm.
+    """
+
+    top: float
+    floor: float
+    touch: float
+
+
+@dataclass(frozen=True, eq=False)
+class Sorting:
+    """Pieces by the tiles that they meet.
+
+    Attributes:
+        bounds: (tiles + 1,) where each tile's pieces begin in the list. refs: the list.
+        turned: (tiles,) whether a tile's lines run along Y.
+        spans: (n, 2) from where to where along each straight piece cells are evaluated, mm.
+    """
+
+    bounds: NDArray[np.int64]
+    refs: Ints
+    turned: Mask
+    spans: Floats
+
+
+class Sweeps:
+    """A course over a grid.
+
+    Attributes:
+        grid: the cells. course: what is cut along; `motions` are its, anchored.
+        does: (n,) what each motion does: nothing, it cuts, it is asked. shapes, cutter: rows of the cutters, and each motion's.
+        trace: each motion is evaluated wherever the one before it in its chain has not swept as deep; else those that another one
+            outdoes do nothing.
+        batches: first motions and ends of the parts that are cut at a time.
+    """
+
+    def __init__(self, grid: Grid, course: Course, cutters: Mapping[int, Cutter], options: TrimOptions) -> None:
+        """Make a course ready.
+
+        Args:
+            grid: the cells.
+            course: motions and their tools.
+            cutters: by T number.
+            options: what rapids do, and what is to be noted.
+
+        Raises:
+            ParameterError: a tool that cuts is not among the cutters.
+        """
+        self.grid, self.course, self.trace = grid, course, options.trace
+        self.motions = anchored(course.motions) if any(course.motions.known_from) else course.motions
+        self.does = _deeds(course, options.rapids)
+        self.shapes, self.cutter = _shape_rows(course, cutters, self.does, options.touch)
+        if options.heights_alone:
+            self.does[outdone(self.motions, self.cutter, self.does)] = 0
+        radius = np.where(self.does > 0, self.shapes[self.cutter, 0], -math.inf)
+        self.splitter = Splitter(self.motions, window=Window(grid.box, radius), helix_chord=helix_chord(grid.pitch))
+        self.batches = tuple(_batches(self.splitter.counts))
+
+    def part(self, first: int, last: int, behind: int = 0) -> Part:
+        """Return the motions first … last - 1; `behind` motions before them tell how the chain goes on, and are not cut."""
+        return Part(self, first, last, behind)
+
+    @cached_property
+    def tiles(self) -> list[tuple[int, int, int, int]]:
+        """First row, first column, rows and columns of each tile."""
+        from .sweep_kernels import TILE
+
+        grid = self.grid
+        return [(row, col, min(TILE, grid.rows - row), min(TILE, grid.cols - col))
+                for row in range(0, grid.rows, TILE) for col in range(0, grid.cols, TILE)]
+
+
+class Part:
+    """Some motions of a course that follow one another, in pieces."""
+
+    def __init__(self, sweeps: Sweeps, first: int, last: int, behind: int) -> None:
+        pieces = sweeps.splitter.pieces(first - behind, last)
+        for array in (pieces.start, pieces.end):
+            array.setflags(write=False)
+        self._sweeps, self.motion = sweeps, pieces.motion
+        self._first = int(np.searchsorted(pieces.motion, first))
+        self.does = sweeps.does[pieces.motion]
+        self._pieces, self._cutter = pieces, sweeps.cutter[pieces.motion]
+        self._where = (float(sweeps.grid.x0), float(sweeps.grid.y0), float(sweeps.grid.pitch))
+
+    def sorting(self, top: float, stop: int | None = None) -> Sorting:
+        """Return the pieces by tile.
+
+        Args:
+            top: no metal is higher, mm.
+            stop: motions from this one on do nothing; how tiles' lines run does not depend on it, so that what is cut up to a motion
+                is, bit for bit, what is cut on the way to a later one.
+        """
+        sorting = self._sorted(self.does, top)
+        if stop is None or not len(self.motion) or stop > self.motion[-1]:
+            return sorting
+        return replace(self._sorted(np.where(self.motion < stop, self.does, np.uint8(0)), top), turned=sorting.turned)
+
+    def without_asking(self) -> Part:
+        """Make motions that are only asked do nothing; return the part itself."""
+        from .tile_kernels import ASKS
+
+        self.does = np.where(self.does == ASKS, np.uint8(0), self.does)
+        return self
+
+    def cut(self, before: Heights, field: Field, sorting: Sorting, limits: Limits, progress: Progress = NO_PROGRESS) -> Floats:
+        """Cut all tiles, or, where `before` is the field's own heights, those that some piece meets.
+
+        Args:
+            before: (rows, cols) the heights to begin with.
+            field: what is left is written there.
+            sorting: of this part. limits: of the metal.
+            progress: told as tiles are done.
+
+        Returns:
+            (refs, 5) what each piece does in its tile: volume in mm of height, engaged cells, greatest depth, its cell, and the height
+            that is reached there; empty where nothing is asked nor traced.
+
+        Raises:
+            Cancelled: the job was asked to stop.
+        """
+        from .tile_kernels import ASKS, cut_tile
+
+        tables, boxes, bounds = self._tables(self.does), self._sweeps.tiles, sorting.bounds
+        told = np.zeros((len(sorting.refs) if field.owner.size or bool(np.any(self.does == ASKS)) else 0, 5))
+        old = before.view()
+        old.setflags(write=False)
+
+        def cut(tile: int) -> None:
+            mine = slice(bounds[tile], bounds[tile + 1])
+            cut_tile(*tables, sorting.spans, self.motion, sorting.refs[mine], self._where, boxes[tile], bool(sorting.turned[tile]),
+                     old, field.heights, field.owner, told[mine], (limits.floor, limits.touch))  # fmt: skip
+
+        sizes = np.diff(bounds)
+        order = np.argsort(-sizes, kind="stable")
+        in_parallel(cut, (order[sizes[order] > 0] if before is field.heights else order).tolist(), progress)
+        return told
+
+    def _tables(self, does: NDArray[np.uint8]) -> tuple[NDArray[np.generic], ...]:
+        pieces = self._pieces
+        return pieces.start, pieces.end, does, self._cutter, pieces.arc, self._sweeps.shapes, pieces.arcs
+
+    def _sorted(self, does: NDArray[np.uint8], top: float) -> Sorting:
+        from .tile_kernels import count, fill, survey
+
+        sweeps, tiles, pieces = self._sweeps, len(self._sweeps.tiles), len(self.motion)
+        steps = np.linspace(self._first, pieces, CHUNKS + 1).astype(int).tolist()
+        counts, votes = np.zeros((CHUNKS, tiles), np.int64), np.zeros((CHUNKS, tiles), np.int64)
+        common = (*self._tables(does), self._where, (sweeps.grid.rows, sweeps.grid.cols))
+        spans, met = np.empty((pieces, 2)), np.empty((pieces, 5), np.int16)
+
+        def look(k: int) -> None:
+            survey(*common, steps[k], steps[k + 1], not sweeps.trace, top, spans, met)
+            count(*common, steps[k], steps[k + 1], met, counts[k], votes[k])
+
+        in_parallel(look, list(range(CHUNKS)))
+        bounds = np.concatenate([[0], np.cumsum(counts.sum(axis=0))])
+        places, refs = bounds[:-1] + np.cumsum(counts, axis=0) - counts, np.empty(bounds[-1], np.int32)
+        in_parallel(lambda k: fill(*common, steps[k], steps[k + 1], met, places[k], refs), list(range(CHUNKS)))
+        return Sorting(bounds, refs, votes.sum(axis=0) > 0, spans)
+
+
+def in_parallel(work: Callable[[int], None], parts: list[int], progress: Progress = NO_PROGRESS) -> None:
+    """Do the parts of a work on the pool, in the order of the list as threads come free.
+
+    Raises:
+        Cancelled: the job was asked to stop; what had begun is finished first.
+    """
+    waiting, done, stop = deque(parts), deque[int](), threading.Event()
+
+    def worker() -> None:
+        while waiting and not stop.is_set():
+            try:
+                part = waiting.popleft()
+            except IndexError:
+                return
+            work(part)
+            done.append(part)
+
+    threads = [pool().submit(worker) for _ in range(min(WORKERS, len(parts)))]
+    try:
+        while wait(threads, timeout=0.05).not_done:
+            progress.step(len(done) / len(parts), "Cutting")
+    except Cancelled:
+        stop.set()
+        wait(threads)
+        raise
+    for thread in threads:
+        thread.result()
+
+
+def _batches(counts: NDArray[np.int64]) -> Iterator[tuple[int, int]]:
+    """Yield parts of a course whose pieces fit into memory: first motion, and the first one of the next part; at least one part."""
+    ends, first, total = np.cumsum(counts), 0, len(counts)
+    while True:
+        done = int(ends[first - 1]) if first else 0
+        last = max(first + 1, int(np.searchsorted(ends, done + BATCH, "right"))) if total else 0
+        yield first, last
+        if last >= total:
+            return
+        first = last
+
+
+def _deeds(course: Course, rapids: Rapids) -> NDArray[np.uint8]:
+    """Return what each motion does: 0 nothing, 1 it cuts, 2 it is asked."""
+    rapid = {Rapids.IGNORED: 0, Rapids.ASKED: 2, Rapids.CUT: 1}[rapids]
+    does = np.where(course.motions.kind == MotionKind.RAPID, rapid, 1).astype(np.uint8)
+    does[list(course.left_out)] = 0
+    return does
+
+
+def _shape_rows(course: Course, cutters: Mapping[int, Cutter], does: NDArray[np.uint8], touch: float) -> tuple[Floats, Ints]:
+    """Return the rows of the cutters, each followed by the slimmer one of its rapids, and each motion's row.
+
+    A motion without a cutter does nothing if it is a rapid.
+    """
+    numbers = np.flatnonzero(np.bincount(course.tool))
+    index = np.searchsorted(numbers, np.arange(numbers[-1] + 1 if len(numbers) else 0))[course.tool]
+    rows = np.zeros((2 * max(len(numbers), 1), 7))
+    for k, number in enumerate(numbers.tolist()):
+        cutter = cutters.get(number)
+        if cutter is not None:
+            rows[2 * k] = shape_row(cutter)
+            rows[2 * k + 1] = shape_row(cutter.shrunk(min(touch, cutter.radius / 2)) or cutter)
+            continue
+        mine = index == k
+        cuts = np.flatnonzero(mine & (does == 1) & (course.motions.kind != MotionKind.RAPID))
+        if len(cuts):
+            raise course.strange_tool(int(cuts[0]))
+        does[mine] = 0
+    return rows, (2 * index + (does == 2)).astype(np.int32)
+
+
+def shape_row(cutter: Cutter) -> Floats:
+    """Return a cutter's row for the kernels."""
+    from .sweep_kernels import BALL, BULL, CONE, FLAT_END, TAPER
+
+    cone = 0.0 if math.isinf(cutter.slope) else cutter.slope
+    if cone:
+        kind = TAPER if cutter.fillet else CONE
+    elif cutter.fillet:
+        kind = BULL if cutter.flat else BALL
+    else:
+        kind = FLAT_END
+    return np.array([cutter.radius, cutter.flat, cutter.fillet, cutter.fillet_span, cone, cutter.lift, kind])

@@ -1,0 +1,90 @@
+"""How low a cutter comes over a mesh without touching more than its surface, at any places."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import ParameterError
+from ...core.pool import pool
+from ...core.progress import NO_PROGRESS, Progress
+from ...model.tool import Tool, ToolKind
+from ..patches.facets import NONE, Facets
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+_STRIP = 2_000
+"""Places that one thread drops at before it asks whether to go on."""
+FINE = 1e-7
+"""Heights are as near to those over the true surfaces as this, mm."""
+
+
+@dataclass(frozen=True, eq=False)
+class Dropped:
+    """A cutter over m places.
+
+    Attributes:
+        height: (m,) of its tip, mm; -inf where nothing is in its reach.
+        facet: (m,) number of the one that it touches, NONE where there is none.
+    """
+
+    height: Floats
+    facet: Ints
+
+
+def shape_of(tool: Tool) -> Floats:
+    """Return a cutter's lower side (5,), see `drop_kernels`.
+
+    Raises:
+        ParameterError: it has a point of no angle.
+    """
+    radius, tip = tool.radius, tool.tip_diameter / 2
+    half = tool.tip_angle / 2
+    if tool.kind in (ToolKind.V, ToolKind.DRILL, ToolKind.TAPER) and not half > 0:
+        raise ParameterError(f"T{tool.number}: a point of 0 degrees; give its angle.")
+    cone = 1 / math.tan(half) if half > 0 else 0.0
+    match tool.kind:
+        case ToolKind.BALL:
+            shape = (0.0, radius, 0.0, radius, radius)
+        case ToolKind.BULL:
+            shape = (radius - tool.corner_radius, tool.corner_radius, 0.0, radius, radius)
+        case ToolKind.V | ToolKind.DRILL:
+            shape = (tip, 0.0, cone, radius, tip)
+        case ToolKind.TAPER:
+            shape = (0.0, tip, cone, radius, tip * math.cos(half))
+        case _:
+            shape = (radius, 0.0, 0.0, radius, radius)
+    return np.array(shape)
+
+
+def drop(facets: Facets, tool: Tool, places: Floats, fine: float = FINE, progress: Progress = NO_PROGRESS) -> Dropped:
+    """Return how low a cutter comes at places (m, 2), mm: over faces, edges and corners, each exactly.
+
+    Args:
+        fine: how near to the true surfaces heights are, mm; facets that stand for a patch are refined as far as that takes.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    from . import drop_kernels as kernels
+    from .desk_kernels import ANY
+
+    tree, shape, places = facets.tree, shape_of(tool), np.ascontiguousarray(places, np.float64)
+    height, touched = np.empty(len(places)), np.empty(len(places), np.int64)
+    parts = [
+        pool().submit(kernels.drop, tree.held, shape, places, first, min(first + _STRIP, len(places)), ANY, fine, height, touched)
+        for first in range(0, len(places), _STRIP)
+    ]
+    try:
+        for n, part in enumerate(parts):
+            part.result()
+            progress.step((n + 1) / len(parts), "Dropping the cutter")
+    except BaseException:
+        for part in parts:
+            part.cancel()
+        raise
+    return Dropped(height, np.where(touched >= 0, tree.order[np.maximum(touched, 0)], NONE))

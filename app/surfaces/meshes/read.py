@@ -1,0 +1,102 @@
+"""Files of triangles: STL by a reader of our own, which tells a file that was cut off; OBJ and PLY by a library."""
+
+from __future__ import annotations
+
+import io
+import logging
+import re
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import InputError
+
+Floats = NDArray[np.float64]
+
+HEADER, TRIANGLE = 84, 50
+"""Bytes of a binary STL file: its header with the number of triangles, and each triangle."""
+
+_SANE = 1e12
+"""No corner of a part lies so far out; one that does is no number that anybody has written."""
+
+_RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
+
+
+def read_mesh(name: str, data: bytes) -> Floats:
+    """Return the triangles (n, 3, 3) of a file, n > 0, in its own units.
+
+    Args:
+        name: of the file, for errors; its suffix tells the format: .stl, .obj or .ply.
+        data: the file.
+
+    Raises:
+        InputError: it cannot be read, was cut off, or holds no triangle.
+    """
+    suffix = name.lower().rpartition(".")[2]
+    triangles = stl_triangles(name, data) if suffix == "stl" else _by_library(name, data, suffix)
+    if not len(triangles):
+        raise InputError(f"{name}: there is no triangle in this {suffix.upper()} file; export it again.")
+    if not (np.abs(triangles) < _SANE).all():
+        raise InputError(f"{name}: a corner of a triangle is no number, or far out of range; export it again.")
+    return triangles
+
+
+def stl_triangles(name: str, data: bytes) -> Floats:
+    """Return the triangles (n, 3, 3) of an STL file, text or binary.
+
+    Raises:
+        InputError: it is none, or was cut off.
+    """
+    count = int.from_bytes(data[HEADER - 4 : HEADER], "little")
+    whole = HEADER + TRIANGLE * count
+    if data.lstrip()[:5].lower() == b"solid" and len(data) != whole and b"\0" not in data[:HEADER]:
+        return _text(name, data)
+    if len(data) < whole:
+        here = _records(data, (len(data) - HEADER) // TRIANGLE)
+        if len(data) > HEADER and np.isfinite(here).all() and (np.abs(here) < _SANE).all():
+            raise InputError(f"{name}: this STL file was cut off: it has {len(data):,} bytes of the {whole:,} that its {count:,} triangles "
+                             "take; copy or export it again.")
+        raise _no_stl(name)
+    if len(data) < HEADER:
+        raise _no_stl(name)
+    return _records(data, count)
+
+
+def _no_stl(name: str) -> InputError:
+    return InputError(f"{name}: this is no STL file, or it is damaged; export the solid again, as binary STL.")
+
+
+def _records(data: bytes, count: int) -> Floats:
+    """Return the triangles of a binary file."""
+    return np.frombuffer(data, _RECORD, max(count, 0), HEADER if count > 0 else 0)["corners"].astype(np.float64)
+
+
+def _text(name: str, data: bytes) -> Floats:
+    """Return the triangles of a text; its first line is a name, in any code page."""
+    rest = data.partition(b"\n")[2]
+    try:
+        corners = np.array([[float(word) for word in each] for each in _VERTEX.findall(rest)]).reshape(-1, 3, 3)
+    except ValueError as error:
+        raise _no_stl(name) from error
+    if b"endsolid" not in rest[-1000:].lower():
+        raise InputError(f"{name}: this STL file was cut off after {len(corners):,} triangles, as its end, endsolid, is missing; copy or "
+                         "export it again.")
+    return corners
+
+
+def _by_library(name: str, data: bytes, suffix: str) -> Floats:
+    """Return the triangles of an OBJ or PLY file; the library's own complaints are not shown."""
+    import trimesh
+
+    log = logging.getLogger("trimesh")
+    log.propagate = False
+    if not log.handlers:
+        log.addHandler(logging.NullHandler())
+    plain = data.decode("latin-1").encode("ascii", "replace") if suffix == "obj" else data  # names may be spelled in any code page
+    try:
+        with np.errstate(all="ignore"):  # numbers that are none are looked for by who asked
+            triangles = trimesh.load_mesh(io.BytesIO(plain), file_type=suffix, process=False).triangles
+            return np.array(triangles, np.float64).reshape(-1, 3, 3)
+    except Exception as error:  # readers of meshes raise whatever broken bytes make them
+        raise InputError(f"{name}: this is no {suffix.upper()} file, or it is damaged; export it again.") from error

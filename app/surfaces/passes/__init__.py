@@ -1,0 +1,1 @@
+"""Paths of cutters over a compound surface, every chord proven."""

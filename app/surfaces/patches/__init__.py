@@ -1,0 +1,1 @@
+"""Surfaces as rational patches: how they are made, placed, trimmed and divided into facets."""

@@ -1,0 +1,1 @@
+"""Surfaces cut by upright planes, and the topmost of what is cut."""

@@ -1,0 +1,73 @@
+"""The family of cutting planes: from one line on the XY plane and a rule, all that meet the surfaces."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from ...core.errors import ParameterError
+from .compound import Planes
+
+Floats = NDArray[np.float64]
+Stretch = tuple[float, float]
+
+MOST_PLANES = 100_000
+_NEAR = 1e-9
+
+
+def extent_on(planes: Planes, places: Floats) -> tuple[Stretch, Stretch]:
+    """Return the stretch along the planes, and across them, in which places (n, 2) lie, mm."""
+    c, s = planes.along
+    dx, dy = places[:, 0] - planes.origin[0], places[:, 1] - planes.origin[1]
+    along, across = dx * c + dy * s, dy * c - dx * s
+    return (float(along.min()), float(along.max())), (float(across.min()), float(across.max()))
+
+
+def even_planes(origin: tuple[float, float], angle: float, pitch: float, places: Floats) -> Planes:
+    """Return planes at one distance from each other, one of them through a place, as many as meet places (n, 2).
+
+    Args:
+        origin: x, y, mm. angle: of the planes to the X axis, radians. pitch: mm, > 0.
+
+    Raises:
+        ParameterError: there would be more than MOST_PLANES.
+    """
+    bare = Planes(origin, angle, ())
+    _, (low, high) = extent_on(bare, places)
+    first, last = math.ceil(low / pitch - _NEAR), math.floor(high / pitch + _NEAR)
+    if last - first >= MOST_PLANES:
+        raise ParameterError(f"A pitch of {pitch:g} mm makes {last - first + 1:,} passes, but {MOST_PLANES:,} are the most; "
+                             "use a larger one.")
+    offsets = [min(max(k * pitch, low), high) for k in range(first, last + 1)]
+    return Planes(origin, angle, tuple(offsets) or ((low + high) / 2,))
+
+
+def stretches(planes: Planes, plane: int, whole: Stretch, area: shapely.Geometry | None) -> Sequence[Stretch]:
+    """Return from where to where, along one plane, it lies over an area; None: everywhere."""
+    if area is None:
+        return (whole,)
+    line = shapely.LineString([planes.place(plane, whole[0]), planes.place(plane, whole[1])])
+    within = shapely.get_parts(shapely.intersection(area, line))
+    c, s = planes.along
+    found = []
+    for part in within:
+        if part.geom_type == "LineString" and not part.is_empty:
+            at = [(x - planes.origin[0]) * c + (y - planes.origin[1]) * s for x, y in part.coords]
+            found.append((min(at), max(at)))
+    return sorted(found)
+
+
+def widened(planes: Planes, places: Floats, far: float, step: float) -> Planes:
+    """Return planes with more of them on both sides, up to so far beyond places (n, 2), mm, one step from one another."""
+    _, (low, high) = extent_on(planes, places)
+    first, last = planes.offsets[0], planes.offsets[-1]
+    before, after = (max(0, math.floor((room + far) / step + _NEAR)) for room in (first - low, high - last))
+    if before + after >= MOST_PLANES:
+        raise ParameterError(f"An overrun of {far:g} mm makes more than {MOST_PLANES:,} passes; use a smaller one.")
+    offsets = (*(first - k * step for k in range(before, 0, -1)), *planes.offsets, *(last + k * step for k in range(1, after + 1)))
+    return replace(planes, offsets=offsets)

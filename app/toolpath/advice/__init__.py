@@ -1,0 +1,1 @@
+"""Which tools a drawing asks for."""

@@ -1,0 +1,239 @@
+"""Which tool? What a drawing asks of its tools, and which of those at hand do it soonest, before there is any path."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import shapely
+from shapely import Geometry as Shape
+
+from ...core.errors import ParameterError
+from ...core.progress import NO_PROGRESS, Progress
+from ...geometry.primitives import TURN, R, pack, points_at, signed_area
+from ...model.part import Region
+from ...model.tool import Tool, ToolKind
+from ..coverage.flat import region_shapes
+from .reach import FITS, Centres, Reach, centres, reach
+from .time import Plan, Times, distances, times
+from .walls import KINK, Floats, Walls
+from .width import Widths, widths
+
+_CHORD = 1e-3
+
+SERIES = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0)
+"""Diameters of end mills as they are sold, mm."""
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A place and a size there, mm."""
+
+    x: float
+    y: float
+    size: float
+
+
+@dataclass(frozen=True)
+class RegionAdvice:
+    """What one region asks of its tools.
+
+    Attributes:
+        number: of the region.
+        area_mm2: exact.
+        passage: the narrowest passage: its width, and its middle. A cutter that is wider parts the region, misses a way round an
+            island or does not get into a dead end. Without a narrower place it is the largest disc.
+        disc: diameter and centre of the largest disc; no larger cutter fits anywhere.
+        clearing: diameter of the largest cutter that leaves nothing but sharp inner corners, and where it only just fits.
+        corners: how many sharp inner corners there are, and places where contours touch: every cutter leaves something in them.
+            Bends below 5 degrees are none.
+        corner: the sharpest inner corner; its size is the angle between the walls, radians; None = there is none.
+        inner_radius: the smallest radius of an arc that a cutter has to follow from inside; None = there is none.
+        reaches: what each tool reaches, in the order of the tools.
+    """
+
+    number: int
+    area_mm2: float
+    passage: Spot
+    disc: Spot
+    clearing: Spot
+    corners: int
+    corner: Spot | None
+    inner_radius: Spot | None
+    reaches: tuple[Reach, ...]
+
+    @property
+    def smallest_radius(self) -> float:
+        """Radius of the tightest inner corner, mm: 0 = a sharp one, inf = there is none."""
+        if self.corners:
+            return 0.0
+        return self.inner_radius.size if self.inner_radius else math.inf
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What one tool does in all regions together.
+
+    Attributes:
+        tool: the tool.
+        share: of the whole area that it reaches, in [0, 1].
+        parts: connected areas that it clears.
+        left_mm2: what it leaves.
+        left_disc: diameter of the largest disc in that, mm.
+        times: when it clears and the advised contour tool does the rest; None for tools smaller than that.
+    """
+
+    tool: Tool
+    share: float
+    parts: int
+    left_mm2: float
+    left_disc: float
+    times: Times | None
+
+
+@dataclass(frozen=True)
+class Advice:
+    """What a drawing asks of its tools, and which ones to take.
+
+    Attributes:
+        regions: each region.
+        choices: each tool, the smallest first.
+        pocket: the tool that clears, with which the estimated time is least.
+        contour: the tool that follows the walls and clears what the pocket tool does not reach; both can be one.
+        times: estimated for these two.
+        why: the reasons, in a sentence or two.
+    """
+
+    regions: tuple[RegionAdvice, ...]
+    choices: tuple[Choice, ...]
+    pocket: Tool
+    contour: Tool
+    times: Times
+    why: str
+
+
+def standard_tools() -> tuple[Tool, ...]:
+    """Return flat end mills of the usual diameters with the same feed each, when nobody says which tools there are."""
+    return tuple(Tool(number, diameter) for number, diameter in enumerate(SERIES, 1))
+
+
+def advise(regions: Sequence[Region], tools: Sequence[Tool] = (), plan: Plan | None = None, progress: Progress = NO_PROGRESS) -> Advice:
+    """Return what some regions ask of their tools, and which of the tools to take.
+
+    Args:
+        regions: of a drawing; one at least.
+        tools: to choose from, flat and bull-nose ones count; none = a standard series of 1 to 25 mm.
+        plan: depth, stepover and the machine's rapids, for the estimate of time.
+
+    Raises:
+        ParameterError: there is no region, or none of the tools clears a flat floor.
+        Cancelled: by progress.
+    """
+    if not regions:
+        raise ParameterError("There is no closed contour to choose tools for; draw one, or choose other layers.")
+    usable = [tool for tool in tools or standard_tools() if tool.kind in (ToolKind.FLAT, ToolKind.BULL)]
+    if not usable:
+        raise ParameterError("None of the tools clears a flat floor; add a flat end mill to choose from.")
+    usable.sort(key=lambda tool: (tool.diameter, tool.number))
+    plan = plan or Plan()
+    walls = Walls.of(pack(regions))
+    found = widths(walls, progress.part(0.0, 0.3))
+    numbers = [region.number for region in regions]
+    least = float(found.clearing.min())
+    contour = max((tool for tool in usable if tool.diameter <= least + FITS), key=lambda tool: tool.diameter, default=usable[0])
+    clearing = [tool for tool in usable if tool.diameter >= contour.diameter]
+    wanted = {tool.radius - FITS for tool in usable} | {distance for tool in clearing for distance in distances(tool, contour)}
+    where = centres(pack(regions), sorted(wanted), progress.part(0.3, 0.6))
+    shapes = [shapely.union_all(region_shapes([region], _CHORD)) for region in regions]
+    bare = [_region(walls, found, k, number) for k, number in enumerate(numbers)]
+    advised = _with_reaches(bare, shapes, (usable, where), progress.part(0.6, 0.9))
+    taken: dict[int, Times] = {}
+    for done, tool in enumerate(clearing):
+        progress.step(0.9 + 0.1 * done / len(clearing), f"Time with T{tool.number}")
+        taken[tool.number] = times(tool, contour, where, plan)
+    choices = tuple(_choice(tool, k, advised, taken) for k, tool in enumerate(usable))
+    pocket = min(clearing, key=lambda tool: (taken[tool.number].total, tool.diameter))
+    return Advice(advised, choices, pocket, contour, taken[pocket.number], _why((pocket, contour), advised, choices))
+
+
+def _with_reaches(regions: Sequence[RegionAdvice], shapes: Sequence[Shape], tools: tuple[Sequence[Tool], Mapping[float, Centres]],
+                  progress: Progress) -> tuple[RegionAdvice, ...]:
+    """Return the regions with what each tool reaches of them; where its centre can be comes with the tools."""
+    found: list[list[Reach]] = [[] for _ in regions]
+    for done, tool in enumerate(tools[0]):
+        at = tools[1][tool.radius - FITS]
+        for k, (region, shape) in enumerate(zip(regions, shapes, strict=True)):
+            progress.step((done + k / len(regions)) / len(tools[0]), f"What T{tool.number} reaches")
+            if region.number in at.shapes:
+                found[k].append(reach(shape, tool.diameter, at.shapes[region.number]))
+            else:
+                found[k].append(Reach(tool.diameter, 0.0, 0, region.area_mm2, region.disc.size, region.disc.x, region.disc.y))
+    return tuple(replace(region, reaches=tuple(row)) for region, row in zip(regions, found, strict=True))
+
+
+def _region(walls: Walls, found: Widths, k: int, number: int) -> RegionAdvice:
+    """Return what the k-th region asks of its tools."""
+    rows = np.flatnonzero(walls.region == number)
+    sharpest, corner = rows[np.argmax(walls.turn[rows])], None
+    if walls.turn[sharpest] > KINK:
+        corner = _spot(walls.rows[sharpest, :2], math.pi - walls.turn[sharpest])
+    arcs = rows[walls.rows[rows, TURN] > 0]
+    radius = None
+    if len(arcs):
+        tightest = walls.rows[arcs[np.argmin(walls.rows[arcs, R])]]
+        radius = _spot(points_at(tightest[None], np.array([0.5]))[0], tightest[R])
+    passage, disc = _spot(found.passage_at[k], found.passage[k]), _spot(found.disc_at[k], found.disc[k])
+    clearing = _spot(found.clearing_at[k], found.clearing[k])
+    return RegionAdvice(number, signed_area(walls.rows[rows]), passage, disc, clearing, int(walls.sharp[rows].sum()), corner, radius, ())
+
+
+def _spot(place: Floats, size: float) -> Spot:
+    return Spot(float(place[0]), float(place[1]), float(size))
+
+
+def _choice(tool: Tool, k: int, regions: Sequence[RegionAdvice], taken: Mapping[int, Times]) -> Choice:
+    """Return what the k-th tool does in all regions."""
+    reaches = [region.reaches[k] for region in regions]
+    area, left = sum(region.area_mm2 for region in regions), sum(each.left_mm2 for each in reaches)
+    return Choice(tool, 1 - left / area if area > 0 else 1.0, sum(each.parts for each in reaches), left,
+                  max(each.left_disc for each in reaches), taken.get(tool.number))
+
+
+def _why(tools: tuple[Tool, Tool], regions: Sequence[RegionAdvice], choices: Sequence[Choice]) -> str:
+    """Return why these two, pocket and contour tool, are advised."""
+    pocket, contour = (next(choice for choice in choices if choice.tool is tool) for tool in tools)
+    assert pocket.times is not None and contour.times is not None
+    if contour.share == 0:
+        widest = max((region.disc for region in regions), key=lambda disc: disc.size)
+        return f"No tool fits: {_named(contour.tool)} is the smallest, and the largest disc is {_measured(widest)}."
+    if pocket is contour:
+        return (f"{_bounds(contour, regions)} It takes about {_clock(pocket.times.total)} min by itself; "
+                "a larger one before it saves no time.")
+    return (f"{_bounds(contour, regions)} {_named(pocket.tool)} reaches {pocket.share:.0%} of the area; with it first the job takes about "
+            f"{_clock(pocket.times.total)} min, with {_named(contour.tool)} alone {_clock(contour.times.total)} min.")
+
+
+def _bounds(contour: Choice, regions: Sequence[RegionAdvice]) -> str:
+    """Return why this is the contour tool."""
+    tightest = min((region.clearing for region in regions), key=lambda spot: spot.size)
+    room = f"the tightest place has room for {_measured(tightest)}"
+    corners = sum(region.corners for region in regions)
+    but = "" if not corners else " but one sharp corner" if corners == 1 else f" but {corners} sharp corners"
+    if contour.tool.diameter > tightest.size + FITS:
+        return f"{_named(contour.tool)} is the smallest tool, and it leaves {contour.left_mm2:.2f} mm2: {room}."
+    return f"{_named(contour.tool)} is the largest tool that leaves nothing{but}: {room}."
+
+
+def _measured(spot: Spot) -> str:
+    return f"{spot.size:.3f} mm at ({spot.x:.3f}, {spot.y:.3f})"
+
+
+def _named(tool: Tool) -> str:
+    return tool.name or f"T{tool.number} {tool.label}"
+
+
+def _clock(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes}:{rest:02d}"

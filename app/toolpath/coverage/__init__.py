@@ -1,0 +1,1 @@
+"""What is wanted of a floor, and what paths leave of it."""

@@ -1,0 +1,80 @@
+"""Moves and regions as shapely shapes, for measuring what was made; nothing here makes a path."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from shapely import Geometry as Shape
+
+from ...geometry.primitives import TURN, R, Rows, contour_rows, points_at, sample, sweeps
+from ...model.moves import MoveKind, Moves
+from ...model.part import Contour, Region
+
+
+def move_rows(moves: Moves) -> Rows:
+    """Return moves as rows (n, 8) of `app.geometry.primitives`, seen from above; a full circle is one row."""
+    centre = np.nan_to_num(moves.centre)
+    start, end = moves.start[:, :2], moves.end[:, :2]
+    arc = moves.kind >= MoveKind.ARC_CW
+    radius = (np.hypot(*(start - centre).T) + np.hypot(*(end - centre).T)) / 2
+    turn = np.where(moves.kind == MoveKind.ARC_CCW, 1.0, -1.0)
+    return np.column_stack([start, end, centre, np.where(arc, radius, 0.0), np.where(arc, turn, 0.0)])
+
+
+def flattened(rows: Rows, chord: float) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Return (row index (m,), points (m, 2)): each row as chords that stay within `chord` mm of it, both ends included."""
+    radius = np.maximum(rows[:, R], chord)
+    step = 2 * np.arccos(1 - chord / radius)
+    turn = np.where(rows[:, TURN] != 0, np.abs(sweeps(rows)), 0.0)
+    counts = np.maximum(1, np.ceil(turn / step)).astype(np.int64)
+    owner = np.repeat(np.arange(len(rows)), counts + 1)
+    place = np.arange(len(owner)) - np.repeat(np.cumsum(counts + 1) - counts - 1, counts + 1)
+    points = points_at(rows[owner], place / counts[owner])
+    last = place == counts[owner]
+    points[last] = rows[owner[last], 2:4]
+    return owner, points
+
+
+def lines(rows: Rows, chord: float) -> NDArray[np.object_]:
+    """Return each row as a shapely line of chords that stay within `chord` mm of it; a row without a length as a point.
+
+    Trees of shapes find nothing near a line without a length.
+    """
+    owner, points = flattened(rows, chord)
+    found = np.asarray(shapely.linestrings(points, indices=owner), dtype=object)
+    still = np.all(rows[:, :2] == rows[:, 2:4], axis=1) & (rows[:, TURN] == 0)
+    found[still] = shapely.points(rows[still, :2])
+    return found
+
+
+def region_shapes(regions: Sequence[Region], chord: float) -> NDArray[np.object_]:
+    """Return regions as polygons (n,) whose chords stay within `chord` mm of their contours.
+
+    They stay apart, since regions that touch have a wall of no thickness between them.
+    """
+    parts = shapely.get_parts([_polygon(region.contours, chord) for region in regions])
+    parts = shapely.get_parts(parts)
+    return np.asarray(parts[(shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)], dtype=object)
+
+
+def _polygon(contours: Sequence[Contour], chord: float) -> Shape:
+    """Return the polygon with the first contour as its boundary and the others as its holes."""
+    outer, *inner = (sample(contour_rows(contour), chord) for contour in contours)
+    if len(outer) < 3:
+        return shapely.Polygon()
+    return shapely.make_valid(shapely.Polygon(outer, [ring for ring in inner if len(ring) > 2]))
+
+
+def quarter_chords(radius: float, chord: float) -> int:
+    """Return how many chords a quarter circle needs to stay within `chord` mm (shapely's quad_segs)."""
+    if radius <= chord:
+        return 1
+    return max(1, int(np.ceil(np.pi / 4 / np.arccos(1 - chord / radius))))
+
+
+def grown(shapes: Shape | NDArray[np.object_], distance: float, chord: float) -> Shape:
+    """Return for each shape all points within `distance` mm of it; a negative distance gives the points that deep inside."""
+    return shapely.buffer(shapes, distance, quad_segs=quarter_chords(abs(distance), chord))

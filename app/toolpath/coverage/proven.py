@@ -1,0 +1,174 @@
+"""Squares that hold all of an area that some cutters may not have covered; everything else is proven covered.
+
+The distance from a path changes by no more than the way gone, so one exact distance, from a square's centre, can decide
+the whole square: covered, when the cutter reaches its farthest corner; untouched, when it does not reach its nearest
+point. What neither proves is divided in four, down to a fraction of the cutter's radius. There a square on a wall is left, which never
+lies within reach as a whole; it is covered where one stretch of the path covers all corners of what of it is wanted (`swath_kernels`).
+At joints of a path, where no one stretch does, still smaller squares are looked at.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise, product
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from shapely import Geometry as Shape
+
+from ...core.pool import pool
+from ...core.progress import NO_PROGRESS, Progress
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, Rows, sweeps, within_half_turn
+
+_FINEST = 8
+"""The smallest squares' half side on a wall goes so many times into the smallest cutter's radius."""
+
+_SMALLEST = 256
+"""The same at joints of a path."""
+
+_START = 32
+"""Squares along the area's longer side at the beginning."""
+
+_SLACK = 1e-3
+"""mm beyond a cutter's radius that count as covered: as far as chords are off."""
+
+_SAME = 1e-4
+"""mm by which two arcs that follow one another may miss being one."""
+
+_BANDS, _WORTH_TWO_CORES = 4, 500
+
+Floats = NDArray[np.float64]
+States = NDArray[np.uint8]
+
+
+def uncertain(wanted: Shape, paths: Sequence[tuple[Rows, float]], progress: Progress = NO_PROGRESS) -> NDArray[np.object_]:
+    """Return boxes (n,) that hold every point of a wanted area that is not proven covered.
+
+    Args:
+        wanted: polygons with no inside in common, mm.
+        paths: (rows (m, 8) of a path, radius of its cutter, mm, > 0); rows may sweep up to a full turn.
+        progress: looked at between sizes of squares.
+    """
+    from .swath_kernels import COVERED, OPEN, OUTSIDE
+
+    swaths = [_Swath.of(rows, radius) for rows, radius in paths if len(rows)]
+    if wanted.is_empty or not swaths:
+        return np.array([] if wanted.is_empty else [shapely.box(*wanted.bounds)], dtype=object)
+    area, least = DistanceField.of(_edges(wanted)), min(each.radius for each in swaths)
+    centres, half = _grid(wanted.bounds)
+    kept = []
+    while len(centres):
+        progress.step(0.0, "Measuring what is left")
+        q = half * math.sqrt(2)
+        uncut = np.full(len(centres), math.inf)
+        for each in swaths:
+            uncut = np.minimum(uncut, each.field.nearest(centres, each.radius + 2 * q)[0] - each.radius)
+        centres, uncut = centres[uncut > -q], uncut[uncut > -q]
+        states = _states(area, swaths, centres, half)
+        centres, uncut, states = (each[(states != OUTSIDE) & (states != COVERED)] for each in (centres, uncut, states))
+        left = (uncut >= q) | (half <= least / _SMALLEST)
+        if half <= least / _FINEST:
+            left |= states != OPEN
+        kept.append(_runs(centres[left], half))
+        half /= 2
+        centres = quarters(centres[~left], half)
+    return np.concatenate(kept) if kept else np.zeros(0, dtype=object)
+
+
+@dataclass(frozen=True, eq=False)
+class _Swath:
+    """A path and what is known of it.
+
+    Attributes:
+        field: its rows, arcs below half a turn. radius: of its cutter, mm.
+        sectors: (n, 2) from which angle, and how far round, each arc's circle is covered by it and the arcs next to it, radians.
+    """
+
+    field: DistanceField
+    radius: float
+    sectors: Floats
+
+    @staticmethod
+    def of(rows: Rows, radius: float) -> _Swath:
+        """Return it for rows (n, 8), n > 0."""
+        parts = within_half_turn(rows)
+        return _Swath(DistanceField.of(parts), radius, _sectors(parts))
+
+
+def _states(area: DistanceField, swaths: Sequence[_Swath], centres: Floats, half: float) -> States:
+    """Return what of squares is wanted and covered, by numbers of `swath_kernels`: UNCUT is what all paths leave something of."""
+    from .swath_kernels import COVERED, OPEN, OUTSIDE, UNCUT, judge
+
+    states = np.empty((len(swaths), len(centres)), np.uint8)
+    bands = np.linspace(0, len(centres), (_BANDS if len(centres) >= _WORTH_TWO_CORES else 1) + 1).astype(int)
+
+    def look(work: tuple[int, tuple[int, int]]) -> None:
+        (number, band), each = work, swaths[work[0]]
+        judge(area.rows, area.order, area.nodes, each.field.rows, each.field.order, each.field.nodes, each.sectors, each.radius + _SLACK,
+              centres[slice(*band)], half, states[number, slice(*band)])  # fmt: skip
+
+    list(pool().map(look, product(range(len(swaths)), pairwise(bands.tolist()))))
+    uncut = np.where(np.all(states == UNCUT, axis=0), np.uint8(UNCUT), np.uint8(OPEN))
+    return np.where(np.any(states == COVERED, axis=0), np.uint8(COVERED), np.where(states[0] == OUTSIDE, np.uint8(OUTSIDE), uncut))
+
+
+def _edges(area: Shape) -> Rows:
+    """Return the edges of polygons as rows (n, 8)."""
+    rings = shapely.get_rings(shapely.get_parts(area))
+    points, ring = shapely.get_coordinates(rings, return_index=True)
+    on = np.flatnonzero(ring[1:] == ring[:-1])
+    rows = np.zeros((len(on), 8))
+    rows[:, :2], rows[:, 2:4] = points[on], points[on + 1]
+    return rows
+
+
+def _sectors(rows: Rows) -> Floats:
+    """Return (n, 2) in which sector each arc's circle is covered by the arc and those that go on from it; see `_Swath`."""
+    arc, before = rows[1:, TURN] != 0, rows[:-1]
+    circle = np.abs(rows[1:, CX:R + 1] - before[:, CX:R + 1]).max(axis=1, initial=0.0) <= _SAME
+    meets = np.abs(rows[1:, X0:Y0 + 1] - before[:, X1:Y1 + 1]).max(axis=1, initial=0.0) <= _SAME
+    run = np.concatenate([[0], np.cumsum(~(arc & circle & meets & (rows[1:, TURN] == before[:, TURN])))])
+    first, last = np.searchsorted(run, run, "left"), np.searchsorted(run, run, "right") - 1
+    spread = np.max([_by_run(rows[:, k], run) for k in (CX, CY, R)], axis=0)[run]
+    first, last = (np.where(spread <= _SAME, each, np.arange(len(rows))) for each in (first, last))
+    sweep = np.concatenate([[0.0], np.cumsum(np.abs(sweeps(rows)))])
+    ccw = rows[:, TURN] > 0
+    x, y = (np.where(ccw, rows[first, a], rows[last, b]) for a, b in ((X0, X1), (Y0, Y1)))
+    far = np.minimum(sweep[last + 1] - sweep[first], math.tau)
+    return np.ascontiguousarray(np.column_stack([np.arctan2(y - rows[:, CY], x - rows[:, CX]), far]))
+
+
+def _by_run(values: Floats, run: NDArray[np.int64]) -> Floats:
+    """Return for each run by how much its values differ."""
+    starts = np.flatnonzero(np.diff(run, prepend=-1))
+    return np.asarray(np.maximum.reduceat(values, starts) - np.minimum.reduceat(values, starts))
+def _runs(centres: Floats, half: float) -> NDArray[np.object_]:
+    """Return boxes round squares of one size; those side by side share one."""
+    if not len(centres):
+        return np.zeros(0, dtype=object)
+    column, row = np.round((centres - centres.min(axis=0)) / (2 * half)).astype(np.int64).T
+    order = np.lexsort((column, row))
+    column, row = column[order], row[order]
+    first = np.concatenate([[True], (np.diff(row) != 0) | (np.diff(column) != 1)])
+    last = np.concatenate([first[1:], [True]])
+    low, high = centres[order][first] - half, centres[order][last] + half
+    return np.asarray(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]), dtype=object)
+
+
+def _grid(bounds: tuple[float, float, float, float]) -> tuple[Floats, float]:
+    """Return (centres (n, 2), half side): binary fractions, so that edges of squares of all sizes meet to the last digit."""
+    x0, y0, x1, y1 = bounds
+    half = 2.0 ** math.ceil(math.log2(max(x1 - x0, y1 - y0) / _START / 2))
+    x, y = (np.arange(math.floor(low / half / 2), math.ceil(high / half / 2)) * 2 * half + half for low, high in ((x0, x1), (y0, y1)))
+    return np.stack(np.meshgrid(x, y), -1).reshape(-1, 2), half
+
+
+def quarters(centres: Floats, half: float) -> Floats:
+    """Return the centres of the four quarters, of half side `half`, of each square."""
+    corners = np.array([[-half, -half], [half, -half], [-half, half], [half, half]])
+    parts: Floats = (centres[:, None] + corners).reshape(-1, 2)
+    return parts

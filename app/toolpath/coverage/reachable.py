@@ -1,0 +1,98 @@
+"""Can a cutter's centre be anywhere near a place? Decided by exact distances, in squares that are divided where it is doubtful.
+
+Polygons of chords let a cutter through gaps that are some micrometres too narrow for it; what they take to be within reach is asked
+here once more. The distance from the walls changes by no more than the way gone, so its value in a square's middle bounds it all over.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core import tolerances
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import pack
+from ...model.part import Region
+from .proven import quarters
+
+_MOST = 200_000
+"""Squares in one round; a place that needs more counts as within reach."""
+
+_SLIVER = 0.25
+"""Share of a cutter's radius below which a piece of metal is a sliver."""
+
+_NOMINAL = tolerances.NOMINAL - 2 * tolerances.FIT
+"""mm; a cutter that is too large by exactly `NOMINAL` does not fit, whatever rounding and doubt make of it: no path goes there."""
+
+_START = 8
+"""Squares along a diameter at the beginning."""
+
+
+@dataclass(frozen=True, eq=False)
+class Cutter:
+    """A cutter in an area.
+
+    Attributes:
+        regions: that it stays in.
+        wall: how far its centre stays from walls, mm.
+        radius: mm.
+    """
+
+    regions: tuple[Region, ...]
+    wall: float
+    radius: float
+
+    def reaches(self, x: float, y: float, fields: Fields, spare: float = -_NOMINAL) -> bool:
+        """Tell whether its centre may be somewhere within its radius of a place; True also where that stays in doubt.
+
+        Args:
+            spare: how much farther from the walls than asked it has to stay, mm.
+        """
+        field, wall = fields.of(self.regions), self.wall + spare
+        half = self.radius / _START
+        axis = np.arange(-_START + 1, _START, 2.0) * half
+        centres = np.stack(np.meshgrid(axis, axis), -1).reshape(-1, 2) + (x, y)
+        while True:
+            off = half * math.sqrt(2)
+            near = np.hypot(*(centres - (x, y)).T) <= self.radius + off
+            distance = field.nearest(centres)[0]
+            inside = field.inside(centres) | (distance <= off)
+            open_ = near & inside & (distance + off >= wall)
+            if np.any(open_ & (distance >= wall) & (np.hypot(*(centres - (x, y)).T) <= self.radius)):
+                return True
+            centres = centres[open_]
+            if not len(centres):
+                return False
+            if len(centres) > _MOST or off < tolerances.FIT:
+                return True
+            half /= 2
+            centres = quarters(centres, half)
+
+
+class Fields:
+    """Distances from the walls of areas, made once each."""
+
+    def __init__(self) -> None:
+        self._kept: list[tuple[Region, ...]] = []
+        self._made: dict[int, DistanceField] = {}
+
+    def of(self, regions: tuple[Region, ...]) -> DistanceField:
+        """Return the distances from all contours of some regions."""
+        if id(regions) not in self._made:
+            self._kept.append(regions)  # so that no other ones get its id
+            self._made[id(regions)] = DistanceField.of(pack(regions).rows)
+        return self._made[id(regions)]
+
+
+def reached(points: NDArray[np.float64], cutters: Sequence[Cutter], fields: Fields, size: float) -> bool:
+    """Tell whether some cutter reaches one of some points (n, 2) of a piece of metal whose largest disc has a diameter `size`, mm.
+
+    A sliver counts where a cutter does that stays 1 um farther from the walls, as its paths may: in a neck that grows narrow
+    slowly, a micrometre decides on tenths of a millimetre.
+    """
+    spare = -_NOMINAL if any(size > _SLIVER * cutter.radius for cutter in cutters) else tolerances.LEVEL
+    return any(cutter.reaches(x, y, fields, spare) for x, y in points.tolist() for cutter in cutters)

@@ -1,0 +1,168 @@
+"""Compiled: squares of a wanted area that one stretch of a path covers all over.
+
+A cutter of radius R along a line covers all within R of it, along an arc of radius A all within R of that: in the sector of the arc what
+is between A - R and A + R from its centre. The first is convex, and so is the second but for its inner bound, which is asked apart. So
+what of an area lies within a square is covered if all its corners are: those of the area, those of the square, and where the two cross.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...core.jit import kernel
+from ...geometry.kernels import DEPTH, LEAF, inside, nearest, point_distance
+
+OUTSIDE, COVERED, OPEN, UNCUT = range(4)
+"""What of a square is wanted: nothing; all of that is covered; some of that may be uncut; some of that is."""
+
+ROOM = 512
+"""Corners that a square may have; with more it stays open."""
+
+_TREE = "float64[:, ::1], int64[::1], float64[:, ::1]"
+_BOX = "UniTuple(float64, 4)"
+
+
+@kernel("UniTuple(float64, 2)(float64, float64, float64, float64)", counts=False)
+def _between(start, way, low, high):
+    """Return from which part of a way to which a coordinate is between two others; the first is more than the second where it never is."""
+    if way == 0.0:
+        return (0.0, 1.0) if low <= start <= high else (1.0, 0.0)
+    a, b = (low - start) / way, (high - start) / way
+    return max(0.0, min(a, b)), min(1.0, max(a, b))
+
+
+@kernel(f"int64({_TREE}, {_BOX}, float64[:, ::1], int64[::1])", counts=False)
+def _cut_edges(edges, order, nodes, box, corners, stack):
+    """Write the ends of what of each edge lies within a box into the corners, and return how many; -1: there is no room."""
+    leaves, count = (len(nodes) + 1) // 2, 0
+    stack[0], top = 0, 1
+    while top > 0:
+        top -= 1
+        k = stack[top]
+        if nodes[k, 0] > box[2] or nodes[k, 2] < box[0] or nodes[k, 1] > box[3] or nodes[k, 3] < box[1]:
+            continue
+        if k < leaves - 1:
+            stack[top], stack[top + 1] = 2 * k + 2, 2 * k + 1
+            top += 2
+            continue
+        first = (k - leaves + 1) * LEAF
+        for place in range(first, min(first + LEAF, len(order))):
+            i = order[place]
+            if i < 0:  # a leaf that is not full
+                break
+            x, y = edges[i, 0], edges[i, 1]
+            dx, dy = edges[i, 2] - x, edges[i, 3] - y
+            a, b = _between(x, dx, box[0], box[2])
+            c, d = _between(y, dy, box[1], box[3])
+            a, b = max(a, c), min(b, d)
+            if a > b:
+                continue
+            if count + 2 > ROOM:
+                return -1
+            corners[count, 0], corners[count, 1] = x + a * dx, y + a * dy
+            corners[count + 1, 0], corners[count + 1, 1] = x + b * dx, y + b * dy
+            count += 2
+    return count
+
+
+@kernel(f"int64({_TREE}, {_BOX}, float64[:, ::1], int64[::1])", counts=False)
+def corners_of(edges, order, nodes, box, corners, stack):
+    """Write the corners of what of an area lies within a box, and return how many; 0: nothing does, -1: there is no room.
+
+    Args:
+        edges, order, nodes: tree of the area's edges, even-odd.
+        corners: (ROOM + 4, 2) room for them. stack: room for DEPTH nodes.
+    """
+    count = _cut_edges(edges, order, nodes, box, corners, stack)
+    if count < 0:
+        return -1
+    whole = count == 0
+    for k in range(4):
+        x, y = box[2 * (k % 2)], box[1 + 2 * (k // 2)]
+        if inside(edges, order, nodes, x, y, stack):
+            corners[count, 0], corners[count, 1] = x, y
+            count += 1
+        elif whole:
+            return 0
+    return count
+
+
+@kernel("float64(float64[:, ::1], int64, float64, float64)", counts=False)
+def _nearest_between(corners, count, x, y):
+    """Return how near to a place outside what lies between corners comes: the least of the ways from corner to corner."""
+    least = math.inf
+    for k in range(count):
+        ax, ay = corners[k, 0] - x, corners[k, 1] - y
+        least = min(least, ax * ax + ay * ay)
+        for i in range(k):
+            dx, dy = corners[i, 0] - corners[k, 0], corners[i, 1] - corners[k, 1]
+            square, along = dx * dx + dy * dy, -(ax * dx + ay * dy)
+            if 0.0 < along < square:
+                cross = ax * dy - ay * dx
+                least = min(least, cross * cross / square)
+    return math.sqrt(least)
+
+
+@kernel("boolean(float64[:, ::1], float64[:, ::1], int64, float64, float64[:, ::1], int64, UniTuple(float64, 4))", counts=False)
+def _holds(rows, sectors, j, reach, corners, count, box):
+    """Return whether a cutter along row j covers all corners, and what lies between them."""
+    if rows[j, 7] == 0.0:
+        farthest = 0.0
+        for k in range(count):
+            farthest = max(farthest, point_distance(rows, j, corners[k, 0], corners[k, 1]))
+        return farthest <= reach
+    cx, cy, radius = rows[j, 4], rows[j, 5], rows[j, 6]
+    dx, dy = max(box[0] - cx, cx - box[2], 0.0), max(box[1] - cy, cy - box[3], 0.0)
+    inner = max(radius - reach, 0.0)
+    if dx * dx + dy * dy < inner * inner and _nearest_between(corners, count, cx, cy) < inner:
+        return False
+    whole = sectors[j, 1] >= math.tau
+    if not whole and dx == 0.0 and dy == 0.0:  # in what direction the square lies is not to be said
+        return False
+    first = math.atan2(corners[0, 1] - cy, corners[0, 0] - cx)
+    low = high = 0.0
+    for k in range(count):
+        x, y = corners[k, 0] - cx, corners[k, 1] - cy
+        if x * x + y * y > (radius + reach) * (radius + reach):
+            return False
+        if not whole:
+            off = (math.atan2(y, x) - first + math.pi) % math.tau - math.pi
+            low, high = min(low, off), max(high, off)
+    start = (first + low - sectors[j, 0]) % math.tau
+    return whole or start + high - low <= sectors[j, 1]
+
+
+@kernel(f"void({_TREE}, {_TREE}, float64[:, ::1], float64, float64[:, ::1], float64, uint8[::1])")
+def judge(edges, edge_order, edge_nodes, rows, order, nodes, sectors, reach, centres, half, states):
+    """Write what of squares is wanted and covered.
+
+    Args:
+        edges, edge_order, edge_nodes: tree of the wanted area's edges, even-odd.
+        rows, order, nodes: tree of a path's rows; arcs sweep less than pi.
+        sectors: (m, 2) of the rows: from which angle, and how far round, circles are covered by them and their neighbours, radians.
+        reach: how far from the path counts as covered, mm.
+        centres: (n, 2) of the squares. half: their half side, mm.
+        states: (n,) OUTSIDE, COVERED, OPEN or UNCUT.
+    """
+    corners, stack = np.empty((ROOM + 4, 2)), np.empty(DEPTH, np.int64)
+    limit = reach + 2.0 * half
+    for i in range(len(centres)):
+        x, y = centres[i, 0], centres[i, 1]
+        box = (x - half, y - half, x + half, y + half)
+        count = corners_of(edges, edge_order, edge_nodes, box, corners, stack)
+        if count == 0:
+            states[i] = OUTSIDE
+            continue
+        row = nearest(rows, order, nodes, x, y, limit)[1]
+        states[i] = OPEN if row >= 0 else UNCUT
+        if count < 0 or row < 0:
+            continue
+        for j in range(max(row - 1, 0), min(row + 2, len(rows))):
+            if _holds(rows, sectors, j, reach, corners, count, box):
+                states[i] = COVERED
+                break
+        for k in range(count):
+            if states[i] == OPEN and nearest(rows, order, nodes, corners[k, 0], corners[k, 1], reach)[1] < 0:
+                states[i] = UNCUT

@@ -1,0 +1,1 @@
+"""Depth passes, and ways between them over ground that is cut."""

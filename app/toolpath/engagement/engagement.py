@@ -1,0 +1,208 @@
+"""How much of the cutter is engaged in standing metal, move by move, in the order of cutting.
+
+Engaged is the part of the rim of the cutter's front half, as seen along the path, that lies in metal nobody has removed at that depth yet.
+Of an engaged angle phi the engaged share of the diameter is (1 - cos phi) / 2: what a run along the standing side takes with a stepover of
+as much; 1 = a full slot. How thick the metal is along the axis plays no part, and what goes straight down is not engaged.
+
+The metal is a field of heights in square cells (`engagement_field`): the job's stock box, cut by every cutting move as a flat cutter
+would, as wide as its tool is at the stock's top. The cells' centres decide, so a share may be off by `Engagement.bounds` for each straight
+edge of the metal, somewhat more where it is curved as sharply as the cutter.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ...core.progress import NO_PROGRESS, Progress
+from ...model.job import Job
+from ...model.moves import MoveKind, Moves, Program
+from ...model.stock_box import StockBox, stock_box
+from ...model.tool import Tool
+from .field import Field
+from .places import CELL, Floats, Indices, Places, cutting_radius, places, runs
+
+STEPS = 100
+"""Equal steps of the share in which lengths are counted."""
+
+_MOST_KEPT = 1 << 21
+"""Places, of some 100 bytes each, that are kept from tool to tool."""
+
+_THINNEST = 0.05
+"""Radii of a tool; so wide is it taken to cut at least, however little of a pointed one is in the metal."""
+
+
+@dataclass(frozen=True, eq=False)
+class Engagement:
+    """How far the cutter is engaged along a program of n moves.
+
+    Attributes:
+        shares: (n,) the largest engaged share of the diameter along each move, in [0, 1]; 0 for rapids and what goes straight down.
+        lengths: (operations, STEPS) mm of path in the plane whose share lies within each step, the last one with 1 itself.
+        largest: (operations,) the largest share of each operation's moves, 0 where it has none.
+        bounds: (operations,) by how much these shares may be off: one and a half cells over the diameter.
+    """
+
+    shares: Floats
+    lengths: Floats = field(repr=False)
+    largest: Floats
+    bounds: Floats
+
+    @property
+    def most(self) -> float:
+        """The largest share over all."""
+        return float(self.largest.max(initial=0.0))
+
+    def above(self, share: float, operation: int | None = None) -> float:
+        """Return the part of the length, in [0, 1], of one operation or of all, along which more than a share is engaged.
+
+        Args:
+            share: in [0, 1]; counts in whole steps.
+            operation: index in the job; None = all.
+        """
+        lengths = self.lengths.sum(axis=0) if operation is None else self.lengths[operation]
+        total = float(lengths.sum())
+        return float(lengths[math.ceil(share * STEPS - 1e-9):].sum()) / total if total > 0 else 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """What was seen along the path of a program, n moves in m cells.
+
+    Attributes:
+        begin, end: (n,) positions of each move on one scale for all, mm; alike where it was not looked at.
+        first, last: (m,) positions between which each cell lies.
+        share: (m,) engaged share in its middle.
+        block: (m,) number of its block, not falling.
+        owner: (m,) the move in its middle.
+        radii: by T number, what each tool was taken to be, mm.
+        pitches: by T number, side of the cells that its engagement was measured in, mm.
+    """
+
+    begin: Floats
+    end: Floats
+    first: Floats
+    last: Floats
+    share: Floats
+    block: Indices
+    owner: Indices
+    radii: dict[int, float]
+    pitches: dict[int, float]
+
+    def bound(self, tool: int) -> float:
+        """Return by how much the shares of a tool may be off.
+
+        Half a cell's diagonal by which the rim that is looked at lies inside the true one, and as much from a cell's centre to
+        where in it metal ends, over the diameter.
+        """
+        return 1.5 * self.pitches[tool] / (2 * self.radii[tool])
+
+
+def engagement(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Engagement:
+    """Return how far the cutter is engaged along a program.
+
+    Args:
+        program: whose cutting moves are looked at in their order.
+        job: what it was computed from: stock, tools, operations.
+
+    Raises:
+        ParameterError: the job has no such tool.
+        Cancelled: by progress.
+    """
+    seen, moves = look(program, job, progress), program.moves
+    shares, operations = np.zeros(len(moves)), max(len(job.operations), 1)
+    lengths, largest, bounds = np.zeros((operations, STEPS)), np.zeros(operations), np.zeros(operations)
+    for number in seen.radii:
+        own = np.unique(moves.operation[(moves.tool == number) & (moves.kind != MoveKind.RAPID)])
+        bounds[own] = np.maximum(bounds[own], seen.bound(number))
+    going = np.flatnonzero(seen.end > seen.begin)
+    if len(going):
+        low, high = _own(seen, going)
+        pairs = np.column_stack([low, high]).ravel()
+        shares[going] = np.maximum.reduceat(np.append(seen.share, 0.0), pairs)[::2]
+        np.maximum.at(largest, moves.operation, shares)
+        step = np.clip(np.ceil(seen.share * STEPS - 1e-9) - 1, 0, STEPS - 1).astype(np.int64)
+        np.add.at(lengths, (moves.operation[seen.owner], step), seen.last - seen.first)
+    return Engagement(shares, lengths, largest, bounds)
+
+
+def look(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Seen:
+    """Return what is seen along the path of a program; arguments and errors are those of `engagement`."""
+    moves = program.moves
+    cutting = moves.kind != MoveKind.RAPID
+    begin, end = np.zeros(len(moves)), np.zeros(len(moves))
+    if not cutting.any():
+        none, no = np.zeros(0), np.zeros(0, np.int64)
+        return Seen(begin, end, none, none, none, no, no, {}, {})
+    lowest = np.minimum(moves.start[:, 2], moves.end[:, 2])
+    numbers = np.unique(moves.tool[cutting]).tolist()
+    radii = {number: _radius(job.tool(number), -float(lowest[cutting & (moves.tool == number)].min())) for number in numbers}
+    path = _Path(moves, radii, stock_box(job, program.regions, program.lines))
+    found: dict[int, tuple[Places, Floats]] = {}
+    pitches = {}
+    for k, number in enumerate(numbers):
+        pitches[number] = path.along(number, found, progress.part(k / len(numbers), (k + 1) / len(numbers)))
+    progress.step(1.0, "Measuring engagement")
+    at, blocks, cells = 0.0, 0, []
+    for _, (run, share) in sorted(found.items()):
+        begin[run.moves], end[run.moves] = run.begin + at, run.end + at
+        cells.append((run.first + at, run.last + at, share, run.block + blocks, run.owner))
+        at, blocks = float(end[run.moves[-1]]), blocks + (int(run.block[-1]) + 1 if len(run.block) else 0)
+    first, last, share, block, owner = (np.concatenate(column) for column in zip(*cells, strict=True))
+    return Seen(begin, end, first, last, share, block, owner, radii, pitches)
+
+
+def _radius(tool: Tool, depth: float) -> float:
+    return max(cutting_radius(tool, depth), _THINNEST * tool.radius) if depth > 0 else tool.radius
+
+
+class _Path:
+    """The cutting moves of all tools, run by run."""
+
+    def __init__(self, moves: Moves, radii: dict[int, float], stock: StockBox) -> None:
+        self._moves, self._radii, self._stock = moves, radii, stock
+        self._runs = list(runs(moves, {number: CELL * radius for number, radius in radii.items()}))
+        self._tools = [int(moves.tool[chosen[0]]) for chosen in self._runs]
+        self._kept: dict[int, Places] = {}
+
+    def along(self, number: int, found: dict[int, tuple[Places, Floats]], progress: Progress) -> float:
+        """Put what is seen along the path of one tool, run by run, into `found`; return the side of the cells, mm."""
+        own = [k for k, tool in enumerate(self._tools) if tool == number]
+        radii = self._radii[number], max(self._radii.values())
+        metal = Field.along(self._moves, radii, self._stock, lambda: (self._places(k, progress).rows[:-1] for k in own))
+        for k, tool in enumerate(self._tools[:own[-1] + 1]):
+            here = progress.part(k / (own[-1] + 1), (k + 1) / (own[-1] + 1))
+            run = self._places(k, here)
+            if tool == number:
+                found[k] = replace(run, rows=run.rows[:0]), metal.engaged(run.rows, here)[run.seen]
+            else:
+                metal.cut(run.rows, self._radii[tool], here)
+        return metal.pitch
+
+    def _places(self, k: int, progress: Progress) -> Places:
+        """Return where run k is looked at; the first ones are kept, since every tool asks for them."""
+        progress.step(0.0, "Measuring engagement")
+        if k in self._kept:
+            return self._kept[k]
+        run = places(self._moves, self._runs[k], self._radii[self._tools[k]])
+        if sum(len(kept.rows) for kept in self._kept.values()) + len(run.rows) <= _MOST_KEPT:
+            self._kept[k] = run
+        return run
+
+
+def _own(seen: Seen, going: Indices) -> tuple[Indices, Indices]:
+    """Return (first, behind the last) of the cells whose middles lie on each move, or else of one that the move lies in."""
+    low, high = spans(seen.begin[going], seen.end[going], seen.first, seen.last)
+    low = low + ((seen.owner[low] != going) & (high - low > 1))
+    return low, high - ((seen.owner[high - 1] != going) & (high - low > 1))
+
+
+def spans(begin: Floats, end: Floats, first: Floats, last: Floats) -> tuple[Indices, Indices]:
+    """Return (first, behind the last) of the pieces first … last that lie in begin … end; those that only touch do not, but one does."""
+    hair = np.minimum((end - begin) / 4, 1e-9 + 1e-6 * (last - first).max(initial=0.0))
+    low = np.searchsorted(last, begin + hair, side="right")
+    high = np.searchsorted(first, end - hair, side="left")
+    low = np.minimum(low, max(len(first) - 1, 0))
+    return low, np.maximum(high, low + 1)

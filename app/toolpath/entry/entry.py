@@ -1,0 +1,231 @@
+"""Ways down into metal: a helix beside the path's beginning, a ramp along the path, or straight down."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core import tolerances
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import CX, TURN, Rows, lengths, points_at
+from ...model.curves import Point
+from ...model.entry import Entry, EntryKind
+from ...model.moves import Tab
+from ...model.operation import Direction
+from ...model.tool import Tool
+from ..build import Stroke
+from ..cleared import Cleared
+
+Floats = NDArray[np.float64]
+
+_ABOVE = 0.2
+"""mm above the stock's top at which helix and ramp begin."""
+
+_HELIX = (0.9, 0.7, 0.5)
+"""Radii of a helix that are tried, in cutter's radii: wide enough for a cutter that does not cut at its centre, and no post stands."""
+
+_SHORTEST = 1.0
+"""Cutter's radii that a ramp reaches at least from where it begins; over less a cutter's centre stays over one place."""
+
+_MOST_ROWS = 20_000
+"""Rows of one way down; a path so short that it takes more has no ramp."""
+
+_CRUMB = 0.01
+"""mm; a row is not split so near to its end."""
+
+_EXACT = 1e-7
+"""mm by which a measured distance from walls may be short."""
+
+_PLACES = 8
+"""Along a ramp, where it is asked how high the metal is."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ground:
+    """What an entry must know of where it is.
+
+    Attributes:
+        walls: distances from all that the cutter must keep off, clamps and all.
+        keep: its centre's distance from them, mm.
+        beside: whether it may leave the path.
+        cleared: ground cut so far.
+        tabs: that stand.
+    """
+
+    tool: Tool
+    entry: Entry
+    walls: DistanceField
+    keep: float
+    beside: bool
+    direction: Direction
+    cleared: Cleared
+    tabs: Sequence[Tab] = ()
+
+    def allowed(self, place: Point) -> float:
+        """Return how near to walls an entry at the beginning of a path may come: no nearer than the path does there, mm."""
+        here = float(self.walls.nearest(np.array([place]))[0][0])
+        return max(min(self.keep, here), self.keep - tolerances.LEVEL) - _EXACT
+
+
+@dataclass(frozen=True, eq=False)
+class Descent:
+    """A way down.
+
+    Attributes:
+        kind: HELIX, RAMP or PLUNGE.
+        top: height from which it goes, above the path's beginning, mm.
+        path: that it goes along; no rows where it goes straight down.
+        heights: (n,) at which each row of it ends, mm.
+        stroke: the path to be cut after it; it begins where the descent ends.
+        well: centre and radius of the disc that it clears itself, and the height down to which, mm.
+    """
+
+    kind: EntryKind
+    top: float
+    path: Stroke
+    heights: Floats
+    stroke: Stroke
+    well: tuple[tuple[float, float, float], float] | None = None
+
+
+def descent(stroke: Stroke, z: float, kind: EntryKind, ground: Ground) -> Descent:
+    """Return the way down to the beginning of a stroke that is cut at z: of the kind that is wanted, or the next best that fits."""
+    found = _helix(stroke, z, ground) if kind in (EntryKind.HELIX, EntryKind.PREDRILLED) else None
+    if found is None and kind is not EntryKind.PLUNGE:
+        found = _ramp(stroke, z, ground)
+    if found is None:
+        top = _above(ground.cleared.floor(ground.tool, stroke.start))
+        found = Descent(EntryKind.PLUNGE, top, stroke.part(0, 0), np.zeros(0), stroke)
+    return found
+
+
+def _above(metal: float) -> float:
+    """Return from which height an entry goes into metal that is so high: ground that was cut is where it is said to be."""
+    return _ABOVE if metal >= 0 else metal
+
+
+def heading(rows: Rows) -> Floats:
+    """Return the direction (2,) in which a path sets out; NaN where its first row has no length."""
+    row = rows[0]
+    ahead = row[2:4] - row[:2] if row[TURN] == 0 else row[TURN] * np.array([row[CX + 1] - row[1], row[0] - row[CX]])
+    length = float(np.hypot(*ahead))
+    return ahead / length if length > 0 else np.full(2, np.nan)
+
+
+def _helix(stroke: Stroke, z: float, ground: Ground) -> Descent | None:
+    """Return turns of a circle that touches the path where it begins, all of it clear of walls."""
+    ahead = heading(stroke.rows)
+    if not ground.beside or np.isnan(ahead[0]):
+        return None
+    allowed = ground.allowed(stroke.start)
+    left = np.array([-ahead[1], ahead[0]])
+    sides = (1.0, -1.0) if ground.direction is Direction.CLIMB else (-1.0, 1.0)
+    tried = [(share * ground.tool.radius, side) for share in _HELIX for side in sides]
+    centres = np.array([np.array(stroke.start) + side * radius * left for radius, side in tried])
+    for (radius, side), centre, away in zip(tried, centres, ground.walls.nearest(centres)[0], strict=True):
+        if away >= allowed + radius and not _over_tab(centre, radius, ground):
+            return _turns(stroke, z, (radius, side, centre), ground)
+    return None
+
+
+def _over_tab(centre: Floats, radius: float, ground: Ground) -> bool:
+    reach = radius + 2 * ground.tool.radius
+    return any(math.dist(centre, (tab.x, tab.y)) < reach + tab.width / 2 for tab in ground.tabs)
+
+
+def _turns(stroke: Stroke, z: float, circle: tuple[float, float, Floats], ground: Ground) -> Descent:
+    radius, side, centre = circle
+    x, y = centre.tolist()
+    disc = (x, y, radius + ground.tool.radius)
+    metal = ground.cleared.wells[disc] if disc in ground.cleared.wells else ground.cleared.floor(ground.tool, (x, y), radius)
+    top = _above(metal)
+    count = max(1, math.ceil((top - z) / (math.tau * radius * math.tan(ground.entry.angle)) - 1e-9))
+    across = 2 * centre - np.array(stroke.start)
+    there = [*stroke.start, *across, *centre, radius, side]
+    back = [*across, *stroke.start, *centre, radius, side]
+    rows = np.array([there, back] * count)
+    heights = top + (z - top) * np.arange(1, 2 * count + 1) / (2 * count)
+    heights[-1] = z
+    path = replace(stroke, rows=rows, purpose=np.zeros(len(rows), np.uint8), least_z=None)
+    return Descent(EntryKind.HELIX, top, path, heights, stroke, (disc, min(0.0, z + (top - z) / count)))
+
+
+def _ramp(stroke: Stroke, z: float, ground: Ground) -> Descent | None:
+    """Return a way along the path: on round a closed one, there and back along the first rows of another."""
+    head = _free_head(stroke, z)
+    size = lengths(head.rows)
+    if not len(size) or size.sum() <= _CRUMB:
+        return None
+    most = (_ABOVE - z) / math.tan(ground.entry.angle)
+    metal = max(ground.cleared.floor(ground.tool, place) for place in _places(head.rows, min(most, float(size.sum()))))
+    top = _above(metal)
+    long = (top - z) / math.tan(ground.entry.angle)
+    if stroke.closed and stroke.least_z is None:
+        return _round(stroke, z, top, max(long, min(2 * ground.tool.radius, float(size.sum()))))
+    if _reach(head.rows) < _SHORTEST * ground.tool.radius:
+        return None
+    leg, _ = _at(head, min(float(size.sum()), max(long / 2, _SHORTEST * ground.tool.radius)))
+    span = float(lengths(leg.rows).sum())
+    count = math.ceil(long / (2 * span) - 1e-9)
+    if 2 * count * len(leg.rows) > _MOST_ROWS:
+        return None
+    both = leg.and_then(leg.backwards())
+    path = replace(both, rows=np.tile(both.rows, (count, 1)), purpose=np.tile(both.purpose, count), least_z=None)
+    return Descent(EntryKind.RAMP, top, path, _falling(path.rows, top, z), stroke)
+
+
+def _round(stroke: Stroke, z: float, top: float, long: float) -> Descent | None:
+    """Return a way down round a closed path, which then begins where the way ends."""
+    whole = float(lengths(stroke.rows).sum())
+    turns = math.floor(long / whole)
+    if (turns + 1) * len(stroke.rows) > _MOST_ROWS:
+        return None
+    first, rest = _at(stroke, long - turns * whole)
+    path = replace(stroke, rows=np.concatenate([np.tile(stroke.rows, (turns, 1)), first.rows]),
+                   purpose=np.zeros(turns * len(stroke.rows) + len(first.rows), np.uint8))
+    return Descent(EntryKind.RAMP, top, path, _falling(path.rows, top, z), rest.and_then(first))
+
+
+def _free_head(stroke: Stroke, z: float) -> Stroke:
+    """Return its first rows, as far as nothing must stand higher than z."""
+    if stroke.least_z is None:
+        return stroke
+    high = stroke.least_z > z
+    return stroke.part(0, int(np.argmax(high)) if high.any() else len(high))
+
+
+def _at(stroke: Stroke, long: float) -> tuple[Stroke, Stroke]:
+    """Return a stroke's beginning of a length, or a little more where that spares a crumb of a row, and the rest of it."""
+    size = lengths(stroke.rows)
+    ends = np.cumsum(size)
+    row = min(int(np.searchsorted(ends, long - 1e-9)), len(ends) - 1)
+    into = max(long - (ends[row] - size[row]), _CRUMB)
+    return stroke.split(row, 1.0 if size[row] - into < _CRUMB else into / size[row])
+
+
+def _reach(rows: Rows) -> float:
+    """Return how far a path gets from where it begins, by its ends and middles, mm."""
+    places = np.concatenate([rows[:, 2:4], points_at(rows, np.full(len(rows), 0.5))])
+    return float(np.hypot(*(places - rows[0, :2]).T).max())
+
+
+def _places(rows: Rows, long: float) -> list[Point]:
+    """Return a few places along the beginning of a path."""
+    size = lengths(rows)
+    ends = np.cumsum(size)
+    gone = np.linspace(0.0, long, _PLACES)
+    row = np.minimum(np.searchsorted(ends, gone), len(ends) - 1)
+    part = (gone - (ends - size)[row]) / np.maximum(size[row], 1e-12)
+    return [(float(x), float(y)) for x, y in points_at(rows[row], np.clip(part, 0.0, 1.0))]
+
+
+def _falling(rows: Rows, top: float, z: float) -> Floats:
+    """Return (n,) heights at the ends of rows that fall evenly from top to z."""
+    gone = np.cumsum(lengths(rows))
+    heights: Floats = top + (z - top) * gone / gone[-1]
+    heights[-1] = z
+    return heights

@@ -1,0 +1,1 @@
+"""Ways along a wall: where they begin, on which side, with which tabs."""

@@ -1,0 +1,177 @@
+"""A path of the cutter's centre along walls or lines, measured by how far along it something is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, R, Rows, lengths, points_at, sweeps
+
+Floats = NDArray[np.float64]
+
+_SNAP = 1e-6
+"""mm; a break this near to the end of a row is the end of the row."""
+
+_STEP = 1e-3
+"""mm; the shortest step of the proof that a move keeps clear: between such places clearance cannot fall by more than 1e-6 mm unseen."""
+
+_MISS = 1e-6
+"""mm by which a computed clearance may fall short."""
+
+
+@dataclass(frozen=True, eq=False)
+class Path:
+    """A path in the direction of travel.
+
+    Attributes:
+        rows: (n, 8) lines and arcs, each beginning where the one before ends.
+        closed: True when it ends where it begins.
+        region: number of its region, 0 = none.
+        rank: how many other contours lie round it; what lies inside is cut first.
+        area: that it encloses, or the ring that it was cut out of, mm2; negative when the area to machine lies round it; 0 of open lines.
+        loop: number of the drawn loop that it follows or was cut out of; 0 of rings and open lines.
+    """
+
+    rows: Rows
+    closed: bool
+    region: int = 0
+    rank: int = 0
+    area: float = 0.0
+    loop: int = 0
+
+    @cached_property
+    def sizes(self) -> Floats:
+        """(n,) length of each row, mm."""
+        return lengths(self.rows)
+
+    @cached_property
+    def ends(self) -> Floats:
+        """(n,) how far along each row ends, mm."""
+        total: Floats = np.cumsum(self.sizes)
+        return total
+
+    @property
+    def ring(self) -> tuple[int, float, int]:
+        """What all pieces of one ring or loop have alike."""
+        return self.region, self.area, self.loop
+
+    @property
+    def length(self) -> float:
+        """Of the whole path, mm."""
+        return float(self.ends[-1])
+
+    @cached_property
+    def _field(self) -> DistanceField:
+        return DistanceField.of(self.rows)
+
+    def rows_at(self, where: Floats) -> tuple[Indices, Floats]:
+        """Return (row, fraction of it) at places (m,) along the path, mm; closed ones go on past their end."""
+        along = where % self.length if self.closed and self.length > 0 else np.clip(where, 0.0, self.length)
+        row = np.minimum(np.searchsorted(self.ends, along, side="right"), len(self.rows) - 1)
+        size = self.sizes[row]
+        fraction = (along - (self.ends[row] - size)) / np.maximum(size, 1e-300)
+        return row, np.clip(fraction, 0.0, 1.0)
+
+    def points(self, where: Floats) -> Floats:
+        """Return the points (m, 2) at places along the path."""
+        row, fraction = self.rows_at(where)
+        return points_at(self.rows[row], fraction)
+
+    def headings(self, where: Floats) -> Floats:
+        """Return the directions of travel (m, 2), of length 1, at places along the path."""
+        row, fraction = self.rows_at(where)
+        return headings_at(self.rows[row], fraction)
+
+    def nearest(self, points: Floats) -> tuple[Floats, Floats]:
+        """Return (how far along (m,), distance (m,)) of what of the path is nearest to points (m, 2), mm."""
+        distance, row = self._field.nearest(points)
+        size = self.sizes[row]
+        return self.ends[row] - size * (1 - fractions_at(self.rows[row], points)), distance
+
+    def span(self, start: float, stop: float, breaks: Floats) -> tuple[Rows, Floats]:
+        """Return (rows, how far along the middle of each is) from one place to another, cut at some breaks as well.
+
+        Args:
+            start, stop: mm, start < stop; a closed path goes on past its end.
+            breaks: (k,) mm, in [0, length].
+        """
+        laps = np.arange(np.floor(start / self.length), np.ceil(stop / self.length)) if self.closed else np.zeros(1)
+        own = breaks[np.abs(self.ends[:, None] - breaks).min(axis=0) > _SNAP] if len(breaks) else breaks
+        inner = (laps[:, None] * self.length + np.concatenate([self.ends, own])).ravel()
+        bounds = np.unique(np.concatenate([[start], inner[(inner > start + _SNAP) & (inner < stop - _SNAP)], [stop]]))
+        middle = (bounds[1:] + bounds[:-1]) / 2
+        row, _ = self.rows_at(middle)
+        size = self.sizes[row]
+        begin = middle - (middle % self.length if self.closed else middle) + self.ends[row] - size
+        first = (bounds[:-1] - begin) / np.maximum(size, 1e-300)
+        last = (bounds[1:] - begin) / np.maximum(size, 1e-300)
+        pieces = self.rows[row].copy()
+        pieces[:, :2] = points_at(self.rows[row], np.where(first * size < _SNAP, 0.0, np.clip(first, 0.0, 1.0)))
+        pieces[:-1, 2:4] = pieces[1:, :2]
+        if self.closed and abs(stop - start - self.length) < _SNAP:
+            pieces[-1, 2:4] = pieces[0, :2]
+        elif (1 - last[-1]) * size[-1] >= _SNAP:
+            pieces[-1, 2:4] = points_at(self.rows[row[-1:]], last[-1:])[0]
+        return pieces, middle
+
+
+def headings_at(rows: Rows, fraction: Floats) -> Floats:
+    """Return the directions of travel (n, 2), of length 1, at a fraction in [0, 1] of each row."""
+    straight = rows[:, 2:4] - rows[:, :2]
+    angle = np.arctan2(rows[:, Y0] - rows[:, CY], rows[:, X0] - rows[:, CX]) + sweeps(rows) * fraction
+    bent = rows[:, [TURN]] * np.stack([-np.sin(angle), np.cos(angle)], 1)
+    ahead = np.where(rows[:, [TURN]] == 0, straight, bent)
+    unit: Floats = ahead / np.maximum(np.hypot(ahead[:, 0], ahead[:, 1]), 1e-300)[:, None]
+    return unit
+
+
+def fractions_at(rows: Rows, points: Floats) -> Floats:
+    """Return the fraction in [0, 1] of each row's length (n,) that is nearest to each point (n, 2)."""
+    along = rows[:, 2:4] - rows[:, :2]
+    line = ((points - rows[:, :2]) * along).sum(axis=1) / np.maximum((along * along).sum(axis=1), 1e-300)
+    start = np.arctan2(rows[:, Y0] - rows[:, CY], rows[:, X0] - rows[:, CX])
+    sweep = np.maximum(np.abs(sweeps(rows)), 1e-300)
+    turn = (np.arctan2(points[:, 1] - rows[:, CY], points[:, 0] - rows[:, CX]) - start) * rows[:, TURN] % (2 * np.pi)
+    arc = np.where(turn <= sweep, turn / sweep, np.where(turn - sweep < 2 * np.pi - turn, 1.0, 0.0))
+    return np.clip(np.where(rows[:, TURN] == 0, line, arc), 0.0, 1.0)
+
+
+def left_of(headings: Floats) -> Floats:
+    """Return directions (n, 2) turned left by a right angle."""
+    return np.stack([-headings[:, 1], headings[:, 0]], 1)
+
+
+def line_row(a: Floats, b: Floats) -> Rows:
+    """Return the row (8,) of a straight line."""
+    return np.array([a[0], a[1], b[0], b[1], 0.0, 0.0, 0.0, 0.0])
+
+
+def keep_clear(field: DistanceField, rows: Rows, need: Floats) -> NDArray[np.bool_]:
+    """Tell for each row (n, 8) whether all of it is at least `need` (n,) mm from everything.
+
+    Distance changes by no more than the way gone, so each step of what is to spare passes nothing unseen; all rows are
+    walked at once. Where nothing is to spare, as beside the wall that a path follows, steps are 1 um.
+    """
+    size = lengths(rows)
+    at, good = np.zeros(len(rows)), np.ones(len(rows), np.bool_)
+    going = np.arange(len(rows))
+    while len(going):
+        part = np.minimum(at[going] / np.maximum(size[going], 1e-300), 1.0)
+        spare = field.nearest(points_at(rows[going], part))[0] - need[going]
+        good[going[spare < -_MISS]] = False
+        done = (at[going] >= size[going]) | (spare < -_MISS)
+        at[going] = np.minimum(at[going] + np.maximum(spare, _STEP), size[going])
+        going = going[~done]
+    return good
+
+
+def quarter_arc(begin: Floats, end: Floats, centre: Floats, turn: float) -> Rows:
+    """Return the row (8,) of an arc; turn = +1 counter-clockwise, -1 clockwise."""
+    row = np.zeros(8)
+    row[[X0, Y0]], row[[X1, Y1]], row[[CX, CY]] = begin, end, centre
+    row[R], row[TURN] = np.hypot(*(begin - centre)), turn
+    return row

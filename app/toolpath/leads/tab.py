@@ -1,0 +1,210 @@
+"""Tabs: where a path goes over bridges of metal that hold what is cut out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import points_at
+from ...model.curves import Point
+from ...model.entry import Tabs
+from ...model.finding import Finding, FindingKind
+from ...model.moves import Tab
+from ...model.operation import LEAST_LENGTH, ContourOperation
+from ...model.tool import Tool
+from .contour_path import Floats, Path, fractions_at
+from .lead import Around, Run, corners_of, reach
+
+_CORNER = 0.3
+"""Radians; a tab keeps off joints that turn more than this."""
+
+
+_FINE = 16
+"""Places to the least distance between tabs, among which the nearest to the even one is taken."""
+
+_ROUNDING = 1e-9
+
+_FAR = 5.0
+"""Tool diameters; a place by hand that is farther than this from every path is told."""
+
+
+@dataclass(frozen=True)
+class TabShape:
+    """What all tabs of an operation have in common.
+
+    Attributes:
+        wanted: what was asked for.
+        tool: the cutter.
+        top: height of their tops, mm, <= -0.001.
+    """
+
+    wanted: Tabs
+    tool: Tool
+    top: float
+
+    @staticmethod
+    def of(operation: ContourOperation, tool: Tool) -> TabShape:
+        """Return the shape of an operation's tabs; none is higher than the stock's top."""
+        return TabShape(operation.tabs, tool, min(operation.tabs.height - operation.cut.floor, -LEAST_LENGTH))
+
+    @property
+    def half(self) -> float:
+        """How far before and behind its middle a path goes over a tab, mm: half the metal, and the cutter's radius."""
+        return (self.wanted.width + self.tool.diameter) / 2
+
+
+def by_hand(paths: Sequence[Path], shape: TabShape, shifts: Sequence[Point],
+            walls: DistanceField | None) -> tuple[list[list[float]], list[Finding]]:  # fmt: skip
+    """Return for each path where tabs are put by hand, mm along it, at what is nearest to each place, on every copy; and which are not.
+
+    A path that is too short for a tab gets none; it counts where a part comes loose there.
+
+    Args:
+        walls: what the paths follow; a place goes to the wall nearest to it, and then to the path along that.
+    """
+    found: list[list[float]] = [[] for _ in paths]
+    told: list[Finding] = []
+    if not shape.wanted.places or not paths or walls is None:
+        return found, told
+    places = np.array([(x + dx, y + dy) for dx, dy in shifts for x, y in shape.wanted.places])
+    row = walls.nearest(places)[1]
+    feet = points_at(walls.rows[row], fractions_at(walls.rows[row], places))
+    near = [path.nearest(feet) for path in paths]
+    owner = np.argmin(np.array([distance for _, distance in near]), axis=0)
+    for k, path in enumerate(owner.tolist()):
+        least = 2 * shape.half + shape.tool.diameter
+        if paths[path].length > least:
+            found[path].append(float(near[path][0][k]))
+            continue
+        x, y = places[k].tolist()
+        text = (f"The tab by hand at ({x:.3f}, {y:.3f}) is left out: the path of T{shape.tool.number} {shape.tool.label} nearest to it is "
+                f"{paths[path].length:.3f} mm long, and it takes more than {least:.3f} mm.")
+        told.append(Finding(FindingKind.LEFT_OUT, text, x, y, counts=paths[path].area < 0, amount=paths[path].length))
+    return found, told
+
+
+def spread(run: Run, own: Sequence[float], shape: TabShape, around: Around) -> list[float]:
+    """Return where an operation's tabs go on a path that goes round something, mm along it, besides those that are put there by hand.
+
+    A path that clamps cut open gets as many as a whole one; open lines get none. They are spread evenly over what the leads leave, then
+    each is moved off corners as little as possible. Between two tabs at least a cutter's width is cut; where that leaves no room for all
+    of them there are fewer.
+
+    Args:
+        own: where tabs by hand are.
+        around: what the leads went by.
+    """
+    path, half, beside = run.path, shape.half, reach(around)
+    overlap = run.stop - run.start - path.length
+    free = path.length - overlap - 2 * (beside + half)
+    apart = 2 * half + shape.tool.diameter
+    count = min(shape.wanted.count, int(free / apart) + 1 if free >= 0 else 0)
+    if count <= 0 or not goes_round(path):
+        return []
+    first = run.start + overlap + beside + half
+    even = run.start + overlap / 2 + (np.arange(count) + 0.5) * path.length / count
+    if even[0] < first or even[-1] > first + free:
+        even = np.linspace(first, first + free, count) if count > 1 else np.array([first + free / 2])
+    corners = corners_of(path, around, _CORNER)
+    spans = _off_corners(path, half, corners if path.closed else np.unique([0.0, *corners]))
+    good = np.concatenate([np.append(np.arange(low, high, apart / _FINE), high) for low, high in spans])
+    good = np.concatenate([good % path.length, even[_in_spans(even, spans, path.length)] % path.length])
+    good = good[(good - first) % path.length <= free + _ROUNDING]
+    made: list[float] = []
+    for wanted in even.tolist():
+        for each in (*made, *own) if not made else made[-1:]:
+            good = good[_apart(good, each, path.length) >= apart - _ROUNDING]
+        if len(good):
+            made.append(float(good[int(np.argmin(_apart(good, wanted, path.length)))]))
+    return made
+
+
+def goes_round(path: Path) -> bool:
+    """Tell whether a path cuts something out: it is closed, or was before clamps cut it open."""
+    return path.closed or path.area != 0
+
+
+def _apart(places: Floats, other: float, length: float) -> Floats:
+    """Return how far places are from another one along a closed path, mm."""
+    return np.abs((places - other + length / 2) % length - length / 2)
+
+
+def _in_spans(places: Floats, spans: Sequence[tuple[float, float]], length: float) -> NDArray[np.bool_]:
+    within: NDArray[np.bool_] = np.any([(places - low) % length <= high - low for low, high in spans], axis=0)
+    return within
+
+
+def _off_corners(path: Path, half: float, corners: Floats) -> list[tuple[float, float]]:
+    """Return (from, to), mm along a closed path, where a tab's middle may be with no corner under it; all of it where there is none."""
+    edges = zip(corners, np.append(corners[1:], corners[:1] + path.length), strict=True)
+    return [(float(a) + half, float(b) - half) for a, b in edges if b - a >= 2 * half] or [(0.0, path.length)]
+
+
+def tabs_at(path: Path, places: Sequence[float], shape: TabShape) -> list[Tab]:
+    """Return the record of tabs on a path."""
+    points = path.points(np.array(places, dtype=np.float64))
+    return [Tab(float(x), float(y), shape.wanted.width, shape.top, shape.tool.diameter) for x, y in points]
+
+
+def about_tabs(made: Sequence[Run], tabs: Sequence[Sequence[float]], shape: TabShape, operation: ContourOperation) -> list[Finding]:
+    """Return what there is to say about tabs: which paths have fewer than asked for, and tabs that are as high as the cut is deep.
+
+    It counts where a path round a part, from which it comes loose, has none at all; of one that clamps cut open, where no piece has any.
+    """
+    findings = []
+    held = {run.path.ring for run, places in zip(made, tabs, strict=True) if places and not run.path.closed}
+    few = [(run.path, len(places)) for run, places in zip(made, tabs, strict=True)
+           if goes_round(run.path) and len(places) < shape.wanted.count]  # fmt: skip
+    for loose in (True, False):
+        which = [path for path, count in few
+                 if (count == 0 and path.area < 0 and (path.closed or path.ring not in held)) == loose]  # fmt: skip
+        if which:
+            x, y = which[0].rows[0, :2]
+            what = "no tab though a part comes loose there" if loose else f"fewer than {shape.wanted.count} tabs"
+            who = f"of T{shape.tool.number} {shape.tool.label}"
+            text = (f"1 path {who} has {what}, because it is too short for them; it begins at ({x:.3f}, {y:.3f})." if len(which) == 1 else
+                    f"{len(which)} paths {who} have {what}, because they are too short for them; the first begins at ({x:.3f}, {y:.3f}).")
+            findings.append(Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=loose, amount=float(len(which))))
+    if shape.wanted.wanted and shape.wanted.height >= operation.cut.floor:
+        findings.append(Finding(FindingKind.LEFT_OUT, f"Tabs of {shape.wanted.height:g} mm are as high as the cut is deep "
+                                f"({operation.cut.floor:g} mm), so there the whole metal stays.", counts=False))
+    return findings
+
+
+def about_far(paths: Sequence[Path], shape: TabShape, shifts: Sequence[Point]) -> list[Finding]:
+    """Return a finding for each place by hand that is far from every path, where it may not be what was meant; on copies too.
+
+    The tab is made all the same, on what is nearest, since one too many holds and one too few does not.
+    """
+    if not shape.wanted.places or not paths:
+        return []
+    findings = []
+    for x, y in shape.wanted.places:
+        points = np.array([(x + dx, y + dy) for dx, dy in shifts])
+        far = np.min([path.nearest(points)[1] for path in paths], axis=0)
+        worst = int(np.argmax(far))
+        if far[worst] > _FAR * shape.tool.diameter:
+            px, py = points[worst].tolist()
+            text = (f"The tab by hand at ({px:.3f}, {py:.3f}) is {far[worst]:.1f} mm from the nearest path of T{shape.tool.number} "
+                    f"{shape.tool.label}; it goes onto that, if it is long enough. Check its place.")
+            findings.append(Finding(FindingKind.LEFT_OUT, text, px, py, amount=float(far[worst])))
+    return findings
+
+
+def spans_of(path: Path, places: Sequence[float], half: float) -> list[tuple[float, float]]:
+    """Return (from, to) of tabs along a path, mm; on a closed one they may go past its ends."""
+    if path.closed:
+        return [(place - half, place + half) for place in places]
+    return [(max(place - half, 0.0), min(place + half, path.length)) for place in places]
+
+
+def under_tabs(path: Path, where: Floats, spans: Sequence[tuple[float, float]]) -> np.ndarray:
+    """Return (m,) whether places along a path are under a tab."""
+    found = np.zeros(len(where), np.bool_)
+    for low, high in spans:
+        found |= (where - low) % path.length < high - low if path.closed else (where >= low) & (where <= high)
+    return found

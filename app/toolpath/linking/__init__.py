@@ -1,0 +1,1 @@
+"""Rings and runs become strokes: bridges, trees, chains."""

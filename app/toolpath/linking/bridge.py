@@ -1,0 +1,226 @@
+"""Bridges between rings: where the tool can go from one ring to the next without touching a wall."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core import tolerances
+from ...geometry.distance import DistanceField
+from ...geometry.offset.offset import Level, Ring
+from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, Rows, lengths, points_at
+from ...geometry.triangulation import neighbours
+from .rows import Place
+
+
+@dataclass(frozen=True)
+class Bridge:
+    """A straight way between two rings that keeps the outermost frame's distance from all walls.
+
+    Attributes:
+        a, b: its ends.
+        length: mm.
+    """
+
+    a: Place
+    b: Place
+    length: float
+
+
+def inward_bridges(levels: Sequence[Level], halves: Sequence[Level], field: DistanceField) -> list[Bridge]:
+    """Return bridges from every ring to rings of the level before.
+
+    From any point of a level the way towards its nearest point on the drawing keeps the distance rule by
+    construction: distance falls by exactly the length gone. So each bridge is as long as the levels are apart.
+
+    Args:
+        levels: the pocket's levels, outermost first; rings are numbered through them in order.
+        halves: closed runs inside each level, numbered on after all levels.
+        field: distances from the drawing.
+    """
+    bridges: list[Bridge] = []
+    first, half_first = 0, sum(len(level.rings) for level in levels)
+    for k, outer in enumerate(levels):
+        if not outer.rings:
+            break
+        target = RingField.of(outer.rings, first)
+        first += len(outer.rings)
+        for number, some in ((first, levels[k + 1:k + 2]), (half_first, halves[k:k + 1])):
+            for inner in some:
+                for at, ring in enumerate(inner.rings, number):
+                    bridges.extend(_from_ring(ring, at, target, field, inner.distance - outer.distance))
+        half_first += sum(len(half.rings) for half in halves[k:k + 1])
+    return bridges
+
+
+@dataclass(frozen=True)
+class RingField:
+    """Distances from the rings of one level.
+
+    Attributes:
+        field: of all their rows.
+        ring, row: (n,) which ring each of these belongs to, and its number there.
+    """
+
+    field: DistanceField
+    ring: NDArray[np.int64]
+    row: NDArray[np.int64]
+
+    @staticmethod
+    def of(rings: Sequence[Ring], first: int) -> RingField:
+        """Return the field of rings, one or more, numbered from `first`."""
+        return RingField(DistanceField.of(np.concatenate([r.rows for r in rings])),
+                         np.repeat(np.arange(first, first + len(rings)), [len(r.rows) for r in rings]),
+                         np.concatenate([np.arange(len(r.rows)) for r in rings]))
+
+    def nearest(self, point: NDArray[np.float64]) -> tuple[float, Place, NDArray[np.float64]]:
+        """Return (distance, place, point there) of the nearest point (2,) of any ring."""
+        distance, rows, parts, places = self.nearest_of(point[None])
+        return float(distance[0]), self.place(int(rows[0]), float(parts[0])), places[0]
+
+    def nearest_of(self, points: NDArray[np.float64]) -> tuple[NDArray[np.float64], Indices, NDArray[np.float64], NDArray[np.float64]]:
+        """Return for points (n, 2) (distances (n,), rows of the field (n,), fractions of these (n,), points there (n, 2))."""
+        distance, found = self.field.nearest(points)
+        rows = self.field.rows[found]
+        parts = fractions_at(rows, points)
+        return distance, found, parts, points_at(rows, parts)
+
+    def place(self, row: int, part: float) -> Place:
+        """Return the place at a fraction of a row of the field."""
+        return Place(int(self.ring[row]), int(self.row[row]), part)
+
+
+def _from_ring(ring: Ring, number: int, target: RingField, field: DistanceField, step: float) -> list[Bridge]:
+    """Return the best bridge from a ring to each ring of the level before that it can reach."""
+    size = lengths(ring.rows)
+    order = np.argsort(-size)[:64]
+    points = points_at(ring.rows[order], np.full(len(order), 0.5))
+    distance, nearest = field.nearest(points)
+    feet = foot(field.rows[nearest], points)
+    arrived = points + (feet - points) * (step / distance)[:, None]
+    off, rows = target.field.nearest(arrived)
+    best: dict[int, Bridge] = {}
+    for k in range(len(order)):
+        other = int(target.ring[rows[k]])
+        if off[k] > tolerances.LEVEL or other in best:
+            continue
+        at = fraction_at(target.field.rows[rows[k]], arrived[k])
+        best[other] = Bridge(Place(number, int(order[k]), 0.5), Place(other, int(target.row[rows[k]]), at), step)
+    return list(best.values())
+
+
+def outward(ring: Ring, number: int, targets: Sequence[tuple[float, RingField]], field: DistanceField) -> list[Bridge]:
+    """Return bridges in one straight line from a ring out to the outermost level, the innermost first; none if there is no such line.
+
+    The way from a point to its nearest point on the drawing crosses all levels outside it, each as far from the next as they are.
+
+    Args:
+        number: the ring's.
+        targets: (distance from the drawing, rings there) of the levels outside the ring, outermost first.
+        field: distances from the drawing.
+    """
+    if not targets:
+        return []
+    order = np.argsort(-lengths(ring.rows))[:16]
+    points = points_at(ring.rows[order], np.full(len(order), 0.5))
+    distance, nearest = field.nearest(points)
+    feet = foot(field.rows[nearest], points)
+    for k, point in enumerate(points):
+        line, at, before = [], Place(number, int(order[k]), 0.5), float(distance[k])
+        for level, target in reversed(targets):
+            off, place, _ = target.nearest(point + (feet[k] - point) * ((distance[k] - level) / distance[k]))
+            if off > tolerances.LEVEL:
+                break
+            line.append(Bridge(at, place, before - level))
+            at, before = place, level
+        if len(line) == len(targets):
+            return line
+    return []
+
+
+def foot(rows: Rows, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the point of each row (n, 8) nearest to each point (n, 2)."""
+    return points_at(rows, fractions_at(rows, points))
+
+
+def fractions_at(rows: Rows, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the fraction in [0, 1] of each row's length (n, 8) that is nearest to each point (n, 2)."""
+    along, arm = rows[:, X1:CX] - rows[:, X0:X1], points - rows[:, X0:X1]
+    arc = rows[:, TURN] != 0
+    square = along[:, 0] * along[:, 0] + along[:, 1] * along[:, 1]
+    parts = np.clip((arm[:, 0] * along[:, 0] + arm[:, 1] * along[:, 1]) / np.where(square > 0, square, 1.0), 0.0, 1.0)
+    if arc.any():
+        rows, points = rows[arc], points[arc]
+        start, end, at = (np.arctan2(y - rows[:, CY], x - rows[:, CX]) for x, y in
+                          ((rows[:, X0], rows[:, Y0]), (rows[:, X1], rows[:, Y1]), (points[:, 0], points[:, 1])))  # fmt: skip
+        sweep, turn = ((angle - start) * rows[:, TURN] % math.tau for angle in (end, at))
+        beyond = np.where(turn - sweep < math.tau - turn, 1.0, 0.0)
+        parts[arc] = np.where(turn <= sweep, turn / np.where(sweep > 0, sweep, 1.0), beyond)
+    return parts
+
+
+def fraction_at(row: Rows, point: NDArray[np.float64]) -> float:
+    """Return the fraction in [0, 1] of a row's length that is nearest to a point."""
+    return float(fractions_at(row[None], point[None])[0])
+
+
+def level_bridges(rings: Sequence[Ring], some: Sequence[int], groups: Sequence[int], spacing: float,
+                  most: int | None = None) -> Iterator[tuple[Bridge, NDArray[np.float64]]]:
+    """Yield candidates between some rings with their ends (2, 2), shortest first; clearance is not checked.
+
+    The shortest tree through all rings is part of the Delaunay triangulation of points along them.
+
+    Args:
+        rings: all rings.
+        some: numbers of those to join.
+        groups: of all rings; what is already joined has the same number.
+        spacing: between points, mm.
+        most: candidates between any two rings, the shortest; None = all.
+    """
+    rows = np.concatenate([rings[k].rows for k in some])
+    owner = np.repeat(np.array(some), [len(rings[k].rows) for k in some])
+    number = np.concatenate([np.arange(len(rings[k].rows)) for k in some])
+    counts = np.maximum(1, np.ceil(lengths(rows) / spacing)).astype(np.int64)
+    row = np.repeat(np.arange(len(rows)), counts)
+    part = (np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts) + 0.5) / counts[row]
+    points = points_at(rows[row], part)
+    edges = neighbours(points)
+    ring = owner[row]
+    group, region = np.array(groups)[ring], np.array([r.region for r in rings])[ring]
+    apart = (group[edges[:, 0]] != group[edges[:, 1]]) & (region[edges[:, 0]] == region[edges[:, 1]])
+    edges = edges[apart]
+    size = np.hypot(*(points[edges[:, 0]] - points[edges[:, 1]]).T)
+    order = np.argsort(size, kind="stable")
+    if most is not None:
+        order = order[_rank(ring[edges[order]].min(axis=1) * len(rings) + ring[edges[order]].max(axis=1)) < most]
+    for k in order:
+        a, b = (Place(int(ring[i]), int(number[row[i]]), float(part[i])) for i in edges[k])
+        yield Bridge(a, b, float(size[k])), points[edges[k]]
+
+
+def _rank(keys: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return how many equal keys come before each."""
+    order = np.argsort(keys, kind="stable")
+    first = np.flatnonzero(np.concatenate([[True], np.diff(keys[order]) != 0])) if len(keys) else np.zeros(0, np.int64)
+    ranks = np.empty(len(keys), np.int64)
+    ranks[order] = np.arange(len(keys)) - np.repeat(first, np.diff(np.append(first, len(keys))))
+    return ranks
+
+
+def is_clear(field: DistanceField, a: np.ndarray, b: np.ndarray, distance: float) -> bool:
+    """Tell whether the straight way from a to b stays at least `distance` - 1 um from the drawing.
+
+    Distance changes by no more than the length gone, so a step of (measured - needed) cannot pass a wall unseen.
+    """
+    length = float(np.hypot(*(b - a)))
+    at = 0.0
+    while at < length:
+        spare = float(field.nearest((a + (b - a) * (at / length))[None])[0][0]) - distance
+        if spare < -tolerances.LEVEL / 2:
+            return False
+        at += max(spare, tolerances.LEVEL)
+    return True

@@ -1,0 +1,116 @@
+"""Compiled inner loops of chains: which straight ways are clear, and the nearest goals in a net of ways."""
+
+from __future__ import annotations
+
+import heapq
+import math
+
+import numpy as np
+
+from ...core.jit import kernel
+from ...geometry.kernels import nearest
+from ..cleared_kernels import keeps_off
+
+
+@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64, int64, boolean[::1])")
+def clear_ways(rows, order, nodes, ways, distance, slack, budget, out):
+    """Write for each straight way (n, 4) whether it keeps `distance` - `slack` from all rows of a tree."""
+    for k in range(len(ways)):
+        out[k] = keeps_off(rows, order, nodes, ways[k], distance, slack, budget)
+
+
+@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[::1], float64, float64, boolean[::1])")
+def clear_rows(rows, order, nodes, path, turn, distance, slack, out):
+    """Write for each row of a path (n, 8) whether it keeps `distance` - `slack` from all rows of a tree.
+
+    Distance changes by no more than the way gone, so a step as long as there is to spare passes nothing unseen.
+
+    Args:
+        turn: (n,) signed sweep of each row, radians.
+    """
+    for k in range(len(path)):
+        ax, ay, cx, cy, r = path[k, 0], path[k, 1], path[k, 4], path[k, 5], path[k, 6]
+        dx, dy = path[k, 2] - ax, path[k, 3] - ay
+        arc = path[k, 7] != 0.0
+        length = abs(turn[k]) * r if arc else math.hypot(dx, dy)
+        start = math.atan2(ay - cy, ax - cx)
+        at, out[k] = 0.0, True
+        while True:
+            part = at / length if length > 0.0 else 0.0
+            x, y = ax + dx * part, ay + dy * part
+            if arc:
+                x, y = cx + r * math.cos(start + turn[k] * part), cy + r * math.sin(start + turn[k] * part)
+            spare = nearest(rows, order, nodes, x, y, math.inf)[0] - (distance - slack)
+            if spare < slack / 4.0:
+                out[k] = False
+                break
+            if at >= length:
+                break
+            at = min(at + spare, length)
+
+
+@kernel("int64(int64[::1], int64[::1], float64[::1], int64[::1], int64[:, ::1], float64, int64, int64[:, ::1], float64[::1])")
+def nearest_goals(first, to, cost, label, sources, limit, most, found, costs):
+    """Write (source, goal) and the cost of the way for the goals nearest to each source; return how many.
+
+    Args:
+        first, to, cost: ways from each node k: to[first[k]:first[k + 1]], mm.
+        label: of each node; those of 0 or more are goals.
+        sources: (n, 2) node, and a label that is no goal for it.
+        limit: longest way, mm. most: goals a source.
+        found, costs: room for `most` a source.
+    """
+    way = np.full(len(label), math.inf)
+    touched = np.empty(len(label), np.int64)
+    count = 0
+    for s in range(len(sources)):
+        start, own, got, touches = sources[s, 0], sources[s, 1], 0, 1
+        way[start], touched[0] = 0.0, start
+        heap = [(0.0, start)]
+        while len(heap) > 0 and got < most:
+            gone, node = heapq.heappop(heap)
+            if gone > way[node]:
+                continue
+            if label[node] >= 0 and label[node] != own and node != start:
+                found[count, 0], found[count, 1], costs[count] = s, node, gone
+                count += 1
+                got += 1
+            for e in range(first[node], first[node + 1]):
+                other, total = to[e], gone + cost[e]
+                if total < way[other] and total <= limit:
+                    if way[other] == math.inf:
+                        touched[touches] = other
+                        touches += 1
+                    way[other] = total
+                    heapq.heappush(heap, (total, other))
+        for k in range(touches):
+            way[touched[k]] = math.inf
+    return count
+
+
+@kernel("int64(int64[::1], int64[::1], float64[::1], int64, int64, float64, int64[::1])")
+def cheapest_way(first, to, cost, start, goal, limit, out):
+    """Write the edges of the cheapest way from a node to another, last first; return how many (0 where there is none)."""
+    way = {start: 0.0}
+    came = {start: np.int64(-1)}
+    origin = {start: start}
+    heap = [(0.0, start)]
+    while len(heap) > 0:
+        gone, node = heapq.heappop(heap)
+        if gone > way[node]:
+            continue
+        if node == goal:
+            break
+        for e in range(first[node], first[node + 1]):
+            other, total = to[e], gone + cost[e]
+            if total <= limit and (other not in way or total < way[other]):
+                way[other], came[other], origin[other] = total, np.int64(e), node
+                heapq.heappush(heap, (total, other))
+    if goal not in way:
+        return 0
+    count, node = 0, goal
+    while node != start:
+        out[count] = came[node]
+        count += 1
+        node = origin[node]
+    return count

@@ -1,0 +1,230 @@
+"""Chains: open runs joined to as few strokes as can be, over ground that is cut or along the rings, so that the tool seldom lifts.
+
+Always the two ends that are nearest to one another on the net of ways are joined, the end of one run to the beginning of another where
+runs have a sense. Ways become longer than else where that leaves more chains than if all runs went either way. A chain begins on ground
+that is cut, where there is any within its reach, so that the tool goes straight down there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.progress import NO_PROGRESS, Progress
+from ...geometry.primitives import Indices, Rows
+from ...model.moves import Purpose
+from ..build import Stroke
+from . import chain_kernels
+from .chain_net import Corridor, Net
+from .rest_runs import Chunks, Run
+
+_MOST = 6
+"""Ends nearest to each that are looked at before ends farther off."""
+
+_FAR = 24
+"""Places that a way is tried to be led past in one go."""
+
+Floats = NDArray[np.float64]
+
+
+def chains(chunks: Chunks, runs: list[Run], corridor: Corridor, longest: float, progress: Progress = NO_PROGRESS) -> tuple[Stroke, ...]:
+    """Return strokes that run through all runs.
+
+    Args:
+        chunks: the rings that runs are on.
+        longest: way from one run to the next, mm; where there is none as short the tool lifts. Metal counts half as much again.
+    """
+    if not runs:
+        return ()
+    progress.step(0.0, "Ways between runs")
+    net = Net.of(chunks, runs, corridor, longest)
+    progress.step(0.5, "Chaining runs")
+    tied = _tied(net, np.array([run.sense for run in runs]), longest, progress)
+    thread = _Thread(chunks, runs, corridor, net, longest)
+    return tuple(proven for chain in tied.chains() for proven in _proven(thread.stroke(*chain), corridor))
+
+
+def _tied(net: Net, senses: Indices, longest: float, progress: Progress) -> _Ties:
+    """Return runs joined until no two ends are near enough, or as many chains are left as of runs without senses."""
+    tied, fewest = _Ties.of(senses), 0
+    for limit in (longest, np.inf):
+        while tied.count > fewest and tied.add(_candidates(net, tied, limit), fewest):
+            progress.step(0.6, "Chaining runs")
+        if not senses.any():
+            break
+        fewest = fewest or _tied(net, np.zeros_like(senses), longest, progress).count
+    return tied
+
+
+def _proven(stroke: Stroke, corridor: Corridor) -> list[Stroke]:
+    """Return the parts of a stroke whose rows all keep off the walls: all of it, unless a ring was wrong."""
+    good = corridor.clear_rows(stroke.rows)
+    if good.all():
+        return [stroke]
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]))).reshape(-1, 2)
+    return [stroke.part(int(a), int(b)) for a, b in edges]
+
+
+@dataclass(eq=False)
+class _Ties:
+    """Which ends of runs are joined: end 2 k is the beginning, 2 k + 1 the end of run k.
+
+    Attributes:
+        mate: end that each is joined to, -1 = none.
+        group: towards the number of the chain that each run is in.
+        other: of an end of a chain, the chain's other one.
+        role: of an end of a chain: +1 it is cut from here on, -1 up to here, 0 either.
+    """
+
+    mate: Indices
+    group: Indices
+    other: Indices
+    role: Indices
+
+    @staticmethod
+    def of(senses: Indices) -> _Ties:
+        """Return runs with these senses, each a chain by itself."""
+        count = len(senses)
+        role = np.stack([senses, -senses], 1).reshape(-1)
+        return _Ties(np.full(2 * count, -1), np.arange(count), np.arange(2 * count) ^ 1, role)
+
+    @property
+    def count(self) -> int:
+        """Chains."""
+        return int(np.count_nonzero(self.mate < 0)) // 2
+
+    def find(self, run: int) -> int:
+        """Return the number of the chain that a run is in."""
+        while self.group[run] != run:
+            self.group[run] = self.group[self.group[run]]
+            run = int(self.group[run])
+        return run
+
+    def add(self, pairs: Indices, fewest: int) -> bool:
+        """Join pairs (n, 2) of ends, the last of a chain and the first of another one, where both are free; tell whether any was.
+
+        Args:
+            pairs: the first ones first.
+            fewest: chains, when there are so few no more are joined.
+        """
+        count = self.count
+        any_new = False
+        for a, b in pairs.tolist():
+            one, other = self.find(a // 2), self.find(b // 2)
+            if one == other or self.mate[a] >= 0 or self.mate[b] >= 0 or self.role[a] > 0 or self.role[b] < 0 or count == fewest:
+                continue
+            sense = min(self.role[a], -self.role[b])
+            ends = self.other[a], self.other[b]
+            self.mate[a], self.mate[b] = b, a
+            self.other[ends[0]], self.other[ends[1]] = ends[1], ends[0]
+            self.role[ends[0]], self.role[ends[1]] = -sense, sense
+            self.group[one] = other
+            any_new, count = True, count - 1
+        return any_new
+
+    def chains(self) -> list[tuple[list[int], bool]]:
+        """Return each chain as the ends at which its runs begin, one after the other, and whether that is its sense."""
+        done, chains = np.zeros(len(self.group), np.bool_), []
+        ends = np.flatnonzero(self.mate < 0)
+        for end in ends[np.argsort(-self.role[ends], kind="stable")].tolist():
+            chain: list[int] = []
+            sense = bool(self.role[end] > 0)
+            while end >= 0 and not done[end // 2]:
+                done[end // 2] = True
+                chain.append(end)
+                end = int(self.mate[end ^ 1])
+            if chain:
+                chains.append((chain, sense))
+        return chains
+
+
+def _candidates(net: Net, tied: _Ties, longest: float) -> Indices:
+    """Return pairs of free ends, the last of a chain and the first of another, those with the cheapest ways between them first."""
+    free = np.flatnonzero(tied.mate < 0)
+    goals, free = free[tied.role[free] >= 0], free[tied.role[free] <= 0]
+    chain = np.array([tied.find(end // 2) for end in free.tolist()], np.int64)
+    place = net.ends.reshape(-1)
+    label = np.full(len(net.places), -1)
+    label[place[goals]] = [tied.find(end // 2) for end in goals.tolist()]
+    first = np.full(len(net.places), -1)
+    first[place[goals]] = goals
+    here = np.stack([free, first[place[free]], np.zeros(len(free), np.int64)], 1)  # ends that share a place with another one
+    here = here[(here[:, 1] >= 0) & (here[:, 0] != here[:, 1])]
+    sources = np.ascontiguousarray(np.stack([place[free], chain], 1))
+    found, costs = np.empty((_MOST * len(free), 2), np.int64), np.empty(_MOST * len(free))
+    count = chain_kernels.nearest_goals(net.first, net.to, net.cost, label, sources, longest, _MOST, found, costs)
+    pairs = np.concatenate([here[:, :2], np.stack([free[found[:count, 0]], first[found[:count, 1]]], 1)])
+    order = np.argsort(np.concatenate([np.zeros(len(here)), costs[:count]]), kind="stable")
+    return np.asarray(pairs[order], np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class _Thread:
+    """Makes the path of a chain."""
+
+    chunks: Chunks
+    runs: list[Run]
+    corridor: Corridor
+    net: Net
+    longest: float
+
+    def stroke(self, chain: list[int], sense: bool) -> Stroke:
+        """Return the stroke through runs, each given by the end at which it begins.
+
+        Args:
+            sense: False: it may as well be cut the other way. Otherwise it is only where it begins on cut ground that way alone.
+        """
+        back = [end ^ 1 for end in reversed(chain)]
+        (way, cost), other = self._way_down(chain[0]), self._way_down(back[0])
+        if other[1] < cost and (not sense or np.isinf(cost)):
+            chain, way = back, other[0]
+        rows, purpose = [], []
+
+        def take(part: Rows, what: Purpose) -> None:
+            rows.append(part)
+            purpose.append(np.full(len(part), what, np.uint8))
+
+        take(self._pulled(way), Purpose.LINK)
+        for k, end in enumerate(chain):
+            if k:
+                take(self._pulled(self.net.way(self._place(chain[k - 1] ^ 1), self._place(end), np.inf)), Purpose.LINK)
+            run = self.runs[end // 2]
+            take(self.chunks.path(run.chunk, run.count, backwards=bool(end & 1)), Purpose.POCKET)
+        path = np.concatenate(rows)
+        path[1:, :2] = path[:-1, 2:4]
+        ring = int(np.searchsorted(self.chunks.first, self.runs[chain[0] // 2].chunk, "right")) - 1
+        return Stroke(path, np.concatenate(purpose), int(self.chunks.region[ring]))
+
+    def _place(self, end: int) -> int:
+        return int(self.net.ends[end // 2, end % 2])
+
+    def _way_down(self, end: int) -> tuple[Indices, float]:
+        """Return the edges from the nearest place on ground that is cut to an end of a run, and what they cost; inf where there is none."""
+        start, none = self._place(end), np.zeros(0, np.int64)
+        found, costs = np.empty((1, 2), np.int64), np.empty(1)
+        if self.net.air[start]:
+            return none, 0.0
+        label = np.where(self.net.air, 0, -1)
+        count = chain_kernels.nearest_goals(self.net.first, self.net.to, self.net.cost, label, np.array([[start, -1]]), self.longest, 1,
+                                            found, costs)
+        return (self.net.way(int(found[0, 1]), start, np.inf), float(costs[0])) if count else (none, np.inf)
+
+    def _pulled(self, edges: Indices) -> Rows:
+        """Return the rows of a way, with straight ways past places where these are as clear."""
+        net, rows, k = self.net, [np.zeros((0, 8))], 0
+        stops = np.append(net.come_from[edges], net.to[edges[-1:]])
+        while k < len(edges):
+            ahead = np.arange(min(len(edges), k + _FAR), k + 1, -1)
+            ways = np.hstack([np.broadcast_to(net.places[stops[k]], (len(ahead), 2)), net.places[stops[ahead]]])
+            good = self.corridor.clear(ways)
+            air = np.logical_and.accumulate(net.air[stops[k:]])[ahead - k]
+            good &= ~air | self.corridor.in_air(ways)
+            if good.any():
+                k = int(ahead[np.argmax(good)])
+                rows.append(np.array([[*ways[np.argmax(good)], 0.0, 0.0, 0.0, 0.0]]))
+                continue
+            rows.append(net.rows(self.chunks, int(edges[k])))
+            k += 1
+        return np.concatenate(rows)

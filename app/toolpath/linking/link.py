@@ -1,0 +1,168 @@
+"""One stroke: rings joined by a tree of bridges, and walked so that the tool never lifts (step 143).
+
+The walk starts on the innermost ring and goes outwards where it can, so the tool widens what is already cut; or the other
+way round, from the outermost frame inwards. A ring that is reached from inside has its metal on the wall side, one reached
+from outside has it inside: climb milling takes the first in the ring's own direction and the second the other way round.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from ...geometry.distance import DistanceField
+from ...geometry.offset.offset import Level, Ring
+from ...model.operation import Direction
+from ..build import Stroke
+from .bridge import Bridge, RingField, inward_bridges, is_clear, level_bridges, outward
+from .runs import NOTHING, Filling
+from .tree import Tree
+from .walk import Walk, Walked
+
+_TRIED = 32
+"""Bridges between two rings that are looked at before they are taken to have none."""
+
+
+@dataclass(frozen=True)
+class Manner:
+    """How rings are cut.
+
+    Attributes:
+        direction: climb or conventional.
+        outside_in: begin at the walls, not inside.
+    """
+
+    direction: Direction = Direction.CLIMB
+    outside_in: bool = False
+
+
+def link(levels: Sequence[Level], field: DistanceField, manner: Manner, filling: Filling = NOTHING,
+         step: float = 0.0) -> tuple[Stroke, ...]:  # fmt: skip
+    """Return as few strokes as there are connected areas that the tool's centre can be in.
+
+    Args:
+        levels: rings of the pocket tool, outermost first.
+        field: distances from the drawing.
+        filling: what cuts all that the levels leave.
+        step: between levels, mm, where it is no more than the tool's radius: then ways between rings save pieces of them; 0 = none is.
+    """
+    if not levels:
+        return ()
+    rings = [ring for level in (*levels, *filling.halves) for ring in level.rings]
+    depth = [float(k) for k, level in enumerate(levels) for _ in level.rings]
+    depth += [k + 0.5 for k, level in enumerate(filling.halves) for _ in level.rings]
+    bridges = inward_bridges(levels, filling.halves, field)
+    areas = sum(ring.area > 0 for ring in levels[0].rings)
+    tree = _grown(_Apart(rings, Tree(len(rings)), areas), bridges, levels, field)
+    lines = _lines_out(tree.roots(depth), _Numbered(rings, depth), levels, field)
+    bridges = [*(bridge for line in lines.values() for bridge in line), *bridges]
+    tree = _grown(_Apart(rings, Tree(len(rings)), areas), bridges, levels, field)
+    return _strokes(Walked(rings, depth, tree, filling.trips, (field, levels[0].distance), step), manner, lines)
+
+
+def _grown(apart: _Apart, bridges: Sequence[Bridge], levels: Sequence[Level], field: DistanceField) -> Tree:
+    for bridge in bridges:
+        apart.tree.add(bridge)
+    _join_across(levels, apart, field)
+    return apart.tree
+
+
+def _lines_out(roots: Sequence[int], walked: _Numbered, levels: Sequence[Level], field: DistanceField) -> dict[int, list[Bridge]]:
+    """Return the straight line of bridges from each root out to the outermost level, innermost first; roots without one have none."""
+    deep = max((walked.depth[root] for root in roots), default=0.0)
+    first, targets = 0, []
+    for k, level in enumerate(levels):
+        if k < deep:
+            targets.append((level.distance, RingField.of(level.rings, first)))
+        first += len(level.rings)
+    return {root: outward(walked.rings[root], root, targets[:math.ceil(walked.depth[root])], field) for root in roots}
+
+
+def link_by_proof(levels: Sequence[Level], field: DistanceField, direction: Direction, spacing: float) -> tuple[Stroke, ...]:
+    """Return few strokes through rings that are no exact levels, such as those of pixels.
+
+    Between such rings no bridge is clear by construction, so every bridge, shortest first, is proven clear step by step.
+
+    Args:
+        levels: rings of the pocket tool, outermost first; bridges keep the outermost one's distance.
+        field: distances from the walls.
+        spacing: between points of rings that bridges may begin at, mm.
+    """
+    rings = [ring for level in levels for ring in level.rings]
+    tree = Tree(len(rings))
+    if levels:
+        apart = _Apart(rings, tree, sum(ring.area > 0 for ring in levels[0].rings))
+        _join(range(len(rings)), apart, (field, levels[0].distance), (spacing, _TRIED))
+    depth = [float(k) for k, level in enumerate(levels) for _ in level.rings]
+    return _strokes(Walked(rings, depth, tree, (), (field, levels[0].distance if levels else 0.0)), Manner(direction), {})
+
+
+def _strokes(walked: Walked, manner: Manner, lines: Mapping[int, Sequence[Bridge]]) -> tuple[Stroke, ...]:
+    """Return the walks through all trees of a forest.
+
+    Args:
+        lines: bridges that a tree's walk goes along, by root; the longest way through the tree where there are none.
+    """
+    walk = Walk(walked, manner.direction, manner.outside_in)
+    return tuple(walk.stroke(root, lines.get(root, ())) for root in walked.tree.roots(walked.depth))
+
+
+@dataclass(frozen=True)
+class _Numbered:
+    """All rings, and how far inside each is: the number of its level."""
+
+    rings: Sequence[Ring]
+    depth: Sequence[float]
+
+
+@dataclass
+class _Apart:
+    """Rings that should be in as many groups as there are connected areas.
+
+    Attributes:
+        rings: all of them. tree: over them.
+        areas: rings of the outermost level that turn left.
+    """
+
+    rings: Sequence[Ring]
+    tree: Tree
+    areas: int
+
+    @property
+    def groups(self) -> list[int]:
+        """Group of each ring."""
+        return [self.tree.group(k) for k in range(len(self.rings))]
+
+    @property
+    def too_many(self) -> int:
+        """Groups more than there are areas."""
+        return len(set(self.groups)) - self.areas
+
+
+def _join_across(levels: Sequence[Level], apart: _Apart, field: DistanceField) -> None:
+    """Join what bridges from level to level left apart, over ridges: between rings with nothing inside, outermost ones, or any."""
+    depth = [k for k, level in enumerate(levels) for _ in level.rings]
+    tops = [k for k in range(len(depth)) if all(there.ring >= len(depth) or depth[there.ring] <= depth[k]
+                                                for _, there, _ in apart.tree.neighbours[k])]  # fmt: skip
+    for some in (tops, range(len(levels[0].rings)), range(len(apart.rings))):
+        _join(some, apart, (field, levels[0].distance), (levels[0].distance / 4, None))
+
+
+def _join(some: Sequence[int], apart: _Apart, clear: tuple[DistanceField, float], spacing: tuple[float, int | None]) -> None:
+    """Join groups of rings by the shortest bridges between some of them that are clear, until there are no more than areas.
+
+    Args:
+        clear: distances from the walls, and which of them bridges keep, mm.
+        spacing: between points that bridges may begin at, mm; bridges between two rings that are tried, None = all.
+    """
+    too_many = apart.too_many
+    if too_many <= 0 or len(some) < 2:
+        return
+    groups = apart.groups
+    for bridge, (a, b) in level_bridges(apart.rings, some, groups, *spacing):
+        if not apart.tree.joined(bridge) and is_clear(clear[0], a, b, clear[1]):
+            apart.tree.add(bridge)
+            too_many -= 1
+            if too_many == 0:
+                return

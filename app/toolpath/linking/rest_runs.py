@@ -1,0 +1,224 @@
+"""The pieces of rings that clear what is left: rings in short rows, and as few and as short runs of these as do."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...geometry.distance import DistanceField
+from ...geometry.offset.offset import Level
+from ...geometry.primitives import X1, Y1, Indices, Rows, lengths, points_at, reversed_rows
+from .. import rest_kernels
+from ..rest_left import Reach
+
+_LONGEST = 6.0
+"""Radii; runs are chosen in pieces of this length, and those side by side joined again."""
+
+_TO_GET_THERE = 6.0
+"""Radii of way that a run costs besides its own."""
+
+_AS_NEAR = 2e-3
+"""mm; rows no farther from a cell than this and the nearest one clear it as well: both sides of a ring there and back do."""
+
+_MOST_BUCKETS = 1_000_000
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Chunks:
+    """Rings, cut into short rows.
+
+    Attributes:
+        rows: (n, 8), ring by ring, each beginning where the one before ends.
+        source: (n,) number of the row that each is a piece of.
+        size: (n,) length of each, mm.
+        first: (m + 1,) number of the first row of each ring.
+        level: (m,) number of its level. region: (m,) number of its region.
+    """
+
+    rows: Rows
+    source: Indices
+    size: Floats
+    first: Indices
+    level: Indices
+    region: Indices
+
+    @staticmethod
+    def of(levels: Sequence[Level], longest: float) -> Chunks:
+        """Return the rings of levels in rows no longer than `longest`, mm."""
+        rings = [ring for level in levels for ring in level.rings]
+        rows = np.concatenate([np.zeros((0, 8)), *(ring.rows for ring in rings)])
+        count = np.maximum(1, np.ceil(lengths(rows) / longest)).astype(np.int64)
+        source = np.repeat(np.arange(len(rows)), count)
+        before = np.cumsum(count) - count
+        part = np.arange(len(source)) - np.repeat(before, count)
+        cut = rows[source]
+        cut[:, :2] = points_at(cut, part / count[source])
+        last = part + 1 == count[source]
+        cut[:-1, 2:4] = np.where(last[:-1, None], cut[:-1, 2:4], cut[1:, :2])
+        starts = np.concatenate([[0], np.cumsum([len(ring.rows) for ring in rings])]).astype(np.int64)
+        first = np.append(before, len(source))[starts]
+        level = np.repeat(np.arange(len(levels)), [len(level.rings) for level in levels])
+        region = np.array([ring.region for ring in rings], np.int64)
+        return Chunks(np.ascontiguousarray(cut), source, lengths(cut), first, level, region)
+
+    @property
+    def ring(self) -> Indices:
+        """(n,) number of the ring of each row."""
+        return np.repeat(np.arange(len(self.first) - 1), np.diff(self.first))
+
+    def after(self, chunk: int, count: int) -> int:
+        """Return the row that comes so many after another one, round and round its ring."""
+        ring = int(np.searchsorted(self.first, chunk, "right")) - 1
+        low, high = int(self.first[ring]), int(self.first[ring + 1])
+        return low + (chunk - low + count) % (high - low)
+
+    def path(self, chunk: int, count: int, backwards: bool = False) -> Rows:
+        """Return the way (k, 8) along so many rows from one on; pieces of one row are one again."""
+        ring = int(np.searchsorted(self.first, chunk, "right")) - 1
+        low, high = int(self.first[ring]), int(self.first[ring + 1])
+        index = low + (chunk - low + np.arange(count)) % (high - low)
+        new = np.concatenate([[True], (np.diff(self.source[index]) != 0) | (np.diff(index) != 1)])
+        rows = self.rows[index[new]]
+        rows[:, [X1, Y1]] = self.rows[index[np.concatenate([new[1:], [True]])]][:, [X1, Y1]]
+        return reversed_rows(rows) if backwards else rows
+
+
+@dataclass(frozen=True)
+class Run:
+    """A piece of a ring to be cut: so many short rows from one on.
+
+    Attributes:
+        sense: +1 it is cut in the ring's own direction, -1 the other way, 0 either way.
+    """
+
+    chunk: int
+    count: int
+    sense: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """Cells in which metal is left.
+
+    Attributes:
+        centres: (n, 2) mm.
+        need: (n,) how near a run must come to the centre of each, mm.
+    """
+
+    centres: Floats
+    need: Floats
+
+    @staticmethod
+    def of(centres: Floats, cutting: Rows, within: float) -> Cells:
+        """Return cells that are cleared by runs within a distance, mm, or by the row nearest to them if none is as near.
+
+        Args:
+            cutting: (n, 8) all rows that there are to choose from, n > 0.
+        """
+        nearest = DistanceField.of(cutting).nearest(centres)[0]
+        return Cells(centres, np.maximum(within, nearest + _AS_NEAR))
+
+
+def runs(chunks: Chunks, cutting: NDArray[np.bool_], cells: Cells, radius: float) -> list[Run]:
+    """Return runs that clear all cells, each time the one that clears most for its length.
+
+    Args:
+        cutting: (n,) which rows cut anything.
+        radius: of the cutter, mm.
+    """
+    kept = np.flatnonzero(cutting)
+    buckets = _Buckets.of(cells, radius)
+    seen = np.empty(len(kept), np.bool_)
+    rest_kernels.sees_any(np.ascontiguousarray(chunks.rows[kept]), *buckets.arrays, seen)
+    order, group = _in_order(chunks, kept[seen])
+    if not len(order):
+        return []
+    rows, size = np.ascontiguousarray(chunks.rows[order]), chunks.size[order]
+    spans = _spans(group, size, _LONGEST * radius)
+    chosen = np.empty((len(spans), 2), np.int64)
+    count = rest_kernels.choose(rows, size, spans, *buckets.arrays, chosen)
+    return _joined(chosen[:count], order, group)
+
+
+def all_runs(chunks: Chunks, cutting: NDArray[np.bool_], cells: Cells, reach: Reach) -> list[Run]:
+    """Return all pieces of rings that cut anything within the cutter's radius of some cell."""
+    kept = np.flatnonzero(cutting)
+    buckets = _Buckets.of(Cells(cells.centres, np.full(len(cells.centres), reach.radius + reach.corner)), reach.radius)
+    seen = np.empty(len(kept), np.bool_)
+    rest_kernels.sees_any(np.ascontiguousarray(chunks.rows[kept]), *buckets.arrays, seen)
+    order, group = _in_order(chunks, kept[seen])
+    edges = np.flatnonzero(np.concatenate([[True], np.diff(group) != 0, [True]])) if len(order) else np.zeros(1, np.int64)
+    return [Run(int(order[a]), b - a) for a, b in pairwise(edges.tolist())]
+
+
+def _in_order(chunks: Chunks, kept: Indices) -> tuple[Indices, Indices]:
+    """Return (rows, number of the group of each): groups of rows that follow one another round a ring, in their order."""
+    order, groups, number = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)], 0
+    ring = chunks.ring[kept]
+    for each in np.split(kept, np.flatnonzero(np.diff(ring)) + 1) if len(kept) else ():
+        gap = np.diff(each) != 1
+        of = int(np.searchsorted(chunks.first, each[0], "right")) - 1
+        whole = each[0] == chunks.first[of] and each[-1] == chunks.first[of + 1] - 1
+        group = np.concatenate([[0], np.cumsum(gap)])
+        if whole and gap.any():  # the last group goes on into the first one
+            turn = int(np.count_nonzero(group == group[-1]))
+            each, group = np.roll(each, turn), np.where(np.roll(group, turn) == group[-1], 0, np.roll(group, turn))
+        order.append(each)
+        groups.append(group + number)
+        number += int(group.max()) + 1
+    return np.concatenate(order), np.concatenate(groups)
+
+
+def _spans(group: Indices, size: Floats, longest: float) -> Indices:
+    """Return (n, 2) first and last + 1 of equal pieces of groups, none much longer than `longest`, mm."""
+    edges = np.flatnonzero(np.concatenate([[True], np.diff(group) != 0, [True]]))
+    spans = []
+    for a, b in pairwise(edges.tolist()):
+        pieces = min(b - a, max(1, math.ceil(float(size[a:b].sum()) / longest)))
+        cuts = a + np.round(np.linspace(0, b - a, pieces + 1)).astype(np.int64)
+        spans.append(np.stack([cuts[:-1], cuts[1:]], 1))
+    return np.concatenate(spans)
+
+
+def _joined(chosen: Indices, order: Indices, group: Indices) -> list[Run]:
+    """Return chosen pieces as runs; those side by side are one."""
+    runs: list[Run] = []
+    last = -1
+    for a, b in sorted(map(tuple, chosen.tolist())):
+        if runs and a == last and group[a] == group[a - 1]:
+            runs[-1] = Run(runs[-1].chunk, runs[-1].count + b - a)
+        else:
+            runs.append(Run(int(order[a]), b - a))
+        last = b
+    return runs
+
+
+@dataclass(frozen=True, eq=False)
+class _Buckets:
+    """Cells sorted into squares, for kernels."""
+
+    arrays: tuple[Floats, Floats, Indices, Floats]
+
+    @staticmethod
+    def of(cells: Cells, radius: float) -> _Buckets:
+        centres = cells.centres
+        x0, y0 = centres.min(axis=0)
+        wide, high = (np.ptp(centres, axis=0) + radius).tolist()
+        side = max(radius / 4, math.sqrt(wide * high / _MOST_BUCKETS))
+        column, row = ((centres - [x0, y0]) / side).astype(np.int64).T
+        wide, high = int(column.max()) + 1, int(row.max()) + 1
+        order = np.argsort(row * wide + column, kind="stable")
+        counts = np.bincount(row * wide + column, minlength=wide * high)
+        before = np.concatenate([[0], np.cumsum(counts)])
+        starts = np.empty((high, wide + 1), np.int64)
+        starts[:, :wide] = before[:-1].reshape(high, wide)
+        starts[:, wide] = before[wide::wide]
+        grid = np.array([x0, y0, side, float(cells.need.max()), _TO_GET_THERE * radius])
+        return _Buckets((np.ascontiguousarray(centres[order]), np.ascontiguousarray(cells.need[order]), starts, grid))

@@ -1,0 +1,315 @@
+"""Runs between rings farther apart than half the tool: what rings leave uncut, and the short ways that cut it.
+
+Let A(d) be all points at distance d or more from the walls, L the distance of a ring and s the stepover. Rings at L and
+L + s leave U = {L + R < D < L + s} without what the tool sweeps round A(L + s). Be h = L + s - a with
+a = max(s - R, R²/(L + s)): from a point p of U the way to its nearest wall meets level h at a point q not farther than
+a <= R. If a point x of A(L + s) were within R of q it would be within R of p: x is L + s or more from the wall's point w, so
+(x - q) n >= ((L + s)² - R² - h²) / 2h >= a/2 with n the direction from w to q and p, and |x - p| <= |x - q| for every p
+between q and q + a n. So q is on a part of level h that rings leave uncovered, and a run along those parts cuts all of U:
+total cover for every s <= 2R, proven along lines and arcs in closed form, nothing sampled.
+
+A part need not be run along: a straight way covers U where it comes within R of the corners of squares that hold all of U, since
+the swath of a straight way is convex. The squares are those of a quad tree that rings are not proven to cover and from which a
+part of level h is no farther than they are inside of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from ...geometry.distance import DistanceField
+from ...geometry.near_points import groups, pairs_within
+from ...geometry.offset.offset import Level, Ring
+from ...geometry.primitives import Indices, Rows, lengths, points_at, reversed_rows, sample
+from ..coverage import uncut_kernels
+from . import runs_kernels
+from .bridge import RingField, is_clear
+from .rows import Place, part_of, straight
+
+TOUCH = 1e-6
+"""mm by which a point may be farther from a ring than the tool's radius and still counts as cut by it."""
+
+_CHORD = 1e-3
+"""Of the radius: chords of parts stay so near to them, and so much is spared where ways cover them."""
+
+_FINEST = 64
+"""Half sides of the smallest squares go so many times into the radius."""
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Trip:
+    """A way from a place of a ring to what rings leave, and back to that place.
+
+    Attributes:
+        place: where it begins and ends.
+        rows: (n, 8), each beginning where the one before ends.
+        cuts: (n,) True where it cuts, False where it only leads to a cut or back from it.
+        length: mm.
+    """
+
+    place: Place
+    rows: Rows
+    cuts: NDArray[np.bool_]
+
+    @property
+    def length(self) -> float:
+        """mm."""
+        return float(lengths(self.rows).sum())
+
+
+@dataclass(frozen=True, eq=False)
+class Filling:
+    """What cuts all that some levels leave.
+
+    Attributes:
+        halves: closed runs just inside each level, aligned with the levels.
+        trips: the others.
+    """
+
+    halves: tuple[Level, ...] = ()
+    trips: tuple[Trip, ...] = ()
+
+    @property
+    def length(self) -> float:
+        """mm."""
+        return sum(ring.length for half in self.halves for ring in half.rings) + sum(trip.length for trip in self.trips)
+
+
+NOTHING = Filling()
+
+
+@dataclass(frozen=True, eq=False)
+class _Gap:
+    """A part of a ring between two levels that neither of them covers."""
+
+    rows: Rows
+    closed: bool
+    ring: Ring
+
+    def points(self, chord: float) -> Floats:
+        return np.concatenate([sample(self.rows, chord), self.rows[-1:, 2:4]])
+
+
+def between(distances: Sequence[float], stepover: float, radius: float) -> tuple[float, ...]:
+    """Return for each level's distance that of the level inside it along which runs go; none where rings cover all, mm.
+
+    Args:
+        stepover: of the levels, mm, at most 2 radius.
+        radius: of the tool, mm.
+    """
+    if stepover <= radius:
+        return ()
+    return tuple(level + stepover - max(stepover - radius, radius**2 / (level + stepover)) for level in distances)
+
+
+def fill(levels: Sequence[Level], halves: Sequence[Level], field: DistanceField, radius: float) -> Filling:
+    """Return closed runs and trips that cut all that the levels leave.
+
+    Args:
+        levels: rings, outermost first.
+        halves: the levels `between` them, one inside each.
+        field: distances from the walls; the outermost level's is kept.
+        radius: of the tool, mm.
+    """
+    rings: list[Level] = []
+    trips: list[Trip] = []
+    first, clear = 0, (field, levels[0].distance if levels else 0.0)
+    for level, half, inner in zip(levels, halves[:len(levels)], [*levels[1:], None], strict=True):
+        count = len(level.rings)
+        sides = [RingField.of(level.rings, first)] if count else []
+        if inner is not None and inner.rings:
+            sides.append(RingField.of(inner.rings, first + count))
+        closed, found = _Space(sides, clear, radius).filled(half, inner)
+        rings.append(Level(half.distance, tuple(closed)))
+        trips += found
+        first += count
+    return Filling(tuple(rings), tuple(trips))
+
+
+def gaps_of(half: Level, inner: Level | None, radius: float) -> list[_Gap]:
+    """Return the parts of rings between two levels that the inner one's rings do not cover."""
+    if inner is None or not inner.rings:
+        return [_Gap(ring.rows, True, ring) for ring in half.rings]
+    path = DistanceField.of(np.concatenate([ring.rows for ring in inner.rings]))
+    gaps: list[_Gap] = []
+    for ring in half.rings:
+        found, count = runs_kernels.uncovered(np.ascontiguousarray(ring.rows), path.rows, path.order, path.nodes, path.boxes,
+                                              radius + TOUCH)
+        gaps += _connected(ring, found[:count])
+    return gaps
+
+
+def _connected(ring: Ring, parts: Floats) -> list[_Gap]:
+    """Return parts (n, 3) of a ring's rows, in order, with those that follow one another joined."""
+    if not len(parts):
+        return []
+    count = len(ring.rows)
+    before = np.roll(parts, 1, axis=0)
+    follows = ((before[:, 0] + 1) % count == parts[:, 0] % count) & (before[:, 2] == 1) & (parts[:, 1] == 0)
+    if follows.all() and len(parts) == count:
+        return [_Gap(ring.rows, True, ring)]
+    turned = -int(np.argmin(follows))
+    parts, follows = np.roll(parts, turned, axis=0), np.roll(follows, turned)
+    starts = np.append(np.flatnonzero(~follows), len(parts))
+    return [_Gap(np.concatenate([part_of(ring.rows[int(row)], u, v) for row, u, v in parts[a:b]]), False, ring)
+            for a, b in pairwise(starts)]
+
+
+class _Space:
+    """Between a level and the one inside it: the rings that trips start from, and what they keep clear of."""
+
+    def __init__(self, sides: Sequence[RingField], clear: tuple[DistanceField, float], radius: float) -> None:
+        self._sides, self._walls, self._radius = sides, clear, radius
+
+    def filled(self, half: Level, inner: Level | None) -> tuple[list[Ring], list[Trip]]:
+        """Return (closed runs, trips) for all gaps of a level between two."""
+        rings: list[Ring] = []
+        trips: list[Trip] = []
+        reach = 2 * (inner.distance - half.distance if inner else self._radius)
+        groups = self._groups(gaps_of(half, inner, self._radius), reach)
+        points = [np.concatenate([uncut, *(gap.points(_CHORD * self._radius) for gap in group)])
+                  for group, uncut in zip(groups, self._uncut(groups, half, inner), strict=True)]
+        corners = [shapely.get_coordinates(shapely.convex_hull(shapely.multipoints(each))) for each in points]
+        for group, spur in zip(groups, self._spurs(corners), strict=True):
+            if spur is not None:
+                trips.append(spur)
+                continue
+            runs = [gap.rows for gap in group if not gap.closed]
+            rings += [gap.ring for gap in group if gap.closed]
+            alone = [self._run(run) for run in runs]
+            both = self._round(runs) if len(runs) == 2 else None
+            trips += [both] if both and both.length < sum(trip.length for trip in alone) else alone
+        return rings, trips
+
+    def _uncut(self, groups: Sequence[Sequence[_Gap]], half: Level, inner: Level | None) -> list[Floats]:
+        """Return for each group of gaps the corners (n, 2) of squares that hold all that is uncut beyond them."""
+        if not groups or inner is None or not inner.rings:
+            return [np.zeros((0, 2)) for _ in groups]
+        gaps = [gap.rows for group in groups for gap in group]
+        owner = np.repeat(np.arange(len(groups)), [sum(len(gap.rows) for gap in group) for group in groups])
+        beside, walls = DistanceField.of(np.concatenate(gaps)), self._walls[0]
+        path = DistanceField.of(np.concatenate([ring.rows for ring in inner.rings]))
+        radii = np.full(len(path.rows), self._radius)
+        found, count = runs_kernels.squares_beyond(
+            walls.rows, walls.order, walls.nodes, beside.rows, beside.order, beside.nodes, path.rows, path.order, path.nodes, radii,
+            uncut_kernels.widest(radii, path.order, len(path.nodes)), np.array([half.distance, self._radius / _FINEST]),
+            self._squares(np.concatenate([_along(gap, self._radius / 4) for gap in gaps]), inner.distance - half.distance))  # fmt: skip
+        corners = found[:count, None, :2] + found[:count, 2, None, None] * np.array([[-1, -1], [-1, 1], [1, -1], [1, 1]])
+        of = owner[found[:count, 3].astype(np.int64)]
+        return [corners[of == k].reshape(-1, 2) for k in range(len(groups))]
+
+    def _squares(self, points: Floats, reach: float) -> Floats:
+        """Return squares (n, 3) of half a radius that hold all within `reach`, at most a radius, of ways along points (m, 2)."""
+        size = self._radius / 2
+        steps = np.arange(-int(np.ceil((reach + self._radius / 4) / size)), int(np.ceil((reach + self._radius / 4) / size)) + 1)
+        around = np.stack(np.meshgrid(steps, steps), -1).reshape(-1, 2)
+        cells = np.unique((np.floor(points / size).astype(np.int64)[:, None] + around).reshape(-1, 2), axis=0)
+        return np.column_stack([(cells + 0.5) * size, np.full(len(cells), size / 2)])
+
+    def _groups(self, gaps: list[_Gap], reach: float) -> list[list[_Gap]]:
+        """Return the gaps in groups: those that may belong to one uncut place come within `reach` mm of one another."""
+        if len(gaps) < 2:
+            return [gaps] if gaps else []
+        step = self._radius / 4
+        points = [_along(gap.rows, step) for gap in gaps]
+        owner = np.repeat(np.arange(len(gaps)), [len(each) for each in points])
+        number = groups(len(gaps), np.unique(owner[pairs_within(np.concatenate(points), reach + step)], axis=0))
+        found: dict[int, list[_Gap]] = {}
+        for k, gap in zip(number.tolist(), gaps, strict=True):
+            found.setdefault(k, []).append(gap)
+        return list(found.values())
+
+    def _spurs(self, places: Sequence[Floats]) -> list[Trip | None]:
+        """Return for each set of points (m, 2) the shortest straight way there and back that comes within the radius of all of them."""
+        if not places:
+            return []
+        counts = np.array([len(each) for each in places])
+        probes = np.concatenate([_far_apart(each) for each in places])
+        asked = [side.nearest_of(probes) for side in self._sides]
+        starts = np.concatenate([each[3].reshape(len(places), -1, 2) for each in asked], axis=1)
+        ways = np.empty((len(places), 2 * starts.shape[1], 3))
+        runs_kernels.tips(np.concatenate(places), np.append(0, np.cumsum(counts)), np.ascontiguousarray(starts),
+                          self._radius * (1 - 2 * _CHORD), ways)  # fmt: skip
+        spurs: list[Trip | None] = []
+        for k in range(len(places)):
+            mine = slice(3 * k, 3 * k + 3)
+            sides = [(side, each[1][mine], each[2][mine]) for side, each in zip(self._sides, asked, strict=True)]
+            spurs.append(self._spur(starts[k], ways[k], sides))
+        return spurs
+
+    def _spur(self, starts: Floats, ways: Floats, sides: Sequence[tuple[RingField, Indices, Floats]]) -> Trip | None:
+        """Return the shortest of ways there and back that is clear.
+
+        Args:
+            starts: (n, 2) where they begin, three a side. ways: (2 n, 3) length, infinite where there is none, and where each ends.
+            sides: rings, rows of theirs (3,) and fractions (3,) where ways begin.
+        """
+        for way in np.argsort(ways[:, 0], kind="stable").tolist():
+            (length, *tip), start = ways[way], starts[way // 2]
+            if not np.isfinite(length):
+                return None
+            if length > 0 and is_clear(self._walls[0], start, np.array(tip), self._walls[1]):
+                side, rows, parts = sides[way // 6]
+                probe = way // 2 % 3
+                out, back = straight(start, np.array(tip)), straight(np.array(tip), start)
+                return Trip(side.place(int(rows[probe]), float(parts[probe])), np.concatenate([out, back]), np.array([True, False]))
+        return None
+
+    def _run(self, rows: Rows) -> Trip:
+        """Return the shortest trip along a run: round, or there and back."""
+        ways: list[tuple[float, Place, Rows, Rows]] = []
+        for side in self._sides:
+            for run in (rows, reversed_rows(rows)):
+                away, place, start = side.nearest(run[0, :2])
+                length = float(lengths(run).sum())
+                back = np.concatenate([reversed_rows(run), straight(run[0, :2], start)])
+                ways.append((2 * (away + length), place, np.concatenate([straight(start, run[0, :2]), run]), back))
+                home = straight(run[-1, 2:4], start)
+                ways.append((away + length + float(np.hypot(*(run[-1, 2:4] - start))), place, ways[-1][2], home))
+        ways.sort(key=lambda way: way[0])
+        _, place, out, back = next(way for way in ways if self._clear(way[2][0]) and (len(way[3]) > 1 or self._clear(way[3][0])))
+        cuts = np.arange(len(out) + len(back)) < len(out)
+        cuts[0] = False
+        return Trip(place, np.concatenate([out, back]), cuts)
+
+    def _round(self, runs: Sequence[Rows]) -> Trip | None:
+        """Return the shortest trip along one run and back along another."""
+        best: Trip | None = None
+        for side in self._sides:
+            for one in (runs[0], reversed_rows(runs[0])):
+                _, place, start = side.nearest(one[0, :2])
+                for two in (runs[1], reversed_rows(runs[1])):
+                    across, out, home = straight(one[-1, 2:4], two[0, :2]), straight(start, one[0, :2]), straight(two[-1, 2:4], start)
+                    cuts = np.ones(len(one) + len(two) + 3, np.bool_)
+                    cuts[[0, len(one) + 1, -1]] = False
+                    trip = Trip(place, np.concatenate([out, one, across, two, home]), cuts)
+                    if (best is None or trip.length < best.length) and all(self._clear(way[0]) for way in (out, across, home)):
+                        best = trip
+        return best
+
+    def _clear(self, row: Rows) -> bool:
+        return is_clear(self._walls[0], row[:2], row[2:4], self._walls[1])
+
+
+def _along(rows: Rows, step: float) -> Floats:
+    """Return points (n, 2) along rows, at most `step` mm apart, both ends included."""
+    counts = np.maximum(1, np.ceil(lengths(rows) / step)).astype(np.int64)
+    row = np.repeat(np.arange(len(rows)), counts)
+    part = (np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[row]
+    return np.concatenate([points_at(rows[row], part), rows[-1:, 2:4]])
+
+
+def _far_apart(points: Floats) -> Floats:
+    """Return three places (3, 2): the middle of the box of points, the one farthest from that, the one farthest from the last."""
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    one = points[np.argmax(np.hypot(*(points - middle).T))]
+    other = points[np.argmax(np.hypot(*(points - one).T))]
+    return np.array([middle, one, other])

@@ -1,0 +1,152 @@
+"""Compiled inner loop for runs between rings: the parts of paths that a cutter along other paths does not come over."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...core.jit import kernel
+from ...geometry.kernels import enlarged, nearest, query_box
+from ...geometry.offset.offset_kernels import blocked_parts
+from ..coverage.uncut_kernels import beyond
+
+SHORTEST = 1e-5  # mm; what is shorter is rounding
+
+
+@kernel("void(float64[:, ::1], int64, float64[::1])")
+def _shape(rows, k, shape):
+    """Write row k as `offset_kernels` takes shapes: a line (0, ax, ay, bx, by) or an arc (1, cx, cy, radius, start, sweep)."""
+    if rows[k, 7] == 0.0:
+        shape[0] = 0.0
+        shape[1], shape[2], shape[3], shape[4] = rows[k, 0], rows[k, 1], rows[k, 2], rows[k, 3]
+        shape[5] = 0.0
+        return
+    shape[0], shape[1], shape[2], shape[3] = 1.0, rows[k, 4], rows[k, 5], rows[k, 6]
+    shape[4] = math.atan2(rows[k, 1] - rows[k, 5], rows[k, 0] - rows[k, 4])
+    turn = math.atan2(rows[k, 3] - rows[k, 5], rows[k, 2] - rows[k, 4]) - shape[4]
+    shape[5] = (turn * rows[k, 7]) % (2 * math.pi) * rows[k, 7]
+
+
+@kernel("Tuple((float64[:, ::1], int64))(float64[:, ::1], float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64)")
+def uncovered(rows, paths, order, nodes, around, reach):
+    """Return (parts (m, 3): row and fractions from and to, in order; how many) that are farther than `reach` from some paths.
+
+    Args:
+        rows: (n, 8); each sweeps less than pi.
+        paths, order, nodes, around: rows that a cutter follows, their tree and their boxes.
+        reach: mm; a little more than the radius of the cutter, since parallels just that far apart do not cross its edge in one place.
+    """
+    found, count = np.empty((2 * len(rows) + 16, 3)), 0
+    shape, box, limits = np.empty(6), np.empty(4), np.empty(6)
+    near = np.empty(len(paths), np.int64)
+    limits[0], limits[1], limits[2], limits[3] = reach, 0.0, 0.0, 1.0
+    for k in range(len(rows)):
+        _shape(rows, k, shape)
+        wide, length = reach, math.hypot(rows[k, 2] - rows[k, 0], rows[k, 3] - rows[k, 1])
+        if shape[0] == 1.0:  # an arc is within its sagitta of the chord's box
+            wide += shape[3] * (1 - math.cos(min(abs(shape[5]) / 2, math.pi)))
+            length = shape[3] * abs(shape[5])
+        box[0], box[1] = min(rows[k, 0], rows[k, 2]) - wide, min(rows[k, 1], rows[k, 3]) - wide
+        box[2], box[3] = max(rows[k, 0], rows[k, 2]) + wide, max(rows[k, 1], rows[k, 3]) + wide
+        limits[4], limits[5] = 0.0, length
+        least = SHORTEST / max(length, SHORTEST)
+        blocked, blocks = blocked_parts(shape, paths, near, query_box(order, nodes, around, box, near), limits)
+        if count + blocks + 1 > len(found):
+            found = enlarged(found, count, 2 * len(found) + blocks)
+        at = 0.0
+        for b in np.argsort(blocked[:blocks, 0]):
+            if blocked[b, 0] - at > least:
+                found[count, 0], found[count, 1], found[count, 2] = k, at, blocked[b, 0]
+                count += 1
+            at = max(at, blocked[b, 1])
+        if 1.0 - at > least:
+            found[count, 0], found[count, 1], found[count, 2] = k, at, 1.0
+            count += 1
+    return found, count
+
+
+_TREE = "float64[:, ::1], int64[::1], float64[:, ::1]"
+
+
+@kernel(f"Tuple((float64[:, ::1], int64))({_TREE}, {_TREE}, {_TREE}, float64[::1], float64[::1], float64[::1], float64[:, ::1])")
+def squares_beyond(rows, order, nodes, gaps, gap_order, gap_nodes, path, path_order, path_nodes, radii, wide, limits, squares):
+    """Return (squares (n, 4): x, y, half side, nearest gap; how many) that hold all that a path leaves beyond the gaps of a level.
+
+    A point beyond a gap is no farther from it than it is inside of the level.
+
+    Args:
+        rows...: the walls. gaps...: parts of the level. path...: what is cut. radii, wide: of its cutters, by row and by node.
+        limits: distance of the level from the walls, half side of the smallest squares.
+        squares: (m, 3) to begin with.
+    """
+    found, count = np.empty((256, 4)), 0
+    top = len(squares)
+    stack = enlarged(squares, top, top + 256)
+    while top > 0:
+        top -= 1
+        x, y, half = stack[top, 0], stack[top, 1], stack[top, 2]
+        far = half * math.sqrt(2.0)
+        inside = nearest(rows, order, nodes, x, y, math.inf)[0] - limits[0]
+        if inside + far < 0.0:
+            continue
+        gap = nearest(gaps, gap_order, gap_nodes, x, y, max(inside, 0.0) + 2 * far)[1]
+        cut = beyond(path, radii, path_order, path_nodes, wide, x, y, -far) if gap >= 0 else -far
+        if cut <= -far:
+            continue
+        if half <= limits[1] or (half <= 4 * limits[1] and cut >= far and inside >= far):
+            if count == len(found):
+                found = enlarged(found, count, 2 * count)
+            found[count, 0], found[count, 1], found[count, 2], found[count, 3] = x, y, half, gap
+            count += 1
+            continue
+        if top + 4 > len(stack):
+            stack = enlarged(stack, top, 2 * len(stack))
+        for k in range(4):
+            stack[top, 0], stack[top, 1], stack[top, 2] = x + half * (k % 2 - 0.5), y + half * (k // 2 - 0.5), half / 2
+            top += 1
+    return found, count
+
+
+@kernel("void(float64[:, ::1], int64, int64, float64, float64, float64, float64, float64, float64[::1])")
+def _tip(points, first, last, x, y, to_x, to_y, reach, way):
+    """Write length and end of the shortest straight way from a place towards another that comes within `reach` of all points."""
+    way[0], way[1], way[2] = math.inf, x, y
+    ux, uy = to_x - x, to_y - y
+    size = math.hypot(ux, uy)
+    if size == 0.0:
+        return
+    ux, uy, length = ux / size, uy / size, 0.0
+    for i in range(first, last):
+        px, py = points[i, 0] - x, points[i, 1] - y
+        along, off = px * ux + py * uy, py * ux - px * uy
+        spare = reach * reach - off * off
+        if spare < 0.0 or (along < 0.0 and along * along > spare):
+            return
+        length = max(length, along - math.sqrt(spare))
+    way[0], way[1], way[2] = length, x + ux * length, y + uy * length
+
+
+@kernel("void(float64[:, ::1], int64[::1], float64[:, :, ::1], float64, float64[:, :, ::1])")
+def tips(points, first, starts, reach, ways):
+    """Write the shortest straight ways that come within a distance of all points of a set, from places towards its middle and its far end.
+
+    Args:
+        points: (m, 2) of all sets; those of set k are first[k] ... first[k + 1] - 1.
+        starts: (n, s, 2) places for each set. reach: mm.
+        ways: (n, 2 s, 3) length of each way and where it ends, mm; infinite where none does.
+    """
+    for k in range(len(starts)):
+        a, b = first[k], first[k + 1]
+        low_x, low_y, high_x, high_y = math.inf, math.inf, -math.inf, -math.inf
+        for i in range(a, b):
+            low_x, high_x = min(low_x, points[i, 0]), max(high_x, points[i, 0])
+            low_y, high_y = min(low_y, points[i, 1]), max(high_y, points[i, 1])
+        for s in range(starts.shape[1]):
+            x, y = starts[k, s, 0], starts[k, s, 1]
+            far = a
+            for i in range(a + 1, b):
+                if math.hypot(points[i, 0] - x, points[i, 1] - y) > math.hypot(points[far, 0] - x, points[far, 1] - y):
+                    far = i
+            _tip(points, a, b, x, y, (low_x + high_x) / 2, (low_y + high_y) / 2, reach, ways[k, 2 * s])
+            _tip(points, a, b, x, y, points[far, 0], points[far, 1], reach, ways[k, 2 * s + 1])

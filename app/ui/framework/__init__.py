@@ -1,0 +1,1 @@
+"""What every part of the window is made with: worker, theme, icons, words."""

@@ -1,0 +1,320 @@
+"""Fields of a properties form: label, value with unit, a note; wrong input is marked at once with the reason under it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QKeySequence
+from PySide6.QtWidgets import QButtonGroup, QComboBox, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QToolButton, QWidget
+
+from ...core.errors import HitofudeError
+from ...drafting.expressions.errors import CommandError
+from ...drafting.expressions.numbers import length
+from .labels import Elided, muted
+from .shown_unit import clean, shown_name, shown_size
+
+LABEL_WIDTH = 92
+VALUE_WIDTH = 84
+ROW_HEIGHT = 24
+_COUNTED = ("", "px")  # units of what comes in whole numbers where no decimals are shown
+
+
+@dataclass(frozen=True, slots=True)
+class Spec:
+    """What a number field asks for.
+
+    Attributes:
+        name, unit: shown before and after the value; mm gives way to the unit that the window shows.
+        low, high: range, ends included, in the unit.
+        decimals: shown when the field is not being typed in.
+        is_length: units such as 1in can be typed; else plain numbers only.
+        tip: what it means, one sentence.
+        auto: what an empty field stands for, such as "auto"; "" = it must hold a number.
+    """
+
+    name: str
+    unit: str = "mm"
+    low: float = 0.0
+    high: float = 99_999.0
+    decimals: int = 3
+    is_length: bool = True
+    tip: str = ""
+    auto: str = ""
+
+    @property
+    def size(self) -> float:
+        """How much of the unit one of what is shown and typed is."""
+        return shown_size() if shown_name(self.unit) != self.unit else 1.0
+
+    def text(self, value: float) -> str:
+        """Return a value as it is shown: inches with a decimal more."""
+        return f"{value / self.size:.{self.decimals + (self.size != 1.0)}f}"
+
+    def read(self, text: str) -> float:
+        """Return the value of a typed text, in the unit.
+
+        Raises:
+            HitofudeError: not a number, or out of range; a sentence.
+        """
+        if not self.is_length and text[:1].isnumeric() and any(letter.isalpha() or letter in "\"'°%" for letter in text):
+            kind = f"is in {shown_name(self.unit)}" if self.unit else "has no unit"
+            raise HitofudeError(f"{self.name} {kind}; type the number alone.")
+        value = clean(length(text, self.size))
+        if self.decimals == 0 and self.unit in _COUNTED and value != int(value):
+            raise HitofudeError(f"{self.name} is {value:g}; use a whole number.")
+        if not self.low <= value <= self.high:
+            unit, size = self.unit if self.unit in ("", "°") else f" {shown_name(self.unit)}", self.size
+            raise HitofudeError(f"{self.name} is {value / size:g}{unit}; use {self.low / size:g} to {self.high / size:g}.")
+        return value
+
+
+def restyle(widget: QWidget) -> None:
+    """Let the style sheet look at a widget's properties again."""
+    widget.style().unpolish(widget)
+    widget.style().polish(widget)
+
+
+def reason_label() -> QLabel:
+    """Return a label for what is wrong with a value."""
+    made = QLabel()
+    made.setProperty("role", "error")
+    made.setWordWrap(True)
+    made.setContentsMargins(0, 0, 0, 4)
+    made.hide()
+    return made
+
+
+def _mark(widget: QWidget, label: QLabel, reason: str) -> None:
+    """Mark a widget's value as wrong and say why; "" = it is right."""
+    label.setText(reason)
+    label.setVisible(bool(reason))
+    if bool(reason) != (widget.property("wrong") == "true"):
+        widget.setProperty("wrong", "true" if reason else "false")
+        restyle(widget)
+
+
+_FIRST = 1000  # stretch of a name that takes its full width before anything else grows, and gives way where letters are wide
+_LEAST_LETTERS = 8  # of a drop-down list's text, where room is short
+
+
+class NumberField(QWidget):
+    """One number: arithmetic and units are accepted (`1in + 8mm`).
+
+    Signals:
+        committed(value): a float, or None where the field was emptied and may be.
+    """
+
+    committed = Signal(object)
+
+    def __init__(self, spec: Spec, read: Callable[[str], float] | None = None, reason: QLabel | None = None) -> None:
+        """Make a field.
+
+        Args:
+            spec: what is asked for.
+            read: gives the value of a text in the place of the spec.
+            reason: where to say what is wrong; the field is then the value alone, and who has it says the rest.
+        """
+        super().__init__()
+        self.spec = spec
+        self._read = read or spec.read
+        self._value: float | None = 0.0
+        self._before: float | None = 0.0
+        self.edit, self.note, self.reason = QLineEdit(), Elided(role="muted"), reason or reason_label()
+        self.unit = muted(shown_name(spec.unit))
+        self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
+        self.edit.setFixedSize(VALUE_WIDTH, ROW_HEIGHT)
+        self.edit.setAccessibleName(spec.name)
+        self.edit.textEdited.connect(self._check)
+        self.edit.editingFinished.connect(self._commit)
+        self.edit.installEventFilter(self)
+        self.setToolTip(spec.tip)
+        if reason is None:
+            self._lay_out()
+        else:
+            alone = QHBoxLayout(self)
+            alone.setContentsMargins(0, 0, 0, 0)
+            alone.addWidget(self.edit)
+
+    def _lay_out(self) -> None:
+        name = muted(self.spec.name)
+        name.setFixedWidth(LABEL_WIDTH)
+        name.setBuddy(self.edit)
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 1, 0, 1)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(2)
+        grid.addWidget(name, 0, 0)
+        grid.addWidget(self.edit, 0, 1)
+        grid.addWidget(self.unit, 0, 2)
+        self.note.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        grid.addWidget(self.note, 0, 3)
+        grid.addWidget(self.reason, 1, 0, 1, 4)
+        grid.setColumnStretch(3, 1)
+
+    @property
+    def value(self) -> float | None:
+        """The value that was last accepted, in the field's unit; None = automatic."""
+        return self._value
+
+    @property
+    def number(self) -> float:
+        """The value of a field that always holds one."""
+        return self._value or 0.0
+
+    def show_value(self, value: float | None, note: str = "") -> None:
+        """Show a value of the job, unless the user is in the middle of typing another one; None = automatic."""
+        self.note.setText(note)
+        if self.edit.isModified() and self.edit.hasFocus():
+            return
+        self._take(value)
+        self._mark("")
+
+    def _take(self, value: float | None) -> None:
+        self._value = value
+        self.edit.setText(self.spec.auto if value is None else self.spec.text(value))
+        self.edit.setModified(False)
+
+    def follow_unit(self) -> None:
+        """Show the same value in the unit that the window shows now; what is being typed is given up."""
+        self.unit.setText(shown_name(self.spec.unit))
+        self._take(self._value)
+        self._mark("")
+
+    def refuse(self, reason: str) -> None:
+        """Mark what was typed as wrong, for a reason that only the job knows; Escape brings back what was there."""
+        self._value = self._before
+        self._mark(reason)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Escape brings the old value back; a double click takes the whole number, not the digits before the point.
+
+        While nothing is being typed, undo and redo are the job's.
+        """
+        if event.type() == QEvent.Type.MouseButtonDblClick:
+            self.edit.selectAll()
+            return True
+        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and not self.edit.isModified() and (
+                event.matches(QKeySequence.StandardKey.Undo) or event.matches(QKeySequence.StandardKey.Redo)):
+            event.ignore()
+            return True
+        if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Escape:
+            self.edit.setModified(False)
+            self.show_value(self._value, self.note.text())
+            return True
+        return super().eventFilter(watched, event)
+
+    def _is_auto(self, text: str) -> bool:
+        return bool(self.spec.auto) and text.strip().lower() in ("", self.spec.auto)
+
+    def _check(self, text: str) -> float | None:
+        """Return the value of a text; None where it is wrong, or stands for the automatic one."""
+        try:
+            value = None if self._is_auto(text) else self._read(text)
+        except CommandError as wrong:
+            self._mark(wrong.reason)
+        except HitofudeError as wrong:
+            self._mark(str(wrong))
+        else:
+            self._mark("")
+            return value
+        return None
+
+    def _commit(self) -> None:
+        if not self.edit.isModified():
+            return
+        text = self.edit.text()
+        value = self._check(text)
+        if value is not None or self._is_auto(text):
+            self._before = self._value
+            self._take(value)
+            self.committed.emit(value)
+
+    def _mark(self, reason: str) -> None:
+        _mark(self.edit, self.reason, reason)
+
+
+class ChoiceField(QWidget):
+    """A few values side by side, the chosen one underlined."""
+
+    chosen = Signal(object)
+
+    def __init__(self, name: str, choices: Sequence[tuple[Hashable, str]], label_width: int = LABEL_WIDTH) -> None:
+        super().__init__()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 1, 0, 1)
+        row.setSpacing(8)
+        if name:
+            label = muted(name)
+            label.setMaximumWidth(label_width - 4)
+            row.addWidget(label, _FIRST)
+        self._group = QButtonGroup(self)
+        self.buttons: dict[Hashable, QToolButton] = {}
+        for value, text in choices:
+            button = QToolButton()
+            button.setText(text)
+            button.setCheckable(True)
+            button.setProperty("role", "choice")
+            button.setMinimumWidth(button.fontMetrics().horizontalAdvance(text) + 10)
+            button.clicked.connect(lambda _=False, v=value: self.chosen.emit(v))
+            self._group.addButton(button)
+            self.buttons[value] = button
+            row.addWidget(button)
+        row.addStretch(1)
+
+    @property
+    def value(self) -> Hashable:
+        """The one that is underlined; None where none is."""
+        return next((value for value, button in self.buttons.items() if button.isChecked()), None)
+
+    def show_value(self, value: Hashable) -> None:
+        """Underline the job's value."""
+        self.buttons[value].setChecked(True)
+
+
+class ListField(QWidget):
+    """Many values: a drop-down list."""
+
+    chosen = Signal(object)
+
+    def __init__(self, name: str, choices: Sequence[tuple[object, str]]) -> None:
+        super().__init__()
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 1, 0, 1)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(2)
+        label = muted(name)
+        label.setFixedWidth(LABEL_WIDTH)
+        self.box = QComboBox()
+        self.box.setFixedHeight(ROW_HEIGHT)
+        self.box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.box.setMinimumContentsLength(_LEAST_LETTERS)
+        self.box.setAccessibleName(name)
+        label.setBuddy(self.box)
+        self._values: list[object] = []
+        self.set_choices(choices)
+        self.box.activated.connect(lambda at: self.chosen.emit(self._values[at]))
+        self.reason = reason_label()
+        grid.addWidget(label, 0, 0)
+        grid.addWidget(self.box, 0, 1)
+        grid.addWidget(self.reason, 1, 0, 1, 2)
+        grid.setColumnStretch(1, 1)
+
+    def set_choices(self, choices: Sequence[tuple[object, str]]) -> None:
+        """Offer other values, each with its text."""
+        if [c[0] for c in choices] != self._values or [c[1] for c in choices] != [self.box.itemText(i) for i in range(self.box.count())]:
+            self._values = [value for value, _ in choices]
+            self.box.clear()
+            self.box.addItems([text for _, text in choices])
+
+    @property
+    def value(self) -> object:
+        """What is shown; None where nothing is."""
+        at = self.box.currentIndex()
+        return self._values[at] if at >= 0 else None
+
+    def show_value(self, value: object, wrong: str = "") -> None:
+        """Show the job's value, and what is wrong with it."""
+        _mark(self.box, self.reason, wrong)
+        self.box.setCurrentIndex(self._values.index(value) if value in self._values else -1)

@@ -1,0 +1,73 @@
+"""A bar above the canvas: one sentence and the buttons that answer it. Never a window of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
+
+from .fields import restyle
+from .icons import IconButton
+
+Answers = Sequence[tuple[str, Callable[[], None]]]
+
+
+def _call(act: Callable[[], None], *_: object) -> None:
+    act()
+
+
+class Notice(QWidget):
+    """Shows one sentence at a time; a newer one takes its place."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setObjectName("notice")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.text = QLabel()
+        self.text.setWordWrap(True)
+        self.buttons: list[QPushButton] = []
+        self._stays = False
+        self._row = QHBoxLayout(self)
+        self._row.setContentsMargins(16, 4, 8, 4)
+        self._row.setSpacing(8)
+        self._row.addWidget(self.text, 1)
+        self._close = IconButton("cancel", "Close this line")
+        self._close.clicked.connect(self.hide)
+        self._row.addWidget(self._close)
+        self.setMinimumHeight(36)
+        self.hide()
+
+    def dismiss(self) -> None:
+        """Close the bar, unless its question still needs an answer."""
+        if not self._stays:
+            self.hide()
+
+    def ask(self, sentence: str, answers: Answers = (), error: bool = False, stays: bool = False) -> None:
+        """Show a sentence and a button for each answer; a pressed button closes the bar and acts.
+
+        Args:
+            sentence: what to say.
+            answers: text of each button, and what it does.
+            error: True for what went wrong.
+            stays: True when only an answer, or another sentence, closes the bar.
+        """
+        self._stays = stays
+        for button in self.buttons:
+            self._row.removeWidget(button)
+            button.deleteLater()
+        self.buttons = []
+        self.text.setText(sentence)
+        self.setProperty("error", "true" if error else "false")
+        self.text.setProperty("role", "error" if error else "")
+        for widget in (self, self.text):
+            restyle(widget)
+        for at, (text, act) in enumerate(answers):
+            button = QPushButton(text)
+            button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+            button.clicked.connect(self.hide)
+            button.clicked.connect(partial(_call, act))
+            self.buttons.append(button)
+            self._row.insertWidget(1 + at, button)
+        self.show()

@@ -1,0 +1,132 @@
+"""The verdict in one line: figures that were measured, or the worst finding. No Qt."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+from ...model.finding import Finding, FindingKind
+from .figures import clock, counted, grouped
+
+
+class Level(Enum):
+    """How a verdict is coloured; the value is what the style sheet looks at."""
+
+    NONE = "none"
+    OK = "ok"
+    REMARK = "remark"
+    BAD = "bad"
+
+
+_WORST_FIRST = (
+    FindingKind.AREA, FindingKind.GOUGE, FindingKind.CLAMP, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK, FindingKind.PLUNGE,
+    FindingKind.HOLDER_CONTACT, FindingKind.SHANK_CONTACT, FindingKind.BELOW_TABLE, FindingKind.LEFT_REACHABLE,
+    FindingKind.BEYOND_STOCK, FindingKind.HOLE, FindingKind.SIZE, FindingKind.FEED, FindingKind.TOLERANCE, FindingKind.MACHINE,
+    FindingKind.TOOL_SHAPE, FindingKind.OPEN_CONTOUR, FindingKind.SELF_INTERSECTION, FindingKind.OVERLAP, FindingKind.REGION_TOO_SMALL,
+    FindingKind.NECK_TOO_NARROW, FindingKind.ENGAGEMENT, FindingKind.AMBIGUOUS, FindingKind.UNITS_ASSUMED, FindingKind.GAP_CLOSED,
+    FindingKind.TINY_ENTITY, FindingKind.LEFT_OUT, FindingKind.ASSUMED, FindingKind.HIDDEN, FindingKind.LEFT_UNREACHABLE,
+    FindingKind.SKIN, FindingKind.ENTRY,
+)
+_RED = {FindingKind.AREA, FindingKind.GOUGE, FindingKind.CLAMP, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK,
+        FindingKind.PLUNGE,
+        FindingKind.HOLDER_CONTACT, FindingKind.SHANK_CONTACT, FindingKind.BELOW_TABLE, FindingKind.LEFT_REACHABLE}
+
+_NAMES = {
+    FindingKind.AREA: "area lost or gained",
+    FindingKind.GOUGE: "gouge", FindingKind.RAPID_IN_MATERIAL: "rapid in material", FindingKind.LEFT_REACHABLE: "material left",
+    FindingKind.CLAMP: "clamp hit", FindingKind.TOLERANCE: "tolerance not met", FindingKind.OPEN_CONTOUR: "open contour",
+    FindingKind.SELF_INTERSECTION: "crossing contours", FindingKind.OVERLAP: "overlap",
+    FindingKind.REGION_TOO_SMALL: "region too small", FindingKind.NECK_TOO_NARROW: "neck too narrow",
+    FindingKind.ENGAGEMENT: "full slot", FindingKind.TINY_ENTITY: "tiny entity", FindingKind.LEFT_OUT: "left out",
+    FindingKind.LEFT_UNREACHABLE: "corners out of reach", FindingKind.GAP_CLOSED: "gap closed",
+    FindingKind.UNITS_ASSUMED: "units assumed", FindingKind.MACHINE: "beyond the machine",
+    FindingKind.TOOL_SHAPE: "a tool of another shape", FindingKind.START_IN_STOCK: "start in the stock",
+    FindingKind.HOLDER_CONTACT: "holder in metal", FindingKind.SHANK_CONTACT: "shank in metal",
+    FindingKind.PLUNGE: "plunge in metal", FindingKind.BELOW_TABLE: "cut into the table", FindingKind.ASSUMED: "assumed",
+    FindingKind.HIDDEN: "metal below metal", FindingKind.BEYOND_STOCK: "part beyond the stock",
+    FindingKind.AMBIGUOUS: "doubtful place in the picture", FindingKind.SKIN: "skin along the walls", FindingKind.ENTRY: "another entry",
+    FindingKind.HOLE: "hole in a surface", FindingKind.SIZE: "doubtful size", FindingKind.FEED: "plunge at full feed",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """A level, the line that the badge shows, and what the time is made of."""
+
+    level: Level
+    text: str
+    tip: str = ""
+
+
+def worst_first(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """Return the findings in the order in which they matter: those that count, then remarks."""
+    return tuple(sorted(findings, key=lambda f: (not f.counts, _WORST_FIRST.index(f.kind))))
+
+
+def finding_level(finding: Finding) -> Level:
+    """Return the colour of one finding."""
+    if not finding.counts:
+        return Level.NONE
+    return Level.BAD if finding.kind in _RED else Level.REMARK
+
+
+def name_of(kind: FindingKind) -> str:
+    """Return the words for a kind of finding."""
+    return _NAMES[kind]
+
+
+def short(finding: Finding) -> str:
+    """Return what was found and where, without the sentence: "gouge 0.120 mm at (41.2, 8.0)"."""
+    amount = ""
+    if finding.amount is not None and finding.kind is FindingKind.LEFT_REACHABLE:
+        amount = f" {_area(finding.amount)} mm²"
+    elif finding.amount is not None and finding.kind in (FindingKind.GOUGE, FindingKind.OPEN_CONTOUR):
+        amount = f" {finding.amount:.3f} mm"
+    place = "" if finding.x is None or finding.y is None else f" at ({finding.x:.1f}, {finding.y:.1f})"
+    return f"{_NAMES[finding.kind]}{amount}{place}"
+
+
+def _area(mm2: float) -> str:
+    return grouped(mm2, 0) if mm2 >= 100 else f"{mm2:.3g}"
+
+
+def _sentence(finding: Finding) -> str:
+    text = short(finding)
+    return text[0].upper() + text[1:]
+
+
+def figures(data: Mapping[str, Any]) -> str:
+    """Return the measured figures of a report: "0 gouge · 0 left · 2 strokes · 4:12". What was not measured is not said."""
+    parts = []
+    gouge, left = data.get("gouge"), data.get("left")
+    if gouge is not None:
+        parts.append(f"{gouge.get('count', 0)} gouge")
+    if left is not None and left.get("reachable_mm2") is not None:
+        area = left["reachable_mm2"]
+        parts.append("0 left" if area < 5e-4 else f"{area:.3f} mm² left")
+    if data.get("strokes") is not None:
+        parts.append(counted(data["strokes"], "stroke"))
+    if data.get("time_s") is not None:
+        parts.append(clock(data["time_s"]))
+    return " · ".join(parts)
+
+
+def times(data: Mapping[str, Any]) -> str:
+    """Return what the time of a report is made of: the operations' own times do not hold the waiting."""
+    parts = data.get("time_parts_s")
+    if parts is None:
+        return ""
+    return f"Cutting and rapids {clock(parts['cut'] + parts['rapid'])}, tool changes and waiting {clock(parts['wait'])}"
+
+
+def verdict(findings: tuple[Finding, ...], data: Mapping[str, Any]) -> Verdict:
+    """Return the verdict on a computed program from its findings and its report."""
+    counting = [f for f in worst_first(findings) if f.counts]
+    more = f" · {len(counting) - 1} more" if len(counting) > 1 else ""
+    if not any(data.get("moves", {}).values()):
+        return Verdict(Level.REMARK, _sentence(counting[0]) + more if counting else "No closed contour to machine")
+    if not counting:
+        return Verdict(Level.OK, f"✓ {figures(data)}", times(data))
+    return Verdict(finding_level(counting[0]), _sentence(counting[0]) + more, times(data))

@@ -1,0 +1,195 @@
+"""The only place that starts jobs: a function runs on its own thread, its answer comes back as a signal."""
+
+from __future__ import annotations
+
+import gc
+import sys
+import threading
+import time
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+from PySide6.QtCore import QObject, Qt, Signal, Slot
+from shiboken6 import isValid
+
+from ...core.errors import Cancelled, HitofudeError
+from ...core.progress import Progress, told_waits
+
+HEAD_START_S = 0.04
+"""Seconds in which the window shows that it computes, before the job competes with it for the interpreter."""
+
+_TOLD_EVERY_S = 0.04
+SWITCH_INTERVAL_S = 0.0005
+"""Python threads change hands this often while a job runs: keeps painting quick (PLATFORM, Threads)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a job ended with.
+
+    Attributes:
+        job_id, revision: which job, and the document's revision that it was started for.
+        value: what the function returned, or None.
+        error: a sentence for the user, or None.
+    """
+
+    job_id: int
+    revision: int
+    value: object = None
+    error: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Work:
+    """A job on its way: what to run and where to answer."""
+
+    job_id: int
+    revision: int
+    function: Callable[[Progress], object]
+    cancelled: threading.Event
+
+
+class _NoCollector:
+    """Pauses the garbage collector while jobs run: with a large drawing one pass stops every thread for 0.1 to 0.2 s."""
+
+    def __init__(self) -> None:
+        self._jobs, self._lock = 0, threading.Lock()
+
+    def __enter__(self) -> None:
+        with self._lock:
+            self._jobs += 1
+            gc.disable()
+
+    def __exit__(self, *_: object) -> None:
+        with self._lock:
+            self._jobs -= 1
+            if self._jobs == 0:
+                gc.enable()
+
+
+_NO_COLLECTOR = _NoCollector()
+
+
+class _Runner(threading.Thread):
+    """Runs one job. A daemon: a library call that does not return never keeps the program from ending."""
+
+    def __init__(self, work: _Work, worker: Worker) -> None:
+        super().__init__(name=f"job {work.job_id}", daemon=True)
+        self._work: _Work | None = work
+        self._worker, self._told, self._fraction = worker, 0.0, 0.0
+        self._head_start = worker.head_start_s
+
+    def run(self) -> None:
+        """Run the function and answer; nothing may escape from here. What the function holds is let go of with it."""
+        work, self._work = self._work, None
+        if work is not None and not work.cancelled.wait(self._head_start):
+            self._run(work)
+
+    def _tell(self, job_id: int, fraction: float, text: str) -> None:
+        self._fraction, now = fraction, time.monotonic()
+        if now - self._told >= _TOLD_EVERY_S:
+            self._told = now
+            self._worker.told.emit(job_id, fraction, text)
+
+    def _run(self, work: _Work) -> None:
+        value, error = None, None
+        try:
+            progress = Progress(partial(self._tell, work.job_id), work.cancelled)
+            with _NO_COLLECTOR, told_waits(lambda text: progress.step(self._fraction, text)):
+                value = work.function(progress)
+        except Cancelled:
+            return
+        except HitofudeError as sentence:
+            error = str(sentence)
+        except Exception as fault:
+            traceback.print_exc()
+            error = f"The program made a mistake here ({type(fault).__name__}: {fault}). Your drawing is safe; please report this."
+        if not work.cancelled.is_set() and isValid(self._worker):  # the window may have gone meanwhile
+            self._worker.answered.emit(Answer(work.job_id, work.revision, value, error))
+
+
+class Worker(QObject):
+    """Runs one job at a time for the window.
+
+    A newer job replaces the one before, whose answer is dropped. `cancel` takes effect at once: the job is asked to
+    stop, and whatever it still answers is dropped.
+
+    Attributes:
+        head_start_s: how long the window has for itself before a job begins, s; jobs that take less than that need none.
+    """
+
+    progress = Signal(float, str)
+    done = Signal(Answer)
+    failed = Signal(Answer)
+    cancelled = Signal(int)
+    busy_changed = Signal(bool)
+    told = Signal(int, float, str)
+    answered = Signal(Answer)
+
+    def __init__(self, parent: QObject | None = None, head_start_s: float = HEAD_START_S) -> None:
+        super().__init__(parent)
+        self.head_start_s = head_start_s
+        sys.setswitchinterval(SWITCH_INTERVAL_S)
+        self._threads: list[_Runner] = []
+        self._next_id = 1
+        self._current: _Work | None = None
+        self.told.connect(self._on_told, Qt.ConnectionType.QueuedConnection)
+        self.answered.connect(self._on_answered, Qt.ConnectionType.QueuedConnection)
+
+    @property
+    def busy(self) -> bool:
+        """True while a job runs whose answer is still wanted."""
+        return self._current is not None
+
+    def start(self, function: Callable[[Progress], object], revision: int) -> int:
+        """Run `function(progress)` on another thread; its inputs must be a snapshot that nobody changes.
+
+        Returns:
+            The job's id, as in the answer.
+        """
+        replaced = self._drop()
+        work = _Work(self._next_id, revision, function, threading.Event())
+        self._next_id += 1
+        self._current = work
+        self._threads = [thread for thread in self._threads if thread.is_alive()]
+        runner = _Runner(work, self)
+        self._threads.append(runner)
+        runner.start()
+        if replaced is not None:
+            self.cancelled.emit(replaced.job_id)
+        self.busy_changed.emit(True)
+        return work.job_id
+
+    def cancel(self) -> None:
+        """Leave the running job at once; its answer will be dropped."""
+        dropped = self._drop()
+        if dropped is not None:
+            self.cancelled.emit(dropped.job_id)
+            self.busy_changed.emit(False)
+
+    def finish(self, wait_s: float = 2.0) -> None:
+        """Leave the running job and wait for its thread, before the program ends."""
+        self._drop()
+        for thread in self._threads:
+            thread.join(wait_s)
+
+    def _drop(self) -> _Work | None:
+        work, self._current = self._current, None
+        if work is not None:
+            work.cancelled.set()
+        return work
+
+    @Slot(int, float, str)
+    def _on_told(self, job_id: int, fraction: float, text: str) -> None:
+        if self._current is not None and self._current.job_id == job_id:
+            self.progress.emit(fraction, text)
+
+    @Slot(Answer)
+    def _on_answered(self, answer: Answer) -> None:
+        if self._current is None or self._current.job_id != answer.job_id:
+            return
+        self._current = None
+        self.busy_changed.emit(False)
+        (self.failed if answer.error is not None else self.done).emit(answer)

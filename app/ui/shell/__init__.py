@@ -1,0 +1,1 @@
+"""The window itself: bars, keys, help, files, and what connects its parts."""

@@ -1,0 +1,172 @@
+"""The verdict badge, and the list of findings that a click on it opens."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPoint, Qt, QTimer, Signal
+from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
+
+from ...model.finding import Finding
+from ..framework.fields import restyle
+from ..framework.figures import counted
+from ..framework.labels import muted
+from ..framework.section import Row, heading
+from ..framework.verdict import Level, Verdict, finding_level, short, worst_first
+
+_TURN = "◐◓◑◒"
+_TURN_MS = 150
+_TEXT_PX, _BUTTON_PX = 472, 24
+
+
+class Badge(QPushButton):
+    """The product in one line: grey, turning, green with figures, or the worst finding."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setProperty("role", "badge")
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.setFixedHeight(24)
+        self._turn = 0
+        self._timer = QTimer(self)
+        self._timer.setInterval(_TURN_MS)
+        self._timer.timeout.connect(self._advance)
+        self.show_verdict(Verdict(Level.NONE, "Not computed"))
+
+    def show_verdict(self, verdict: Verdict) -> None:
+        """Show a verdict that stands."""
+        self._timer.stop()
+        self.setToolTip(verdict.tip)
+        self._show(verdict.level, verdict.text)
+
+    def show_running(self) -> None:
+        """Turn while a job runs."""
+        if not self._timer.isActive():
+            self._timer.start()
+            self._advance()
+
+    def _advance(self) -> None:
+        self._turn = (self._turn + 1) % len(_TURN)
+        self._show(Level.NONE, f"{_TURN[self._turn]} Computing")
+
+    def _show(self, level: Level, text: str) -> None:
+        self.setText(text)
+        self.setAccessibleName(f"Verdict: {text}")
+        if self.property("verdict") != level.value:
+            self.setProperty("verdict", level.value)
+            restyle(self)
+
+
+class FindingsList(QFrame):
+    """Every finding, worst first; a click goes to its place, a button mends what one button can.
+
+    Signals:
+        picked(finding). left_out(layer): what is on it shall not be machined.
+    """
+
+    picked = Signal(Finding)
+    left_out = Signal(str)
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent, Qt.WindowType.Popup)
+        self.setObjectName("findings")
+        self.rows: list[Row] = []
+        self._layers: frozenset[str] = frozenset()
+        self._column = QVBoxLayout(self)
+        self._column.setContentsMargins(0, 12, 0, 8)
+        self._column.setSpacing(0)
+
+    def show_findings(self, findings: tuple[Finding, ...], above: QWidget, empty: str, layers: frozenset[str] = frozenset()) -> None:
+        """Open above a widget.
+
+        Args:
+            findings: what to list, in any order.
+            above: the badge; the list's right edge is the badge's.
+            empty: what to say when there are none.
+            layers: that can be left out.
+        """
+        self._clear()
+        self._layers = layers
+        counting = sum(f.counts for f in findings)
+        remarks = counted(len(findings) - counting, "remark") if len(findings) > counting else ""
+        title = heading(", ".join(filter(None, (counted(counting, "finding") if counting else "No findings", remarks))))
+        title.setContentsMargins(16, 0, 16, 6)
+        self._column.addWidget(title)
+        self._column.addWidget(self._list(findings) if findings else self._sentence(empty))
+        self.setFixedWidth(520)
+        self.adjustSize()
+        corner = above.mapToGlobal(QPoint(above.width() - self.width(), -self.height() - 4))
+        self.move(corner)
+        self.show()
+
+    def _clear(self) -> None:
+        self.rows = []
+        while (item := self._column.takeAt(0)) is not None:
+            widget = item.widget()
+            if widget is not None:
+                widget.hide()
+                widget.deleteLater()
+
+    def _sentence(self, text: str) -> QLabel:
+        made = muted(text)
+        made.setWordWrap(True)
+        made.setContentsMargins(16, 0, 16, 8)
+        return made
+
+    def _list(self, findings: tuple[Finding, ...]) -> QWidget:
+        inner = QWidget()
+        column = QVBoxLayout(inner)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        for finding in worst_first(findings):
+            column.addWidget(self._row(finding))
+        area = QScrollArea()
+        area.setWidgetResizable(True)
+        area.setWidget(inner)
+        area.setFixedHeight(min(inner.sizeHint().height(), 360))
+        return area
+
+    def _row(self, finding: Finding) -> Row:
+        label = QLabel(finding.text.replace("mm2", "mm²"))
+        label.setWordWrap(True)
+        label.setFixedWidth(_TEXT_PX)
+        label.setToolTip(short(finding))
+        if finding_level(finding) is Level.BAD:
+            label.setProperty("role", "error")
+        elif not finding.counts:
+            label.setProperty("role", "muted")
+        mends = finding.layer in self._layers
+        row = Row(_above(label, self._hiding(finding.layer)) if mends else label)
+        row.setFixedHeight(label.heightForWidth(_TEXT_PX) + 12 + (_BUTTON_PX if mends else 0))
+        row.setAccessibleName(label.text())
+        self.rows.append(row)
+        if finding.entity_ids or finding.x is not None:
+            row.setCursor(Qt.CursorShape.PointingHandCursor)
+            row.clicked.connect(lambda: self._pick(finding))
+        else:
+            row.setProperty("row", "false")
+            row.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        return row
+
+    def _hiding(self, layer: str) -> QPushButton:
+        button = QPushButton(f"Hide layer {layer}")
+        button.setProperty("role", "link")
+        button.setToolTip("What is on a hidden layer is not machined")
+        button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        button.clicked.connect(self.hide)
+        button.clicked.connect(lambda: self.left_out.emit(layer))
+        return button
+
+    def _pick(self, finding: Finding) -> None:
+        self.hide()
+        self.picked.emit(finding)
+
+
+def _above(label: QLabel, button: QPushButton) -> QWidget:
+    """Return both, one above the other."""
+    both = QWidget()
+    column = QVBoxLayout(both)
+    column.setContentsMargins(0, 6, 0, 4)
+    column.setSpacing(0)
+    column.addWidget(label)
+    column.addWidget(button, 0, Qt.AlignmentFlag.AlignLeft)
+    return both

@@ -1,0 +1,61 @@
+"""What lies beside the drawing and is kept with it: the picture that is traced, and the text of the editor."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal
+
+from ...formats.project.beside import Beside
+
+if TYPE_CHECKING:
+    from ..views.language.control import TextControl
+    from .underlaying import Underlaying
+
+
+class BesideDrawing(QObject):
+    """Tells what lies beside the drawing now, and brings back what a file holds.
+
+    Signals:
+        changed(): the picture or the text is another.
+    """
+
+    changed = Signal()
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._saved = Beside()
+        self._underlaying: Underlaying | None = None
+        self._control: TextControl | None = None
+
+    def watch(self, underlaying: Underlaying, control: TextControl) -> None:
+        """Look after these two from now on."""
+        self._underlaying, self._control = underlaying, control
+        underlaying.changed.connect(self.changed)
+        control.page.edited.connect(self.changed)
+
+    @property
+    def now(self) -> Beside:
+        """What lies there now."""
+        assert self._underlaying is not None and self._control is not None
+        return Beside(self._underlaying.underlay, self._control.text, self._control.page.replaces)
+
+    @property
+    def unsaved(self) -> bool:
+        """Whether something is there that lies in no file; a text that is drawn already is not missed."""
+        assert self._control is not None
+        now = self.now
+        written = bool(now.text.strip()) and now.text != self._saved.text and not self._control.is_drawn
+        return written or now.underlay != self._saved.underlay
+
+    def mark_saved(self, beside: Beside) -> None:
+        """Remember what the drawing's file holds."""
+        self._saved = beside
+
+    def bring(self, beside: Beside) -> str:
+        """Lay and write what a file holds; return what is wrong with it, or "". A file without a text leaves the editor's."""
+        assert self._underlaying is not None and self._control is not None
+        if beside.text:
+            self._control.text = beside.text
+            self._control.page.set_replaces(beside.replaces)
+        return self._underlaying.bring(beside.underlay)

@@ -1,0 +1,176 @@
+"""Computing in the background: from the document's job to moves, NC text and verdict, and whether they are up to date."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal
+
+from ...core.progress import Progress
+from ...drafting.document import Change, Document
+from ...model.finding import Finding
+from ...model.job import Job
+from ...model.moves import Program
+from ...model.part import Part
+from ..framework.worker import Answer, Worker
+from ..views.canvas.program_picture import ProgramPicture
+
+if TYPE_CHECKING:
+    from ...usecases.bitmap_part import BitmapPart
+    from ...usecases.make import Made
+
+
+class State(Enum):
+    """What the window knows about the tool paths of the job as it is now."""
+
+    NONE = "Not computed"
+    RUNNING = "Computing"
+    CURRENT = "Paths up to date"
+    STALE = "Paths out of date"
+    FAILED = "Could not be computed"
+
+
+@dataclass(frozen=True)
+class Computed:
+    """What a run gives: the result, and its moves prepared for painting, so that showing them costs the window nothing."""
+
+    made: Made
+    picture: ProgramPicture
+
+
+def _compute(job: Job, pixels: BitmapPart | None, drawing_findings: tuple[Finding, ...], progress: Progress) -> Computed:
+    from ...usecases.make import export, finish  # imports the engines: never on the window's thread
+
+    if pixels is None:
+        made = export(job, progress.part(0.0, 0.95), drawing_findings)
+    else:
+        from ...usecases.bitmap_way import compute_on_bitmap
+
+        program = compute_on_bitmap(job, pixels, progress.part(0.0, 0.5)).program
+        made = finish(program, job, progress.part(0.5, 0.95), drawing_findings)
+    progress.step(0.95, "Preparing the picture")
+    return Computed(made, ProgramPicture(made.program, made.coverage.places))
+
+
+class Computation(QObject):
+    """The document's tool paths.
+
+    Signals:
+        changed(): state or result changed. failed(sentence).
+
+    Attributes:
+        made: the last result of this document, also when it is out of date; None before the first.
+        picture: its moves, prepared for painting.
+        error: why the last run failed, or "".
+        drawing_findings: what reading the drawing had to say.
+        pixels: a part that came from a picture, and its pixels: it is computed on these; None = there was no picture.
+    """
+
+    changed = Signal()
+    finished = Signal()
+    failed = Signal(str)
+
+    def __init__(self, document: Document, worker: Worker) -> None:
+        super().__init__()
+        self._document, self._worker = document, worker
+        self._job_id: int | None = None
+        self._snapshot: Job | None = None
+        self._made_for: Job | None = None
+        self.made: Made | None = None
+        self.picture: ProgramPicture | None = None
+        self.error = ""
+        self.drawing_findings: tuple[Finding, ...] = ()
+        self.pixels: tuple[Part, BitmapPart] | None = None
+        worker.done.connect(self._on_done)
+        worker.failed.connect(self._on_failed)
+        worker.cancelled.connect(self._on_cancelled)
+        self._unsubscribe = document.subscribe(self._on_change)
+
+    @property
+    def state(self) -> State:
+        """Where the tool paths stand."""
+        if self._job_id is not None:
+            return State.RUNNING
+        if self.error:
+            return State.FAILED
+        if self.made is None:
+            return State.NONE
+        return State.CURRENT if self._made_for is self._document.job else State.STALE
+
+    @property
+    def outdated(self) -> bool:
+        """Whether there is a result, of a job that has changed since."""
+        return self.made is not None and self._made_for is not self._document.job
+
+    @property
+    def program(self) -> Program | None:
+        """Moves of the last result."""
+        return self.made.program if self.made is not None else None
+
+    def start(self) -> None:
+        """Compute the job as it is now; a run that is on its way is left."""
+        job, findings = self._document.job, self.drawing_findings
+        pixels = self.pixels_of(job.part)
+        self.error = ""
+        self._snapshot = job
+        self._job_id = self._worker.start(lambda progress: _compute(job, pixels, findings, progress), self._document.revision)
+        self.changed.emit()
+
+    def pixels_of(self, part: Part) -> BitmapPart | None:
+        """Return the pixels of a part that is a picture's and was not drawn in since, else None."""
+        if self.pixels is None:
+            return None
+        drawn, pixels = self.pixels
+        return pixels if drawn.entities is part.entities and drawn.layers is part.layers else None
+
+    def forget(self, drawing_findings: tuple[Finding, ...] = ()) -> None:
+        """Drop the result: another document was opened, and reading it had this to say."""
+        self.made, self.picture, self._made_for, self.error = None, None, None, ""
+        self.drawing_findings = drawing_findings
+        self.changed.emit()
+
+    def know_drawing(self, findings: tuple[Finding, ...]) -> None:
+        """Take over what reading the drawing had to say, when it was read again or that was undone."""
+        if findings != self.drawing_findings:
+            self.drawing_findings = findings
+            self.changed.emit()
+
+    def operation_times(self) -> dict[int, float]:
+        """Return the time of each operation, seconds, by its index; nothing while the result is out of date."""
+        if self.made is None or self.state is not State.CURRENT:
+            return {}
+        return {index: each["time_s"] for index, each in enumerate(self.made.report.data["operations"]) if each["enabled"]}
+
+    def _on_change(self, change: Change) -> None:
+        if not change & (Change.PART | Change.JOB):
+            return
+        if self._job_id is not None and self._snapshot is not self._document.job:
+            self._worker.cancel()
+        self.error = ""
+        self.changed.emit()
+
+    def _on_done(self, answer: Answer) -> None:
+        if answer.job_id != self._job_id:
+            return
+        self._job_id = None
+        if answer.revision == self._document.revision:
+            assert isinstance(answer.value, Computed)
+            self.made, self.picture, self._made_for = answer.value.made, answer.value.picture, self._snapshot
+            self.changed.emit()
+            self.finished.emit()
+        else:
+            self.changed.emit()
+
+    def _on_failed(self, answer: Answer) -> None:
+        if answer.job_id == self._job_id:
+            self._job_id = None
+            self.error = answer.error or ""
+            self.changed.emit()
+            self.failed.emit(self.error)
+
+    def _on_cancelled(self, job_id: int) -> None:
+        if job_id == self._job_id:
+            self._job_id = None
+            self.changed.emit()

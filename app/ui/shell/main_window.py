@@ -1,0 +1,162 @@
+"""The window: puts the parts together. What they do is connected in `wiring.py`."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QLayout, QMainWindow, QVBoxLayout, QWidget
+
+from ...core.settings import Settings, ThemeChoice
+from ...drafting.document import Document
+from ...formats.drawing import SUFFIXES
+from ...usecases.bitmap_options import PICTURES
+from ..framework import style
+from ..framework.arrow import arrow_picture
+from ..framework.notice import Notice
+from ..framework.theme import DARK, LIGHT, Theme
+from ..framework.worker import Worker
+from ..panels.drawing_page import DrawingPage
+from ..panels.side_panel import SidePanel
+from ..panels.side_tabs import SideTabs
+from ..views.canvas.canvas import Canvas
+from ..views.curves.curves_panel import CurvesPanel
+from ..views.cut.cut_panel import CutPanel
+from ..views.cut.setup_form import SetupForm
+from ..views.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
+from ..views.plot.panel import PlotPanel
+from ..views.stages.import_panel import ImportPanel
+from ..views.stages.stages_panel import StagesPanel
+from ..views.surfaces.scene_document import SceneDocument
+from ..views.surfaces.scene_side import SceneSide
+from .actions import Actions
+from .badge import FindingsList
+from .bars import TopBar
+from .command_line import CommandLine
+from .computation import Computation
+from .question_card import QuestionCard
+from .status_bar import StatusBar
+from .tool_strip import ToolStrip
+from .views import Views
+
+SIZE = (1440, 900)
+
+
+class MainWindow(QMainWindow):
+    """Menu, bars, views, panel, log, command line, status.
+
+    Signals:
+        dropped(path): a drawing, a scene, a picture or an NC program was dropped on the window.
+        closing(): about to close; `may_close` tells whether it may.
+        closed(): it closes now; whoever runs jobs of his own ends them.
+    """
+
+    dropped = Signal(str)
+    closing = Signal()
+    closed = Signal()
+
+    def __init__(self, document: Document, settings: Settings) -> None:
+        super().__init__()
+        self.document, self.settings = document, settings
+        self.theme = self._theme_for(settings.theme)
+        self._apply_style()
+        self.may_close = True
+        self.worker = Worker(self)
+        self.computation = Computation(document, self.worker)
+        self.actions_ = Actions(self)
+        self.canvas = Canvas(document, self.theme)
+        self.views, self.panel, self.cut_panel = Views(self.canvas), SidePanel(document), CutPanel()
+        self.side = SideTabs()
+        self.side.add_page("Job", self.panel, "stock, tools and operations")
+        self.drawing_page = DrawingPage(document, lambda: self.canvas.picture.lookup.box)
+        self.side.add_page("Drawing", self.drawing_page, "properties, layers and history of what is drawn")
+        self.cut_form, self.curves_panel = SetupForm(), CurvesPanel()
+        self.stages_panel, self.import_panel, self.plot_panel = StagesPanel(), ImportPanel(), PlotPanel()
+        self.scene = SceneDocument(self)
+        self.scene_side = SceneSide(self.scene)
+        self.notice, self.card, self.command_line, self.status = Notice(), QuestionCard(), CommandLine(), StatusBar()
+        self.top_bar, self.tool_strip = TopBar(self.actions_), ToolStrip(self.actions_)
+        self.findings_list = FindingsList(self)
+        self.file_label = QLabel()
+        self._lay_out()
+        self.set_theme_choice(settings.theme)
+        QGuiApplication.styleHints().colorSchemeChanged.connect(lambda _: self.set_theme_choice(self.settings.theme))
+
+    def _lay_out(self) -> None:
+        self.actions_.fill(self.menuBar())
+        self.file_label.setProperty("role", "muted")
+        self.file_label.setContentsMargins(0, 6, 16, 0)
+        self.menuBar().setCornerWidget(self.file_label)
+        centre = QVBoxLayout()
+        centre.setSpacing(0)
+        centre.addWidget(self.notice)
+        centre.addWidget(self.card)
+        centre.addWidget(self.views, 1)
+        middle = QHBoxLayout()
+        middle.setSpacing(0)
+        middle.addWidget(self.tool_strip)
+        middle.addLayout(centre, 1)
+        middle.addWidget(self.side)
+        for widget in (self.import_panel, self.stages_panel, self.cut_panel, self.cut_form, self.curves_panel, self.scene_side,
+                       self.plot_panel):
+            middle.addWidget(widget)
+            widget.hide()
+        root = QWidget()
+        root.setObjectName("root")
+        column = QVBoxLayout(root)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.top_bar)
+        column.addLayout(middle, 1)
+        column.addWidget(self.command_line)
+        column.addWidget(self.status)
+        self.setCentralWidget(root)
+        self.setAcceptDrops(True)
+        self.setMinimumSize(840, 520)
+        self.resize(*SIZE)
+        self.canvas.setFocus()
+
+    def lay_out_now(self) -> None:
+        """Give every part its place at once, so that what is fitted into it fits."""
+        for layout in self.findChildren(QLayout):
+            layout.activate()
+
+    def _theme_for(self, choice: ThemeChoice) -> Theme:
+        if choice is ThemeChoice.SYSTEM:
+            return DARK if QGuiApplication.styleHints().colorScheme() == Qt.ColorScheme.Dark else LIGHT
+        return DARK if choice is ThemeChoice.DARK else LIGHT
+
+    def _apply_style(self) -> None:
+        application = QApplication.instance()
+        if isinstance(application, QApplication):
+            style.apply(application, self.theme, arrow_picture(self.theme))
+
+    def set_theme_choice(self, choice: ThemeChoice) -> None:
+        """Paint everything in the theme that the user or the system chose."""
+        self.theme = self._theme_for(choice)
+        self._apply_style()
+        self.actions_.set_theme(self.theme)
+        for widget in self.findChildren(QWidget):
+            if hasattr(widget, "set_theme"):
+                widget.set_theme(self.theme)
+        self.actions_[f"theme_{choice.value}"].setChecked(True)
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
+        """Welcome one drawing, scene, picture or NC program."""
+        urls = event.mimeData().urls()
+        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith((*SUFFIXES, ".toml", *PICTURES, *PROGRAM_SUFFIXES)):
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 (Qt's name)
+        """Open the file that was dropped."""
+        event.acceptProposedAction()
+        self.dropped.emit(event.mimeData().urls()[0].toLocalFile())
+
+    def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Ask before changes are lost; leave the running job."""
+        self.closing.emit()
+        if not self.may_close:
+            event.ignore()
+            return
+        self.worker.finish()
+        self.closed.emit()
+        event.accept()

@@ -1,0 +1,195 @@
+"""Save, Save as, Save a copy: written in the background, whole or not at all, and never over another program's work unasked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QFileDialog
+
+from ...core.progress import Progress
+from ...drafting.document import Change
+from ...formats.project.beside import Beside
+from ...formats.project.files import ChangedElsewhere, Stamp, save_project
+from ...formats.project.project import SUFFIX, Look, Project
+from ..framework.figures import counted, grouped
+from ..framework.log import Log
+from ..framework.worker import Answer, Worker
+from .beside import BesideDrawing
+from .main_window import MainWindow
+from .memory import remember
+from .showing import Showing
+
+FILTER = "Hitofude projects (*.hito)"
+
+
+@dataclass(frozen=True)
+class _Wish:
+    """One saving.
+
+    Attributes:
+        path: of the file. known: the stamp that it must still have, or None.
+        copy: the document stays that of its own file. then: what to do once all is saved.
+    """
+
+    path: Path
+    known: Stamp | None = None
+    copy: bool = False
+    then: Callable[[], None] | None = None
+
+
+@dataclass(frozen=True)
+class _Saved:
+    """What became of it: the file's stamp, or a sentence on why it was not touched."""
+
+    wish: _Wish
+    project: Project
+    stamp: Stamp | None
+    elsewhere: str = ""
+
+
+class Saving(QObject):
+    """Saves the document.
+
+    Signals:
+        saved(path): the file is written. failed(sentence).
+
+    Attributes:
+        known: the stamp of the document's file as it was read or written last; None where it has none.
+        beside: what is saved beside the drawing.
+        choose_file: asks the user for a path, given a title and a first choice; None = he changed his mind.
+    """
+
+    saved = Signal(Path)
+    failed = Signal(str)
+
+    def __init__(self, window: MainWindow, showing: Showing, log: Log) -> None:
+        super().__init__(window)
+        self._window, self._showing, self._log = window, showing, log
+        self._document = window.document
+        self._worker = Worker(window, head_start_s=0.0)
+        self._next: _Wish | None = None
+        self._generation = 0
+        self.known: Stamp | None = None
+        self.beside = BesideDrawing(self)
+        self.choose_file: Callable[[str, Path], Path | None] = self._choose
+        self._worker.done.connect(self._on_done)
+        self._worker.failed.connect(self._on_failed)
+        window.closed.connect(lambda: self._worker.finish(30.0))
+        backups = window.actions_["backups"]
+        backups.setChecked(window.settings.backups)
+        backups.toggled.connect(self._keep_backups)
+        self._unsubscribe = self._document.subscribe(self._on_change)
+
+    def project(self) -> Project:
+        """Return what a project file of the window holds now."""
+        canvas = self._window.canvas
+        look = Look(self._showing.view.value, canvas.view.to_world(canvas.area.center()), canvas.view.scale)
+        return Project(self._document.state, look, self.beside.now)
+
+    def save(self, then: Callable[[], None] | None = None) -> None:
+        """Save to the document's own file, or ask for one where it has none; `then` is done once it is saved."""
+        path = self._document.path
+        if path is None or path.suffix.lower() != SUFFIX:
+            self.save_as(then)
+        else:
+            self._start(_Wish(path, self.known, then=then))
+
+    def save_as(self, then: Callable[[], None] | None = None) -> None:
+        """Ask for a file, and save to that from now on."""
+        path = self.choose_file("Save as", self._first_choice(""))
+        if path is not None:
+            self._start_new(_Wish(path, then=then))
+
+    def save_copy(self) -> None:
+        """Ask for a file and write the document there; it stays that of its own file."""
+        path = self.choose_file("Save a copy", self._first_choice(" copy"))
+        if path is not None:
+            self._start_new(_Wish(path, copy=True))
+
+    def _start_new(self, wish: _Wish) -> None:
+        """Save to a file that the user has named; one that would be none of ours gets our ending, and is not replaced unasked."""
+        if wish.path.suffix.lower() == SUFFIX:
+            self._start(wish)
+            return
+        wish = replace(wish, path=wish.path.with_name(wish.path.name + SUFFIX))
+        if wish.path.exists():
+            self._ask(f"{wish.path.name} is there already.", wish)
+        else:
+            self._start(wish)
+
+    def _keep_backups(self, on: bool) -> None:
+        self._window.settings = replace(self._window.settings, backups=on)
+        remember(self._window)
+
+    def _first_choice(self, behind: str) -> Path:
+        path = self._document.path
+        own = path is not None and path.suffix.lower() == SUFFIX
+        folder = path.parent if path is not None and own else Path(self._window.settings.last_folder or Path.home())
+        return folder / f"{path.stem if path else self._document.part.name}{behind}{SUFFIX}"
+
+    def _choose(self, title: str, first: Path) -> Path | None:
+        dialog = QFileDialog(self._window, title, str(first), FILTER)
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix(SUFFIX[1:])
+        return Path(dialog.selectedFiles()[0]) if dialog.exec() else None
+
+    def _start(self, wish: _Wish) -> None:
+        if self._worker.busy:
+            self._next = wish
+            return
+        self._worker.start(partial(_save, wish, self.project(), self._window.settings.backups), self._generation)
+
+    def _on_change(self, change: Change) -> None:
+        if change & Change.LOADED:
+            self._generation += 1
+            self.known = None
+            self.beside.mark_saved(Beside())
+
+    def _on_done(self, answer: Answer) -> None:
+        saved = answer.value
+        assert isinstance(saved, _Saved)
+        if saved.elsewhere:
+            self._ask(f"{saved.elsewhere} Saving would replace what it wrote.", saved.wish)
+            return
+        size = grouped(saved.stamp[1] / 1000, 1) if saved.stamp else ""
+        if answer.revision == self._generation and not saved.wish.copy:
+            self.known = saved.stamp
+            self._document.mark_saved(saved.wish.path, saved.project.state)
+            self.beside.mark_saved(saved.project.beside)
+            self._window.settings = self._window.settings.with_recent_file(saved.wish.path)
+        self._log.note(f"save {saved.wish.path.name}", f"{counted(len(saved.project.state.job.part.entities), 'curve')}, {size} kB.")
+        self._window.status.show_message(f"{saved.wish.path.name} is saved.")
+        self.saved.emit(saved.wish.path)
+        following, self._next = self._next, None
+        if following is not None:
+            self._start(_Wish(following.path, self.known if following.path == saved.wish.path else following.known,
+                              following.copy, following.then))  # fmt: skip
+        elif saved.wish.then is not None:
+            saved.wish.then()
+
+    def _ask(self, why: str, wish: _Wish) -> None:
+        self._next = None
+        self._window.notice.ask(
+            why,
+            [("Replace it", lambda: self._start(replace(wish, known=None))),
+             ("Save as…", lambda: self.save_as(wish.then)), ("Do not save", lambda: None)], error=True, stays=True)
+
+    def _on_failed(self, answer: Answer) -> None:
+        self._next = None
+        self.failed.emit(f"{answer.error} Nothing was saved; save elsewhere with File, Save as.")
+
+
+def _save(wish: _Wish, project: Project, backup: bool, progress: Progress) -> _Saved:
+    try:
+        return _Saved(wish, project, save_project(wish.path, _named(project, wish.path.stem), wish.known, backup))
+    except ChangedElsewhere as sentence:
+        return _Saved(wish, project, None, str(sentence))
+
+
+def _named(project: Project, name: str) -> Project:
+    """Return a project whose part has this name."""
+    return replace(project, state=project.state.named(name))

@@ -1,0 +1,316 @@
+"""Keeps what the window shows in step with the document and the computation: views, badge, titles, enabled actions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QObject, Signal
+
+from ...drafting.document import Change
+from ...drafting.expressions.words import name_text
+from ...geometry.sample import bounds, union
+from ...model.finding import Finding
+from ...model.part import Part
+from ..framework.samples import Sample
+from ..framework.verdict import Level, Verdict, verdict
+from ..views.canvas.modes import CanvasTool, ColourBy, PathLayers
+from ..views.surfaces.scene_work import SceneState
+from .computation import State
+from .main_window import MainWindow
+from .opening import size_of
+from .views import View
+
+_LAYERS = {
+    Sample.PART: PathLayers.PART, Sample.POCKET: PathLayers.POCKET, Sample.REST: PathLayers.REST, Sample.CONTOUR: PathLayers.CONTOUR,
+    Sample.LINK: PathLayers.LINK, Sample.RAPID: PathLayers.RAPID, Sample.PLUNGE: PathLayers.PLUNGE,
+    Sample.LEFT: PathLayers.LEFT, Sample.UNREACHABLE: PathLayers.UNREACHABLE, Sample.CLAMP: PathLayers.CLAMP,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Missing:
+    """What a view lacks: a sentence, and the button (with the name of its action) that makes it."""
+
+    sentence: str = ""
+    button: str = ""
+    action: str = "open"
+
+
+NOTHING = Missing()
+NO_DRAWING = Missing("Nothing is drawn yet. Pick a tool at the left, type  rect 0,0 60,40  or open a drawing.", "Open a drawing")
+NO_PATHS = Missing("There are no tool paths yet.", "Compute  F5", "compute")
+NO_CUT = Missing("There is no cut yet.", "Compute  F5", "compute")
+NO_NC = Missing("There is no NC program yet.", "Compute  F5", "compute")
+NO_PROGRAM = Missing("There is no NC program yet. Draw a part and compute it, or open a program.", "Open an NC program", "nc_open")
+NO_SCENE = Missing("No scene is open. Open one, begin one (File, New scene), or look at figure 1 of the 1986 patent.",
+                   "Open figure 1", "scene_compound")
+WRONG_SCENE = Missing("The scene's text is wrong; the line is marked at the right.", "Open another scene")
+SCENE_FAILED = Missing("The scene could not be computed; the badge below tells why.", "Compute  F5", "compute")
+SCENE_WAITS = Missing("The scene is not computed yet.", "Compute  F5", "compute")
+SCENE_COMPUTING = Missing("The scene is being computed.", "Cancel  Shift+F5", "cancel")
+NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
+CUT_PROMPT = "Space plays, . and , step; drag turns the cut, the middle button shifts it, Ctrl+drag measures; a click goes to the line"
+CURVES_PROMPT = "Say how near curves must keep to the moves, then Smooth; click the deviation to see the place"
+SURFACES_PROMPT = "Drag turns the scene, the middle button shifts it; what is set at the right is computed at once; Ctrl+E writes it"
+_NO_SCENE = {SceneState.NONE: NO_SCENE, SceneState.WRONG: WRONG_SCENE, SceneState.FAILED: SCENE_FAILED, SceneState.CHANGED: SCENE_WAITS,
+             SceneState.COMPUTING: SCENE_COMPUTING, SceneState.PROVING: SCENE_COMPUTING, SceneState.PROVEN: SCENE_COMPUTING}  # fmt: skip
+STAGES_PROMPT = "Space plays, Left and Right step; click a traced line to see its chain code"
+PICTURE_PROMPT = "Say what is ink and how large a pixel is; what lies green is machined"
+COMPUTING = Missing("The paths are being computed.", "Cancel  Shift+F5", "cancel")
+
+
+class Showing(QObject):
+    """Reads the state and shows it; changes nothing but the window.
+
+    Signals:
+        view_changed(View): another view came to the front.
+
+    Attributes:
+        stages_missing: what the stages lack.
+        writing: the drawing is being written as a text, so that nothing need be said of an empty one.
+    """
+
+    view_changed = Signal(View)
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window = window
+        self._document, self._computation = window.document, window.computation
+        self.view = View.DRAW
+        self.stages_missing, self.writing = NOTHING, False
+        self._layers = PathLayers.ALL
+        self._shown_program: object = None
+        self._empty_action = "open"
+        self._sized: tuple[Part, tuple[str, ...], tuple[float, float] | None] | None = None
+        self._computation.changed.connect(self._on_computation)
+        window.worker.progress.connect(window.status.show_progress)
+        window.worker.busy_changed.connect(self._on_busy)
+        window.status.badge.clicked.connect(self.open_findings)
+        window.findings_list.picked.connect(self.go_to)
+        window.findings_list.left_out.connect(self.leave_out)
+        window.canvas.tool_changed.connect(lambda _: self.show_missing())
+        window.views.empty.pressed.connect(lambda: window.actions_[self._empty_action].trigger())
+        window.views.legend.layer_switched.connect(self._on_layer)
+        window.views.legend.colour_chosen.connect(lambda by: window.canvas.set_colour_by(ColourBy(by)))
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """Everything there is to say about the drawing and, once computed, its paths."""
+        made = self._computation.made
+        return made.findings if made is not None else self._computation.drawing_findings
+
+    def _marked(self) -> tuple[Finding, ...]:
+        """Return the findings that are marked on the canvas: those that count; a remark only when it is picked."""
+        return tuple(finding for finding in self.findings if finding.counts)
+
+    def part_size(self) -> tuple[float, float] | None:
+        """Return width and height of the drawing without its keep-out layers, mm; None when it is empty."""
+        part, apart = self._document.part, self._document.job.keep_out_layers
+        if self._sized is None or self._sized[0] is not part or self._sized[1] != apart:
+            self._sized = (part, apart, size_of(part, apart))
+        return self._sized[2]
+
+    def know_size(self, part: Part, size: tuple[float, float] | None) -> None:
+        """Take over the size of a part that was measured on another thread."""
+        self._sized = (part, (), size)
+
+    def show_view(self, view: View) -> None:
+        """Bring a view to the front."""
+        self.view = view
+        self._window.actions_[view.value].setChecked(True)
+        self._window.views.show_view(view)
+        self.show_prompt()
+        self._show_standing()
+        self._show_badge()
+        self.view_changed.emit(view)
+        self.show_missing()
+
+    def show_prompt(self) -> None:
+        """Say what the command line takes: on the canvas what the tool in hand wants, beside a program what it is for."""
+        prompts = {View.STAGES: STAGES_PROMPT, View.CUT: CUT_PROMPT, View.CURVES: CURVES_PROMPT,
+                   View.SURFACES: SURFACES_PROMPT, View.NC: NC_PROMPT}  # fmt: skip
+        picture = self.view is View.STAGES and self._window.import_panel.reading is not None
+        self._window.command_line.set_prompt(PICTURE_PROMPT if picture else prompts.get(self.view, self._window.canvas.prompt))
+
+    def refresh(self, change: Change) -> None:
+        """Show what changed in the document."""
+        if change & (Change.PART | Change.JOB):
+            self._window.panel.show_size(self.part_size(), self._document.job)
+            self._window.views.legend.show_job(self._document.job)
+            self.show_missing()
+        self.show_titles()
+
+    def show_titles(self) -> None:
+        """Name the file that is worked on, and what can be undone in it: the drawing, or the scene in its view."""
+        document, scene, actions = self._document, self._window.scene, self._window.actions_
+        on_scene = self.view is View.SURFACES and scene.open
+        name = scene.name if on_scene else document.path.name if document.path else document.part.name
+        modified = scene.modified if on_scene else document.modified
+        self._window.file_label.setText(f"{name}{' *' if modified else ''}")
+        self._window.menuBar().setCornerWidget(self._window.file_label)
+        self._window.setWindowTitle(f"{name}{' *' if modified else ''} - Hitofude")
+        undo = ("" if scene.document.isUndoAvailable() else None) if on_scene else document.undo_name
+        redo = ("" if scene.document.isRedoAvailable() else None) if on_scene else document.redo_name
+        for action, what, verb in (("undo", undo, "&Undo"), ("redo", redo, "&Redo")):
+            text = f"{verb} {what[0].lower()}{what[1:]}" if what else verb
+            actions[action].setText(text)
+            actions[action].setToolTip(f"{text.replace('&', '')} ({actions[action].shortcut().toString()})")
+            actions[action].setEnabled(what is not None)
+        actions["delete"].setEnabled(bool(document.selection))
+        drawn = bool(document.part.entities)
+        actions["select_all"].setEnabled(drawn)
+        in_surfaces, surfaces = self.view is View.SURFACES, self._window.views.surfaces
+        actions["export"].setEnabled(surfaces.shown is not None if in_surfaces else drawn)
+        actions["compute"].setEnabled(scene.open if in_surfaces else drawn)
+
+    def show_scene(self) -> None:
+        """Show where the scene stands."""
+        self._show_badge()
+        self._show_standing()
+        self.show_missing()
+
+    def show_missing(self) -> None:
+        """Say what the view lacks, if it lacks anything."""
+        made = self._computation.made
+        missing = self._missing()
+        self._empty_action = missing.action
+        self.show_titles()
+        self._window.views.show_missing(missing.sentence, missing.button, made is not None)
+        self._show_side()
+
+    def _show_side(self) -> None:
+        """Have what belongs to the view at its right: the job, or what is known of the cut, or what is asked of it."""
+        window, plotting = self._window, self._window.views.plotting
+        beside_cut = self.view is View.CUT and not plotting
+        picture = self.view is View.STAGES and window.import_panel.reading is not None and not plotting
+        stages = self.view is View.STAGES and bool(self._document.part.entities) and not picture and not plotting
+        window.plot_panel.setVisible(plotting)
+        window.tool_strip.setVisible(self.view in (View.DRAW, View.PATHS) and not plotting)
+        window.import_panel.setVisible(picture)
+        asks, tells = beside_cut and window.cut_form.asked is not None, beside_cut and window.cut_panel.shown is not None
+        window.cut_form.setVisible(asks)
+        window.cut_panel.setVisible(tells and not asks)
+        window.stages_panel.setVisible(stages)
+        curves = self.view is View.CURVES and not plotting
+        window.curves_panel.setVisible(curves)
+        surfaces = self.view is View.SURFACES and not plotting
+        window.scene_side.setVisible(surfaces and window.scene.open)
+        window.side.setVisible(not (asks or tells or stages or picture or curves or plotting or surfaces))
+
+    def _missing(self) -> Missing:
+        if self._has_something():
+            return NOTHING
+        if self.view is View.SURFACES:
+            return _NO_SCENE[self._window.views.surfaces.state]
+        if self.view is View.STAGES and self._document.part.entities:
+            return self.stages_missing
+        if self._computation.state is State.RUNNING:
+            return COMPUTING if self.view is not View.DRAW else NOTHING
+        if not self._document.part.entities:
+            if self.view in (View.CURVES, View.NC):
+                return NO_PROGRAM
+            return NOTHING if self.writing or self._window.canvas.tool is not CanvasTool.SELECT else NO_DRAWING
+        return {View.PATHS: NO_PATHS, View.CUT: NO_CUT, View.CURVES: NO_NC, View.NC: NO_NC}.get(self.view, NOTHING)
+
+    def _has_something(self) -> bool:
+        """Return whether the view at the front shows something besides the drawing."""
+        views = self._window.views
+        if self.view is View.STAGES:
+            return views.stages.film is not None or self._window.import_panel.reading is not None
+        if self.view is View.SURFACES:
+            return views.surfaces.shown is not None
+        if self.view is View.CUT:
+            return views.cut.picture is not None or bool(views.cut.sentence.text())
+        return self._computation.made is not None or (self.view in (View.CURVES, View.NC) and len(views.nc.pane.text.text) > 0)
+
+    def show_hovered(self, text: str) -> None:
+        """Show what the mouse is over, or else where the paths stand."""
+        if text:
+            self._window.status.show_message(text)
+        else:
+            self._show_standing()
+
+    def _show_standing(self) -> None:
+        """Show what the status bar says when nothing else is to be said: of a run that failed, why it did."""
+        views, computation = self._window.views, self._computation
+        words = {View.CURVES: views.curves.summary, View.SURFACES: views.surfaces.summary, View.NC: views.nc.summary,
+                 View.STAGES: views.stages.summary}.get(self.view, "")  # fmt: skip
+        self._window.status.show_message(words or computation.error or computation.state.value, error=bool(computation.error and not words))
+
+    def _on_computation(self) -> None:
+        made, state = self._computation.made, self._computation.state
+        if made is not self._shown_program:
+            self._shown_program = made
+            picture = self._computation.picture
+            self._window.canvas.set_program(picture)
+            if picture is not None:
+                self._window.views.legend.show_left(bool(picture.left), bool(picture.unreachable))
+            self._window.canvas.set_findings(self._marked())
+        self._window.canvas.set_stale(self._computation.outdated)
+        strokes = made.program.strokes if made is not None and state is State.CURRENT else None
+        self._window.panel.show_results(self._computation.operation_times(), strokes)
+        self._show_badge()
+        self.show_missing()
+        self._window.status.show_message(state.value)
+        self._window.actions_["cancel"].setEnabled(self._window.worker.busy)
+
+    def _show_badge(self) -> None:
+        badge, state, made = self._window.status.badge, self._computation.state, self._computation.made
+        surfaces = self._window.views.surfaces
+        if self.view is View.SURFACES:
+            if surfaces.computing:
+                badge.show_running()
+            else:
+                badge.show_verdict(surfaces.verdict)
+        elif state is State.RUNNING:
+            badge.show_running()
+        elif state is State.CURRENT and made is not None:
+            badge.show_verdict(verdict(made.findings, made.report.data))
+        elif state is State.FAILED:
+            badge.show_verdict(Verdict(Level.REMARK, "Could not be computed"))
+        else:
+            badge.show_verdict(Verdict(Level.NONE, "Not computed" if state is State.NONE else "Out of date"))
+
+    def _on_busy(self, busy: bool) -> None:
+        self._window.status.show_progress(0.0 if busy else None)
+        self._window.actions_["cancel"].setEnabled(busy)
+
+    def _on_layer(self, sample: Sample, on: bool) -> None:
+        flag = _LAYERS[sample]
+        self._layers = self._layers | flag if on else self._layers & ~flag
+        self._window.canvas.set_visible_layers(self._layers)
+
+    def open_findings(self) -> None:
+        """List every finding above the badge."""
+        sentences = {
+            State.NONE: "Nothing was computed yet. Press F5.", State.STALE: "The paths are out of date. Press F5.",
+            State.FAILED: self._computation.error, State.RUNNING: "The paths are being computed.",
+        }
+        empty = sentences.get(self._computation.state, "No gouge, nothing left that a tool could reach, no rapid in material.")
+        if self.view is View.SURFACES:
+            said = self._window.views.surfaces.verdict
+            self._window.findings_list.show_findings(self._window.views.surfaces.findings, self._window.status.badge, said.tip or said.text)
+            return
+        shown = frozenset(layer.name for layer in self._document.part.layers if layer.visible)
+        self._window.findings_list.show_findings(self.findings, self._window.status.badge, empty, shown)
+
+    def go_to(self, finding: Finding) -> None:
+        """Show the place of a finding on the canvas, with the whole of the curves that it is about, and select these."""
+        ids = set(finding.entity_ids)
+        box = union([bounds(entity.curve) for entity in self._document.part.entities if entity.id in ids])
+        if finding.x is not None and finding.y is not None:
+            place = (finding.x, finding.y)
+        elif box is not None:
+            place = ((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
+        else:
+            return
+        self._window.canvas.set_findings((*self._marked(), finding))
+        if self.view not in (View.DRAW, View.PATHS):
+            self.show_view(View.PATHS)
+        self._window.canvas.go_to(*place, closely=True, around=box)
+        self._window.canvas.setFocus()
+        self._document.select(finding.entity_ids)
+
+    def leave_out(self, layer: str) -> None:
+        """Hide a layer, so that what is on it is not machined; one undoable line."""
+        self._document.run(f"hide {name_text(layer)}")

@@ -1,0 +1,99 @@
+"""Starts the window."""
+
+from __future__ import annotations
+
+import signal
+import sys
+import tempfile
+import traceback
+from functools import partial
+from importlib import import_module
+from pathlib import Path
+from types import TracebackType
+
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtWidgets import QApplication
+
+from ...core.atomic import sweep
+from ...core.progress import Progress
+from ...core.settings import Settings, config_folder, load_settings, state_folder
+from ...drafting.document import Document
+from ..framework.icons import pixmap
+from ..framework.worker import Worker
+from .main_window import MainWindow
+from .memory import restore_geometry
+from .wiring import Wiring
+
+_ENGINES = (
+    "ezdxf", "ezdxf.recover", "shapely", "scipy.sparse.csgraph", "scipy.spatial", "cv2",
+    "app.formats.dxf.dxf", "app.operations.compute", "app.usecases.make",
+)
+
+
+def places(settings: Settings) -> set[Path]:
+    """Return the folders in which a run of the program that was killed may have left something unfinished, but for its own."""
+    recent = {Path(name).parent for name in settings.recent_files}
+    return recent | {Path(tempfile.gettempdir())} | ({Path(settings.last_folder)} if settings.last_folder else set())
+
+
+def _warm(settings: Settings, progress: Progress) -> None:
+    """Sweep, which may wait for a disk, and load what the first Open and Compute need, which would make the window stutter later."""
+    from ...core.jit.warm import warm
+
+    sweep(*places(settings))
+    for engine in _ENGINES:
+        import_module(engine)
+    warm(progress)
+
+
+def build() -> tuple[MainWindow, Wiring]:
+    """Return a window with an empty document, not shown yet, and its wiring."""
+    window = MainWindow(Document(), load_settings())
+    wiring = Wiring(window)
+    window.setWindowIcon(pixmap("app", window.theme.accent_text, 3))
+    return window, wiring
+
+
+def warm_up(window: MainWindow) -> Worker:
+    """Load engines and have inner loops compiled in the background, so that the first Compute waits for little or nothing."""
+    warmer = Worker(window)
+    warmer.progress.connect(lambda _, text: window.status.show_waiting(text))
+    warmer.busy_changed.connect(lambda _: window.status.show_waiting(""))
+    warmer.start(partial(_warm, window.settings), 0)
+    return warmer
+
+
+def _tell_mistake(window: MainWindow, kind: type[BaseException], fault: BaseException, trace: TracebackType | None) -> None:
+    traceback.print_exception(kind, fault, trace)
+    window.notice.ask(f"The program made a mistake here ({kind.__name__}: {fault}). Your drawing is safe; please report this.", error=True)
+
+
+def begin(wiring: Wiring, path: Path | None) -> None:
+    """Open a file, and then offer what a crash has left; without a file offer that, or else open the sample part."""
+    if path is None:
+        wiring.recovering.offer(wiring.files.open_sample)
+        return
+    wiring.files.opening.opened.connect(lambda _: wiring.recovering.offer(), Qt.ConnectionType.SingleShotConnection)
+    wiring.files.open_file(path)
+
+
+def start(path: Path | None = None) -> int:
+    """Open the window with a drawing, or with the sample part, and stay until it is closed.
+
+    Returns:
+        Exit status.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    sweep(state_folder(), config_folder())
+    application = QApplication(sys.argv[:1])
+    application.setApplicationName("Hitofude")
+    application.setDesktopFileName("hitofude")
+    window, wiring = build()
+    restore_geometry(window)
+    sys.excepthook = partial(_tell_mistake, window)
+    window.show()
+    warmer = warm_up(window)
+    QTimer.singleShot(0, window, partial(begin, wiring, path))
+    status = application.exec()
+    warmer.finish()
+    return status

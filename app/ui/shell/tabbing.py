@@ -1,0 +1,62 @@
+"""Tabs by hand: clicks beside contours put them, clicks on them take them away; each is an undoable change of the operation."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from ...model.curves import Point
+from ...model.job import Job
+from ...model.operation import ContourOperation
+from ..panels.changes import with_operation
+from ..panels.operation_groups import BY_HAND
+from ..views.canvas.marking import Marking
+from .main_window import MainWindow
+
+
+class Tabbing:
+    """Lets the canvas put the tabs of the operation that the panel shows."""
+
+    def __init__(self, window: MainWindow) -> None:
+        self._window, self._index = window, 0
+        window.panel.operation_form.tabs.connect(self.start)
+        window.canvas.prompt_changed.connect(lambda _: self._show())
+
+    def _show(self) -> None:
+        """Have the button say what a click on it does."""
+        self._window.panel.operation_form.hand.setText(BY_HAND if self._window.canvas.marking is None else "Done")
+
+    def start(self) -> None:
+        """Begin, or end when it had begun."""
+        canvas = self._window.canvas
+        if canvas.marking is not None:
+            canvas.mark(None)
+            return
+        self._index = self._window.panel.operation_form.index
+        if self._operation is not None:
+            prompt = "Tabs: click beside a contour, or on a tab to take it away; Esc ends"
+            canvas.mark(Marking(prompt, self._places, self._click))
+            canvas.setFocus()
+
+    @property
+    def _operation(self) -> ContourOperation | None:
+        operations = self._window.document.job.operations
+        operation = operations[self._index] if self._index < len(operations) else None
+        return operation if isinstance(operation, ContourOperation) else None
+
+    def _places(self) -> tuple[Point, ...]:
+        operation = self._operation
+        return operation.tabs.places if operation is not None else ()
+
+    def _click(self, at: Point, reach: float) -> None:
+        operation = self._operation
+        if operation is None:
+            return
+        places = operation.tabs.places
+        near = [place for place in places if math.dist(place, at) <= reach]
+        kept = tuple(place for place in places if place not in near) if near else (*places, (round(at[0], 3), round(at[1], 3)))
+
+        def make(job: Job) -> Job:
+            return with_operation(job, self._index, replace(operation, tabs=replace(operation.tabs, places=kept)))
+
+        self._window.panel.change("Remove tab" if near else "Put tab", make)

@@ -1,0 +1,154 @@
+"""Has every widget speak the user's language: its English text is looked up in the catalogue, and kept to go back to.
+
+What is built or said later is looked up when it is about to be painted or shown as a tip; in English nothing watches.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+
+from PySide6.QtCore import QEvent, QLibraryInfo, QLocale, QObject, QSignalBlocker, Qt, QTranslator
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QMenu, QWidget
+
+from ...core.settings import Language
+from ..framework.words import catalogue, speak, spoken
+from .main_window import MainWindow
+from .memory import remember
+
+
+@dataclass(frozen=True)
+class _Slot:
+    """A text of an object: how it is read and written."""
+
+    name: str
+    read: Callable[..., str]
+    write: Callable[..., None]
+
+
+_LETTER = re.compile(r"\(&\w\)|&|…")
+
+
+def _set_action_text(action: QAction, text: str) -> None:
+    """Write an action's text, and on buttons the same without the letter to press."""
+    action.setText(text)
+    action.setIconText(_LETTER.sub("", text))
+
+
+_TEXT = {
+    QAction: (_Slot("text", QAction.text, _set_action_text), _Slot("tip", QAction.toolTip, QAction.setToolTip)),
+    QMenu: (_Slot("title", QMenu.title, QMenu.setTitle),),
+    QLabel: (_Slot("text", QLabel.text, QLabel.setText),),
+    QAbstractButton: (_Slot("text", QAbstractButton.text, QAbstractButton.setText),),
+    QLineEdit: (_Slot("placeholder", QLineEdit.placeholderText, QLineEdit.setPlaceholderText),),
+}
+_ACCESS = _Slot("access", QWidget.accessibleName, QWidget.setAccessibleName)
+_WIDGET = (_Slot("tip", QWidget.toolTip, QWidget.setToolTip), _ACCESS)
+_PAINTED = (QLabel, QAbstractButton, QLineEdit, QComboBox)
+_ENGLISH, _SHOWN = Qt.ItemDataRole.UserRole + 101, Qt.ItemDataRole.UserRole + 102
+_SEEN = (QEvent.Type.Paint, QEvent.Type.ToolTip)
+_DEFAULT_ACTION = "defaultAction"
+
+
+def _slots(thing: QObject) -> tuple[_Slot, ...]:
+    own = next((slots for kind, slots in _TEXT.items() if isinstance(thing, kind)), ())
+    if hasattr(thing, _DEFAULT_ACTION) and getattr(thing, _DEFAULT_ACTION)() is not None:
+        return (_ACCESS,)
+    return (*own, *(_WIDGET if isinstance(thing, QWidget) else ()))
+
+
+def translate(thing: QObject) -> None:
+    """Show an object's texts in the language that is spoken; whatever was written since the last time is taken as English."""
+    for slot in _slots(thing):
+        text = slot.read(thing)
+        source, shown = thing.property(f"english_{slot.name}"), thing.property(f"shown_{slot.name}")
+        if shown is None and not text:
+            continue
+        english = source if text == shown else text
+        wanted = catalogue(spoken()).look_up(english) or english
+        if wanted != text:
+            slot.write(thing, wanted)
+        if wanted != english or shown is not None:
+            thing.setProperty(f"english_{slot.name}", english)
+            thing.setProperty(f"shown_{slot.name}", wanted)
+    if isinstance(thing, QComboBox):
+        _translate_choices(thing)
+
+
+def _translate_choices(box: QComboBox) -> None:
+    """Show what can be chosen; which one is chosen stays."""
+    words = catalogue(spoken())
+    with QSignalBlocker(box):
+        for at in range(box.count()):
+            text, shown = box.itemText(at), box.itemData(at, _SHOWN)
+            english = box.itemData(at, _ENGLISH) if shown == text else text
+            wanted = words.look_up(english) or english
+            if wanted != text:
+                box.setItemText(at, wanted)
+            if wanted != english or shown is not None:
+                box.setItemData(at, english, _ENGLISH)
+                box.setItemData(at, wanted, _SHOWN)
+
+
+def translate_all(root: QObject) -> None:
+    """Show the texts of an object and of all that belongs to it."""
+    for thing in (root, *root.findChildren(QAction), *root.findChildren(QWidget)):
+        translate(thing)
+
+
+class _Later(QObject):
+    """Looks up what was written since, just before it is seen."""
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Before a label or a button is painted, a menu opens or a tip shows."""
+        kind = event.type()
+        if isinstance(watched, _PAINTED if kind == QEvent.Type.Paint else QWidget) and kind in _SEEN:
+            translate(watched)
+        elif kind == QEvent.Type.Show and isinstance(watched, QMenu):
+            translate_all(watched)
+            for action in watched.actions():
+                translate(action)
+        return False
+
+
+class Translating:
+    """View, Language: switches at once and remembers it."""
+
+    def __init__(self, window: MainWindow) -> None:
+        self._window, self._later, self._qt = window, _Later(window), QTranslator(window)
+        for choice in Language:
+            action = window.actions_[f"language_{choice.value}"]
+            action.triggered.connect(partial(self.choose, choice))
+        self._show(window.settings.language)
+
+    def choose(self, choice: Language, *_: object) -> None:
+        """Switch, and remember it."""
+        self._window.settings = replace(self._window.settings, language=choice)
+        self._show(choice)
+        remember(self._window)
+
+    def _show(self, choice: Language) -> None:
+        code = code_of(choice)
+        application = QApplication.instance()
+        assert application is not None
+        application.removeEventFilter(self._later)
+        application.removeTranslator(self._qt)
+        before = spoken()
+        speak(code)
+        if code != "en":
+            if self._qt.load(f"qtbase_{code}", QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)):
+                application.installTranslator(self._qt)
+            application.installEventFilter(self._later)
+        if code != "en" or before != "en":
+            translate_all(self._window)
+        self._window.actions_[f"language_{choice.value}"].setChecked(True)
+
+
+def code_of(choice: Language) -> str:
+    """Return the code of the language that a choice means; what there is no catalogue for is English."""
+    if choice is not Language.SYSTEM:
+        return str(choice.value)
+    return "ja" if QLocale.system().language() is QLocale.Language.Japanese else "en"

@@ -1,0 +1,359 @@
+"""What happens when: connects the window's parts with the document, the worker and one another."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QObject
+
+from ...core.settings import ThemeChoice
+from ...drafting.document import Change
+from ...model.operation import OPERATION_KINDS
+from ..framework.figures import counted
+from ..framework.log import Log
+from ..framework.verdict import Level, verdict
+from ..panels.changes import Subject, SubjectKind
+from ..views.canvas.modes import CanvasTool
+from ..views.curves.smoothing import Smoothing
+from ..views.cut.cutting import Cutting
+from ..views.cut.recorder import Recorder
+from ..views.cut.saving import CutSaving
+from ..views.language.wiring import LanguageWiring
+from ..views.nc.control import NcControl
+from ..views.nc.reading import Shown
+from ..views.nc.wiring import NcWiring
+from ..views.plot.plotting import Plotting
+from ..views.session1986.opening import SessionOpening
+from ..views.stages.picturing import Picturing
+from ..views.stages.staging import Staging
+from ..views.surfaces.scene_control import SAMPLES, SceneControl, SceneProgram
+from ..views.surfaces.scene_export import SceneExport
+from .advising import Advising
+from .cleaning import Cleaning
+from .context_menu import ContextMenu
+from .drawing_export import DrawingExport
+from .engaging import Engaging
+from .entering import Entering
+from .files import Files, Openers
+from .help import show_about
+from .inspecting import Inspecting
+from .keys_window import KeysWindow
+from .main_window import MainWindow
+from .memory import choose_theme
+from .palette import Palette
+from .recovering import Recovering
+from .shortcuts import Shortcuts
+from .showing import Showing
+from .snapping import Snapping
+from .tabbing import Tabbing
+from .tool_exchange import ToolExchange
+from .tour import Tour
+from .translation import Translating
+from .underlaying import Underlaying
+from .unit_choice import UnitChoice
+from .views import View
+from .what_is_this import WhatIsThis
+
+TOOLS = {f"tool_{tool.value}": tool for tool in CanvasTool}
+WORDS = {
+    "compute": "compute", "cancel": "cancel", "fit": "fit", "export": "export", "new": "new", "open": "open",
+    "findings": "findings", "save": "save",
+}
+
+
+class Wiring(QObject):
+    """The window's behaviour."""
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self.window_, self.document, self.computation = window, window.document, window.computation
+        self.log = Log(window.document, window.command_line.log)
+        self.showing = Showing(window)
+        self.nc = NcControl(window, self.log)
+        self.cutting = Cutting(window)
+        self.staging = Staging(window)
+        self.cutting.shown.connect(self.showing.show_missing)
+        self.nc.cut_wanted.connect(self._show_cut)
+        self.cutting.failed.connect(self._say_error)
+        window.views.cut.cell_picked.connect(lambda x, y, z, motion: self._go_to_motion(motion))
+        window.cut_panel.line_wanted.connect(self._go_to_motion)
+        self.picturing = Picturing(window, self.log)
+        self.scenes = SceneControl(window, self.showing, self.log)
+        self.scene_export = SceneExport(window, self.log, lambda: self.scenes.work.proven)
+        self.files = Files(window, self.showing, self.log, Openers(self.nc.open, self.picturing.open, self.scenes.open))
+        self.drawing_export = DrawingExport(window, self.log)
+        self.drawing_export.failed.connect(self._say_error)
+        self.recovering = Recovering(window, self.showing, self.files, self.log)
+        self.tools = ToolExchange(window, self.log)
+        self.tabbing, self.unit_choice, self.underlaying = Tabbing(window), UnitChoice(window), Underlaying(window)
+        self.language = LanguageWiring(window, self.showing)
+        self.what_is_this = WhatIsThis(window, self.language.help)
+        self.files.saving.beside.watch(self.underlaying, self.language.control)
+        self.advising = Advising(window)
+        self.inspecting = Inspecting(window, self.showing)
+        self.engaging, self.entering = Engaging(window), Entering(window)
+        self.cleaning = Cleaning(window)
+        self.cut_saving, self.recorder = CutSaving(window, self.log), Recorder(window, self.log)
+        self.shortcuts, self.palette = Shortcuts(window), Palette(window, self.files.open_file)
+        self.plotting = Plotting(window, self.showing, self.log)
+        self.plotting.failed.connect(self._say_error)
+        self.session_1986 = SessionOpening(window, self.showing, self.log)
+        self._connect_stages()
+        self._connect_files()
+        self._connect_scenes()
+        self._connect_edit()
+        self._connect_view()
+        self._connect_job()
+        self._connect_canvas()
+        self._nc_wiring = NcWiring(window, self.nc, self.showing)
+        self.nc.failed.connect(self._say_error)
+        self.smoothing = Smoothing(window, self.nc, self.showing, self.log)
+        self.smoothing.failed.connect(self._say_error)
+        self.snapping = Snapping(window)
+        self.tour, self.translating = Tour(window), Translating(window)
+        self._unsubscribe = self.document.subscribe(self.showing.refresh)
+        self.showing.show_view(View.DRAW)
+        self.showing.refresh(Change.ALL)
+
+    def _on(self, name: str, act: Callable[[], object]) -> None:
+        self.window_.actions_[name].triggered.connect(lambda *_: act())
+
+    def _connect_files(self) -> None:
+        files = self.files
+        self._on("new", files.ask_new)
+        self._on("open", files.choose_file)
+        self._on("sample", files.ask_sample)
+        self._on("save", lambda: self.scenes.save() if self._on_scene else files.saving.save())
+        self._on("save_as", lambda: self.scenes.save_as() if self._on_scene else files.saving.save_as())
+        self._on("save_copy", files.saving.save_copy)
+        files.saving.failed.connect(self._say_error)
+        self._on("export", self.export)
+        self._on("frame", files.exporting.start_frame)
+        self._on("quit", self.window_.close)
+        for part in (files.opening, files.rereading, self.scenes, self.scene_export):
+            part.failed.connect(self._say_error)
+        files.exporting.failed.connect(self._say_error)
+        files.exporting.show_findings.connect(self._show_worst)
+
+    @property
+    def _on_scene(self) -> bool:
+        """Whether the scene is worked on rather than the drawing."""
+        return self.showing.view is View.SURFACES and self.window_.scene.open
+
+    def _connect_scenes(self) -> None:
+        scenes = self.scenes
+        self._on("scene_new", scenes.new)
+        for name in SAMPLES:
+            self._on(f"scene_{name}", partial(scenes.open_sample, name))
+        self._on("scene_nc", scenes.show_nc)
+        self._on("scene_cut", scenes.show_cut)
+        scenes.nc_wanted.connect(self.nc.show_text)
+        scenes.cut_wanted.connect(self._cut_scene)
+        self.window_.closing.connect(scenes.may_close)
+
+    def _connect_stages(self) -> None:
+        view = self.window_.views.stages
+        self.staging.changed.connect(self._show_stages)
+        self.showing.view_changed.connect(lambda shown: self.staging.see(shown is View.STAGES))
+        self._on("stages_again", self.staging.again)
+        self.picturing.shown.connect(self._show_picture)
+        self.picturing.taken.connect(self._on_picture_taken)
+        self.picturing.failed.connect(self._say_error)
+        view.hovered.connect(self.showing.show_hovered)
+        view.pixels.cursor_moved.connect(self.window_.status.show_place)
+
+    def _show_stages(self) -> None:
+        self.showing.stages_missing = self.staging.missing
+        self.showing.show_missing()
+        self.showing.show_hovered("")
+
+    def _show_picture(self) -> None:
+        """Bring the picture to the front when it comes."""
+        if self.picturing.preview is not None and self.showing.view is not View.STAGES:
+            self.showing.show_view(View.STAGES)
+        self.showing.show_prompt()
+        self.showing.show_missing()
+
+    def _on_picture_taken(self, path: Path) -> None:
+        self.window_.settings = self.window_.settings.with_recent_file(path)
+        self.window_.notice.hide()
+        self.showing.show_view(View.STAGES)
+        self.window_.canvas.fit()
+
+    def _connect_edit(self) -> None:
+        scene = self.window_.scene.document
+        self._on("undo", lambda: scene.undo() if self._on_scene else self.document.undo())
+        self._on("redo", lambda: scene.redo() if self._on_scene else self.document.redo())
+        self._on("delete", lambda: self.run("delete") if self.document.selection else self._say("Nothing is selected; click a line first."))
+        self._on("select_all", lambda: self.run("select all"))
+        line = self.window_.command_line
+        line.entered.connect(self._on_entered)
+        line.accepted.connect(self.window_.canvas.accept)
+        line.cancelled.connect(self._on_escape)
+
+    def _connect_view(self) -> None:
+        canvas, actions = self.window_.canvas, self.window_.actions_
+        self._on("cut_picture", self.cut_saving.choose)
+        for part in (self.cut_saving, self.recorder):
+            part.failed.connect(self._say_error)
+        self._on("record", self.recorder.ask)
+        for view in View:
+            self._on(view.value, partial(self.showing.show_view, view))
+        self._on("fit", lambda: self.window_.views.viewport.fit())
+        self._on("zoom_in", lambda: self.window_.views.viewport.zoom_by(1.5))
+        self._on("zoom_out", lambda: self.window_.views.viewport.zoom_by(1 / 1.5))
+        status = self.window_.status
+        switches = (("snap", status.snap, canvas.set_snap), ("ortho", status.ortho, canvas.set_ortho),
+                    ("grid", status.grid, canvas.set_grid_snap))
+        for name, button, switch in switches:
+            actions[name].toggled.connect(switch)
+            actions[name].toggled.connect(button.setChecked)
+            button.clicked.connect(actions[name].setChecked)
+        actions["snap"].setChecked(True)
+        actions["log"].toggled.connect(self.window_.command_line.log.setVisible)
+        actions["log"].setChecked(True)
+        self._on("command", self.window_.command_line.edit.setFocus)
+        for choice in ThemeChoice:
+            self._on(f"theme_{choice.value}", partial(choose_theme, self.window_, choice))
+        self._on("keys", lambda: KeysWindow(self.window_, self.shortcuts).show())
+        self._on("session_1986", self.session_1986.open)
+        self._on("about", lambda: show_about(self.window_))
+
+    def _connect_job(self) -> None:
+        panel, computation = self.window_.panel, self.computation
+        self._on("job_properties", lambda: panel.choose(Subject(SubjectKind.JOB)))
+        self._on("add_tool", panel.tools.added.emit)
+        self._on("tool_library", panel.switch_library)
+        self._on("which_tool", panel.switch_advice)
+        self._on("import_tools", self.tools.choose_file)
+        self._on("export_tools", self.tools.choose_place)
+        for word, kind in OPERATION_KINDS.items():
+            self._on(f"add_{word}", partial(panel.operations.added.emit, kind))
+        self._on("compute", self.compute)
+        self._on("cancel", self.cancel)
+        self._on("findings", self.showing.open_findings)
+        panel.refused.connect(self._say_error)
+        computation.failed.connect(self._say_error)
+        computation.finished.connect(self._on_computed)
+        self.window_.status.cancelled.connect(self.cancel)
+
+    def _connect_canvas(self) -> None:
+        canvas, window = self.window_.canvas, self.window_
+        for name, tool in TOOLS.items():
+            self._on(name, partial(self._take_tool, tool))
+        window.actions_["tool_select"].setChecked(True)
+        canvas.cursor_moved.connect(window.status.show_place)
+        canvas.view_changed.connect(lambda: window.status.show_grid(canvas.grid_step))
+        window.status.show_grid(canvas.grid_step)
+        canvas.prompt_changed.connect(lambda _: self.showing.show_prompt())
+        canvas.hovered.connect(self.showing.show_hovered)
+        window.views.cut.hovered.connect(self.showing.show_hovered)
+        window.views.cut.cursor_moved.connect(window.status.show_place)
+        canvas.message.connect(lambda text: window.status.show_message(text, error=True))
+        canvas.key_typed.connect(window.command_line.begin)
+        canvas.tool_changed.connect(self._on_tool)
+        self.context_menu = ContextMenu(window)
+
+    def _take_tool(self, tool: CanvasTool) -> None:
+        """Take a tool in hand, on the canvas."""
+        if self.showing.view not in (View.DRAW, View.PATHS):
+            self.showing.show_view(View.DRAW)
+        self.window_.canvas.set_tool(tool)
+        self._on_tool(self.window_.canvas.tool)
+
+    def _on_tool(self, tool: CanvasTool) -> None:
+        """Show which tool is in hand, where it can be used."""
+        self.window_.actions_[f"tool_{tool.value}"].setChecked(True)
+        if tool is not CanvasTool.SELECT:
+            if self.showing.view not in (View.DRAW, View.PATHS):
+                self.showing.show_view(View.DRAW)
+            self.window_.views.take_focus()
+
+    def run(self, line: str) -> None:
+        """Carry out one line of the drawing language; what is wrong with it stands in the log."""
+        self.language.lines.run(line)
+
+    def compute(self) -> None:
+        """Compute the paths and show them; in the Surfaces view the scene's, from its file as it is now."""
+        self.window_.notice.dismiss()
+        if self.showing.view is View.SURFACES:
+            self.scenes.compute()
+            return
+        self.computation.start()
+        if self.showing.view is View.DRAW:
+            self.showing.show_view(View.PATHS)
+
+    def export(self) -> None:
+        """Export what the view at the front has made: the job's program, or of a scene a program, plot or table."""
+        (self.scene_export if self.showing.view is View.SURFACES else self.files.exporting).start()
+
+    def _show_worst(self) -> None:
+        """Show the worst place of the job's cut where it is; what has none there is listed."""
+        self.cutting.back()
+        worst = next((entry for entry in self.window_.cut_panel.entries if entry.counts and entry.place is not None), None)
+        if worst is None:
+            self.showing.open_findings()
+            return
+        self.showing.show_view(View.CUT)
+        self.window_.cut_panel.choose(worst)
+
+    def _show_cut(self, shown: Shown | None) -> None:
+        """Show the cut of another program, or the job's own."""
+        self.showing.show_view(View.CUT)
+        if shown is None:
+            self.cutting.back()
+        else:
+            self.cutting.show_program(shown.source, shown.dialect)
+
+    def _cut_scene(self, program: SceneProgram) -> None:
+        """Show what a scene's program leaves of its stock, beside the scene's surfaces."""
+        self.showing.show_view(View.CUT)
+        self.cutting.show_program(program.source, program.dialect, program.part)
+
+    def _go_to_motion(self, motion: int) -> None:
+        """Show the line of a motion of the cut program, if that is the one which the NC view shows, or can."""
+        cut, nc = self.cutting.cut, self.nc
+        if cut is None or motion < 0:
+            return
+        name = cut.names[cut.file_of(motion)]
+        if cut.given is None and nc.foreign:
+            nc.back()
+        if cut.given is None or (nc.source is not None and nc.source.name == name):
+            self.showing.show_view(View.NC)
+            nc.pick_motion(cut.file_of(motion), cut.row_in_file(motion))
+
+    def cancel(self) -> None:
+        """Leave the running job."""
+        self.staging.cancel()
+        if self.language.cancel() or self.window_.worker.busy:
+            self.window_.worker.cancel()
+            self._say("Cancelled; nothing has changed.")
+
+    def _on_entered(self, text: str) -> None:
+        name = None if self.window_.canvas.runner.takes(text) else WORDS.get(text.lower())
+        if name is not None:
+            self.window_.actions_[name].trigger()
+            self.window_.views.take_focus()
+        elif not self.window_.canvas.type_text(text):
+            self.run(self.unit_choice.meant(text))
+        elif not self.window_.canvas.runner.wants_words:
+            self.window_.views.take_focus()
+
+    def _on_escape(self) -> None:
+        self.window_.canvas.cancel()
+        self.window_.views.take_focus()
+
+    def _on_computed(self) -> None:
+        made = self.computation.made
+        if made is not None:
+            answer = verdict(made.findings, made.report.data)
+            self.log.note("compute", f"{counted(len(made.program.moves), 'move')}. {answer.text}", error=answer.level is Level.BAD)
+
+    def _say(self, text: str) -> None:
+        self.window_.status.show_message(text)
+
+    def _say_error(self, text: str) -> None:
+        self.window_.status.show_message(text, error=True)
+        self.window_.notice.ask(text, error=True)

@@ -1,0 +1,1 @@
+"""The middle of the window, one folder a view."""

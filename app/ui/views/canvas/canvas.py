@@ -1,0 +1,377 @@
+"""The canvas: a document's drawing and its tool paths, shown and edited."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from PySide6.QtCore import QRectF
+from PySide6.QtGui import QPainter, QPainterPath, QShowEvent
+from PySide6.QtWidgets import QWidget
+
+from ....drafting.difference import Difference
+from ....drafting.document import Change, Document
+from ....geometry.sample import Box, union
+from ....model.curves import Point
+from ....model.finding import Finding
+from ....model.moves import Program
+from ....model.notes import Note
+from ....model.part import Entity
+from ....raster.frame import Frame
+from ...framework.theme import Theme
+from . import overlay
+from .around_picture import AroundPicture
+from .curve_path import MANY, curve_path
+from .describe import describe_entity, describe_note
+from .grid import cells_shown, paint_display, paint_origin, paint_paper, paint_raster, paint_ruler_marks, paint_rulers
+from .gripping import GRIP_PX, CarryTool, PullTool
+from .hands import PICK_PX, Hands
+from .modes import CanvasMode, CanvasTool, ColourBy, PathLayers
+from .notes_picture import paint_note
+from .program_hover import describe, nearest_move
+from .program_picture import PathLook, ProgramPicture, shown_purposes
+from .snap_marks import paint_snap
+from .underlay import UnderlayPicture
+from .view import View
+
+__all__ = ["Canvas", "CanvasMode", "CanvasTool", "ColourBy", "Frame", "PathLayers"]
+
+_BLEED_PX = 8.0
+"""How far lines and marks reach beyond the shape they belong to."""
+
+_CLOSE_MM = 16.0
+"""How much is seen around a place that is looked at closely."""
+
+_SEEN = 0.8
+"""Share of the view that what shall be seen whole takes at most."""
+
+_STALE = 0.4
+"""So much is left of the colours of paths that the job has outgrown."""
+
+_LARGE = 0.35
+"""A part that takes up this share of the frame's span is shown together with the frame."""
+
+
+class Canvas(Hands):
+    """Shows a document and draws in it; signals are those of `Hands`.
+
+    Attributes:
+        frame: the display of 400 x 400 cells, or another.
+        around: clamps and copies round the part.
+    """
+
+    def __init__(self, document: Document, theme: Theme, parent: QWidget | None = None) -> None:
+        """Show a document; it is followed from now on."""
+        super().__init__(document, parent)
+        self.frame = Frame()
+        self._underlay: UnderlayPicture | None = None
+        self._look, self._mode = PathLook(theme), CanvasMode.DRAW
+        self._program: ProgramPicture | None = None
+        self.around = AroundPicture()
+        self._trial, self._trial_picture, self._preview_picture = Difference(), overlay.TrialPicture(), overlay.TrialPicture()
+        self._findings: tuple[Finding, ...] = ()
+        self._lit: int | Entity | Note | None = None
+        self._lit_path = QPainterPath()
+        self._fresh = True
+        self.setMinimumSize(200, 150)
+        self.setAccessibleName("Drawing")
+        document.subscribe(self._follow)
+        self._follow(Change.ALL)
+
+    @property
+    def mode(self) -> CanvasMode:
+        """Whether drawing or tool paths are shown."""
+        return self._mode
+
+    @property
+    def visible_layers(self) -> PathLayers:
+        """What PATHS shows."""
+        return self._look.layers
+
+    @property
+    def colour_by(self) -> ColourBy:
+        """What the colour of a path tells."""
+        return self._look.colour_by
+
+    @property
+    def cells_shown(self) -> bool:
+        """Whether the cells of the display are large enough to be seen."""
+        return cells_shown(self.view, self.frame)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Paint with another theme."""
+        self._set_look(replace(self._look, theme=theme))
+
+    def set_mode(self, mode: CanvasMode) -> None:
+        """Show the drawing, or the tool paths."""
+        self._mode = mode
+        self.grips.update(self.document, mode is CanvasMode.DRAW)
+        self.look_at(None)
+        self.repaint_scene()
+
+    def set_program(self, program: Program | ProgramPicture | None) -> None:
+        """Show these tool paths in PATHS; None shows none. A picture that another thread has prepared costs nothing here."""
+        self.look_at(None)
+        self._program = ProgramPicture(program) if isinstance(program, Program) else program
+        self.repaint_scene()
+
+    def show_trial(self, trial: Difference) -> None:
+        """Show what a command would make of the drawing before it is carried out; an empty difference shows nothing."""
+        self._trial = trial
+        self.update()
+
+    def set_findings(self, findings: tuple[Finding, ...]) -> None:
+        """Mark the places of these findings."""
+        self._findings = findings
+        self.update()
+
+    def set_visible_layers(self, layers: PathLayers) -> None:
+        """Choose what PATHS shows."""
+        self._set_look(replace(self._look, layers=layers))
+
+    def set_colour_by(self, colour_by: ColourBy) -> None:
+        """Colour the paths by tool or by region."""
+        self._set_look(replace(self._look, colour_by=colour_by))
+
+    def set_stale(self, stale: bool) -> None:
+        """Show the paths faintly, because the job has changed since they were computed, or fully."""
+        if stale != self._look.stale:
+            self._set_look(replace(self._look, stale=stale))
+
+    def set_frame(self, frame: Frame) -> None:
+        """Lay the display's frame elsewhere, or give its cells another size."""
+        self.frame = frame
+        self.repaint_scene()
+
+    def set_underlay(self, picture: UnderlayPicture | None) -> None:
+        """Lay a picture under the drawing, or none."""
+        self._underlay = picture
+        self.repaint_scene()
+
+    def fit(self) -> None:
+        """Show the whole part, or the frame while nothing is drawn."""
+        self.glide_to_box(self.picture.box or self.frame.extent)
+
+    def go_to(self, x: float, y: float, closely: bool = False, around: Box | None = None) -> None:
+        """Bring a point in mm to the middle; with `closely` zoom in, too, unless it is seen larger already.
+
+        Args:
+            around: a box, mm, all of which is seen then with the point, however far one has to zoom out for that.
+        """
+        scale = max(self.view.scale, min(self.area.width(), self.area.height()) / _CLOSE_MM if closely else 0.0)
+        if around is not None:
+            x0, y0, x1, y1 = min(x, around[0]), min(y, around[1]), max(x, around[2]), max(y, around[3])
+            sides = ((self.area.width(), x1 - x0), (self.area.height(), y1 - y0))
+            scale = min([scale, *(_SEEN * room / size for room, size in sides if size > 0)])
+            x, y = (x0 + x1) / 2, (y0 + y1) / 2
+        self.glide_to(replace(self.view, scale=scale).centred((x, y), self.area))
+
+    @property
+    def heavy(self) -> bool:
+        """Whether so much is in view that painting it may take longer than a frame."""
+        return self._many * self.devicePixelRatioF() > MANY
+
+    @property
+    def _many(self) -> int:
+        """How many elements of paths are in view."""
+        return self._elements(self.view.world_box(self.area))
+
+    def _elements(self, box: Box) -> int:
+        """Return how many elements of paths come into a box in mm."""
+        program = self._shown_program
+        return self.picture.count(box) + (program.count(box, self._look.layers) if program is not None else 0)
+
+    @property
+    def _shown_program(self) -> ProgramPicture | None:
+        return self._program if self._mode is CanvasMode.PATHS else None
+
+    def scene_steps(self, painter: QPainter, area: QRectF) -> Iterator[None]:
+        """Paint paper, paths and part within a screen rectangle, with pauses."""
+        look, program, whole = self._look, self._shown_program, self.view.world_box(self.area)
+        theme = look.theme
+        box = self.view.world_box(area.adjusted(-_BLEED_PX, -_BLEED_PX, _BLEED_PX, _BLEED_PX))
+        self.paint_ground(painter, area)
+        if program is not None:
+            fine = program.count(whole, look.layers) > MANY
+            shown = replace(look, theme=theme.faint(_STALE) if look.stale else theme, fine=fine)
+            yield from program.steps(painter, self.view, box, shown)
+        if program is None or PathLayers.CLAMP in look.layers:
+            self.around.paint_clamps(painter, self.view, box, theme)
+        if program is None or PathLayers.PART in look.layers:
+            self.picture.fine = self.picture.count(whole) > MANY
+            self.around.paint_copies(painter, self.view, self.picture, (box, theme))
+            yield
+            yield from self.picture.steps(painter, self.view, box, theme)
+        paint_origin(painter, self.view, theme)
+
+    @property
+    def far_box(self) -> Box | None:
+        """The box of part and paths, where they are many."""
+        program = self._shown_program
+        box = union([box for box in (self.picture.box, program.box if program is not None else None) if box is not None])
+        return box if box is not None and self._elements(box) > MANY else None
+
+    def far_steps(self, painter: QPainter, view: View) -> Iterator[None]:
+        """Paint paths and part with the finest pens."""
+        look, program, box = self._look, self._shown_program, self.far_box
+        if program is not None and box is not None:
+            theme = look.theme.faint(_STALE) if look.stale else look.theme
+            yield from program.steps(painter, view, box, replace(look, theme=theme, fine=True))
+        if program is None or PathLayers.PART in look.layers:
+            yield from self.picture.coarse_steps(painter, view, look.theme)
+
+    def paint_ground(self, painter: QPainter, area: QRectF) -> None:
+        """Paint the paper."""
+        paint_paper(painter, self.view, area, self._look.theme, self.unit)
+        if self._underlay is not None:
+            self._underlay.paint(painter, self.view)
+            paint_raster(painter, self.view, area, self._look.theme, self.unit)
+        paint_display(painter, self.view, area, self.frame, self._look.theme)
+
+    def paint_margins(self, painter: QPainter) -> None:
+        """Paint the rulers."""
+        paint_rulers(painter, self.view, self.size(), self._look.theme, self.unit)
+
+    def paint_overlay(self, painter: QPainter) -> None:
+        """Paint what follows the mouse."""
+        theme = self._look.theme
+        painter.setClipRect(self.area)
+        if isinstance(self._lit, Note):
+            paint_note(painter, self.view, self._lit, (theme.accent_text, 2.2), self.area)
+        elif self._lit is not None and not self.runner.shows_change:
+            overlay.paint_highlight(painter, self.view, self._lit_path, (theme.accent, theme.accent_text))
+        overlay.paint_findings(painter, self.view, self._findings, theme)
+        self._trial_picture.paint(painter, self.view, self._trial, theme)
+        if self._mode is CanvasMode.DRAW and self.tool is CanvasTool.SELECT:
+            overlay.paint_grips(painter, self.view, self.grips.points, self._grip_under, theme)
+        if self.runner.tool is not None:
+            self._paint_tool(painter)
+        self._paint_marks(painter)
+        if self.banding and self.band_from is not None and self.mouse is not None:
+            overlay.paint_band(painter, self.band_from, self.mouse, theme)
+        painter.setClipping(False)
+        if self.mouse is not None and self.area.contains(self.mouse):
+            paint_ruler_marks(painter, self.mouse, theme)
+
+    def look_at(self, point: Point | None) -> None:
+        """Light up the move or the entity under the mouse, and say what it is."""
+        lit = self._under(point) if point is not None else None
+        if lit == self._lit:
+            return
+        self._lit, self._lit_path = lit, self._path_of(lit)
+        self.hovered.emit(self._words_for(lit))
+        self.update()
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
+        """Look at the whole of a document that was opened meanwhile."""
+        super().showEvent(event)
+        if self._fresh:
+            self._show_all()
+
+    def _under(self, point: Point) -> int | Entity | Note | None:
+        """Return what lies under the mouse: the number of a move, or an entity."""
+        reach = PICK_PX / self.view.scale
+        if self._mode is CanvasMode.PATHS and self._program is not None:
+            move = nearest_move(self._program.shapes, point, reach, shown_purposes(self._look.layers))
+            if move is not None:
+                return move
+        found = self.candidates()
+        return found[self.turns.at(self.mouse) % len(found)] if found and self.mouse is not None else None
+
+    def _path_of(self, lit: int | Entity | Note | None) -> QPainterPath:
+        if isinstance(lit, Entity):
+            return curve_path(lit.curve)
+        if isinstance(lit, Note):
+            return QPainterPath()
+        return self._program.shapes.piece_path(lit) if lit is not None and self._program is not None else QPainterPath()
+
+    def _words_for(self, lit: int | Entity | Note | None) -> str:
+        if isinstance(lit, Entity):
+            return describe_entity(lit)
+        if isinstance(lit, Note):
+            return describe_note(lit)
+        return describe(self._program.shapes, lit, self.document.job) if lit is not None and self._program is not None else ""
+
+    def _paint_marks(self, painter: QPainter) -> None:
+        """Paint the places that are being marked by hand."""
+        if self.marking is not None:
+            overlay.paint_points(painter, self.view, list(self.marking.places()), self._look.theme)
+
+    def set_unit(self, unit: float) -> None:
+        """Count in another unit, of so many mm; typed lengths, too."""
+        self.runner.set_unit(unit)
+        super().set_unit(unit)
+
+    def _paint_tool(self, painter: QPainter) -> None:
+        tool, theme = self.runner.tool, self._look.theme
+        if tool is None or self.aim is None or self.mouse is None:
+            return
+        overlay.paint_tracking(painter, self.view, (self.aim.tracked, self.aiming.acquired), self.area, theme)
+        if isinstance(tool, CarryTool):
+            for _ in self.picture.selected_steps(painter, self._carried_view(tool, self.aim.point), theme.accent, self.area):
+                pass
+        preview = self.runner.preview(self.aim.point)
+        self._preview_picture.paint(painter, self.view, preview.trial, theme)
+        overlay.paint_preview(painter, self.view, preview, theme)
+        overlay.paint_points(painter, self.view, [*tool.points[:1], *tool.points[-1:]], theme)
+        if self.aim.snap is not None:
+            paint_snap(painter, self.view, self.aim.snap, theme)
+        base = self.view.to_screen(tool.base) if tool.base is not None else None
+        place = overlay.LabelPlace(self.mouse, base, self.area)
+        overlay.paint_label(painter, [preview.label, self.aim.word], place, theme)
+
+    def _carried_view(self, tool: CarryTool, to: Point) -> View:
+        """Return the view that shows the selection where it is carried to."""
+        dx, dy = tool.shift(to)
+        return self.view.panned(dx * self.view.scale, -dy * self.view.scale)
+
+    @property
+    def _grip_under(self) -> Point | None:
+        """The grip under the mouse, or in hand."""
+        if isinstance(self.runner.tool, PullTool):
+            return self.runner.tool.base
+        if self.mouse is None or self.runner.tool is not None or self.banding:
+            return None
+        return self.grips.at(self.view.to_world(self.mouse), GRIP_PX / self.view.scale)
+
+    def _follow(self, change: Change) -> None:
+        places: list[Box] | None = []
+        if Change.PART in change:
+            places = self.picture.update(self.document.part)
+            self.look_at(None)
+            self.runner.after_undo()
+            self._aim_again()
+        around = bool(change & (Change.PART | Change.JOB)) and self.around.update(self.document.job)
+        if change & (Change.PART | Change.SELECTION):
+            selected = self.picture.select(self.document.selection)
+            self.grips.update(self.document, self._mode is CanvasMode.DRAW)
+            places = places + selected if places is not None and selected is not None else None
+        finer = (self.picture.count(self.view.world_box(self.area)) > MANY) != self.picture.fine
+        if around or places is None or finer or self.document.job.copies.shifts[1:]:
+            self.repaint_scene()
+        elif places:
+            self.repaint_places(places, _BLEED_PX)
+        if Change.LOADED in change:
+            self._fresh = True
+            self._show_all()
+
+    def _show_all(self) -> None:
+        """Look at a document just opened: with the frame when the part fills much of it, else at the part alone."""
+        if not self.isVisible():
+            return
+        whole = _with_frame(self.picture.box, self.frame.extent)
+        self.fit_to(whole)
+        self._fresh = False
+
+    def _set_look(self, look: PathLook) -> None:
+        self._look = look
+        self.look_at(None)
+        self.repaint_scene()
+
+
+def _with_frame(box: Box | None, frame: Box) -> Box:
+    whole = union([box, frame]) if box is not None else None
+    if box is None or whole is None:
+        return frame
+    span, most = max(box[2] - box[0], box[3] - box[1]), max(whole[2] - whole[0], whole[3] - whole[1])
+    return whole if span > _LARGE * most else box

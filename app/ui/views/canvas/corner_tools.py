@@ -1,0 +1,96 @@
+"""Tools that work on the curve under the mouse: trim, extend, break, fillet, chamfer."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ....drafting.expressions.words import number_text
+from ....model.curves import Point
+from .asking import Answer, Ask, AskingTool, answer_text
+from .drawing_tool import Pick, Want
+
+
+@dataclass
+class TrimTool(AskingTool):
+    """The piece under the mouse goes, up to what crosses."""
+
+    name = "Trim"
+    asks = (Ask("click the piece that goes; Enter ends", Want.CURVE),)
+    form = "trim {0}"
+
+
+@dataclass
+class ExtendTool(AskingTool):
+    """The end near the mouse goes on to what lies ahead."""
+
+    name = "Extend"
+    asks = (Ask("click near the end that goes on; Enter ends", Want.CURVE),)
+    form = "extend {0}"
+
+
+@dataclass
+class BreakTool(AskingTool):
+    """In two at a point, or without what lies between two."""
+
+    name = "Break"
+    asks = (Ask("click a curve where it breaks", Want.CURVE), Ask("a second point, or Enter to break at one", optional=True))
+
+    @property
+    def exact(self) -> bool:
+        """The place of the break may be a point of the drawing."""
+        return True
+
+    def draft(self, cursor: Point, under: Pick | None) -> str | None:
+        """Return the break between both points; at the first one nothing is to be seen."""
+        return super().draft(cursor, under) if self.answers else None
+
+    def line_of(self, answers: Sequence[Answer]) -> str:
+        """Return `break CURVE P [P]`."""
+        return " ".join(["break", *map(answer_text, answers)])
+
+
+@dataclass
+class FilletTool(AskingTool):
+    """An arc that touches two curves, on the sides where they are clicked."""
+
+    name = "Fillet"
+    asks = (Ask("first curve, or the radius", Want.CURVE, sets="radius"), Ask("second curve, or the radius", Want.CURVE, sets="radius"))
+    numbers: ClassVar[Mapping[str, float]] = {"radius": 5.0}
+    form = "fillet {radius} {0} {1}"
+
+    @property
+    def prompt(self) -> str:
+        """What is expected next; Enter does every corner of a selection."""
+        return super().prompt + ("; Enter: every corner selected" if self._for_all else "")
+
+    @property
+    def goes_on(self) -> bool:
+        """True where Enter carries on."""
+        return self.busy or self._for_all
+
+    @property
+    def _for_all(self) -> bool:
+        return not self.answers and not self.setting and len(self.selection) > 1
+
+    def finish(self) -> str | None:
+        """Work on every corner of what is selected, or give up the first curve."""
+        if self._for_all:
+            return self.line_of(["", ""])
+        return super().finish()
+
+
+@dataclass
+class ChamferTool(FilletTool):
+    """A straight cut across the corner of two lines."""
+
+    name = "Chamfer"
+    asks = (Ask("first line, or the size", Want.CURVE, sets="size"), Ask("second line, or the size", Want.CURVE, sets="size"))
+    numbers: ClassVar[Mapping[str, float]] = {"size": 2.0, "second": 0.0}
+
+    def line_of(self, answers: Sequence[Answer]) -> str:
+        """Return `chamfer d [and d] CURVE P CURVE P`."""
+        second = self.value("second")
+        sizes = number_text(self.value("size")) + (f" and {number_text(second)}" if second else "")
+        return " ".join(["chamfer", sizes, *filter(None, map(answer_text, answers))])

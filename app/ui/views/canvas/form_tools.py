@@ -1,0 +1,314 @@
+"""Drawing tools that are their questions and a form of the line: arcs, circles, slots, polygons, ellipses, splines, notes, text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ....core.tolerances import WELD
+from ....drafting.expressions.words import point_text
+from ....model.curves import Point
+from .asking import Answer, Ask, AskingTool, answer_text, distance_aside, distance_from, point_of
+from .drawing_tool import Desk, Pick, Preview, Want, size_label
+
+
+def _radius_through(answers: Sequence[Answer], point: Point) -> float:
+    """Return the radius of the arc from the first answer by way of a point to the second, mm."""
+    a, b = point_of(answers, 0), point_of(answers, 1)
+    size, aside = math.dist(a, b), distance_aside(answers, point)
+    if aside < WELD:
+        return max(size, 1e6 * WELD)
+    return math.dist(a, point) * math.dist(b, point) / (2 * aside)
+
+
+@dataclass
+class ArcRadiusTool(AskingTool):
+    """Start, end, radius; the arc bulges towards the mouse."""
+
+    side: bool = True
+    large: bool = False
+    name = "Arc"
+    asks = (Ask("start point"), Ask("end point"), Ask("radius, or a point on the arc", measure=_radius_through, sign="R"))
+
+    def follow(self, cursor: Point) -> None:
+        """See on which side of the chord the mouse is, and whether beyond half a circle."""
+        if len(self.points) == 2:
+            (ax, ay), (bx, by) = self.points
+            self.side = (bx - ax) * (cursor[1] - ay) - (by - ay) * (cursor[0] - ax) <= 0
+            (mx, my), half = ((ax + bx) / 2, (ay + by) / 2), math.dist(*self.points) / 2
+            self.large = math.dist((mx, my), cursor) > half
+
+    def line_of(self, answers: Sequence[Answer]) -> str:
+        """Return `arc start end radius r [cw] [large]`."""
+        words = "" if self.side else " cw"
+        return f"arc {' '.join(map(answer_text, answers[:2]))} radius {answer_text(answers[2])}{words}{' large' if self.large else ''}"
+
+
+@dataclass
+class ArcOnTool(AskingTool):
+    """Onward from the curve drawn last, without a corner; one arc after the other."""
+
+    name = "Arc onward"
+    asks = (Ask("end point; it goes on from the curve drawn last"),)
+    form = "arc on {0}"
+
+    @property
+    def base(self) -> Point | None:
+        """Where the curve drawn last ends."""
+        return self.desk.document.last_point if self.desk is not None else None
+
+
+@dataclass
+class CircleTwoTool(AskingTool):
+    """The ends of a diameter."""
+
+    name = "Circle"
+    asks = (Ask("one end of a diameter"), Ask("the other end", sign="\u00d8"))
+    form = "circle diameter {0} {1}"
+
+
+@dataclass
+class CircleThreeTool(AskingTool):
+    """Three points of it."""
+
+    name = "Circle"
+    asks = (Ask("a point on the circle"), Ask("a second point"), Ask("a third point"))
+    form = "circle through {0} {1} {2}"
+
+
+@dataclass
+class RoundRectangleTool(AskingTool):
+    """Opposite corners, then the radius of the round ones."""
+
+    name = "Rounded rectangle"
+    asks = (Ask("first corner"), Ask("opposite corner, or @width,height"),
+            Ask("radius of the corners, or a point as far from the corner", measure=distance_from(1), sign="R"))
+    form = "rect {0} {1} round {2}"
+
+    def draft(self, cursor: Point, under: Pick | None) -> str | None:
+        """Return the rectangle already before it is round."""
+        return f"rect {point_text(self.points[0])} {point_text(cursor)}" if len(self.answers) == 1 else super().draft(cursor, under)
+
+    def helpers(self, cursor: Point) -> Preview:
+        """Return width and height, then the radius."""
+        if len(self.answers) != 1:
+            return super().helpers(cursor)
+        (x, y) = self.points[0]
+        return Preview(label=size_label((cursor[0] - x, cursor[1] - y), self.unit))
+
+
+@dataclass
+class PolygonTool(AskingTool):
+    """Centre, then a corner or the middle of a side; a number before them is how many corners."""
+
+    name = "Polygon"
+    asks = (Ask("centre, or how many corners", sets="corners"), Ask("a corner; Up and Down change how many", sign="R"))
+    numbers: ClassVar[Mapping[str, float]] = {"corners": 6}
+    no_lengths = frozenset({"corners"})
+    toggles = ("side",)
+    form = "polygon {corners} {0} {side} {1}"
+
+
+@dataclass
+class SlotTool(AskingTool):
+    """The centres of both ends, then the width."""
+
+    name = "Slot"
+    asks = (Ask("centre of one end"), Ask("centre of the other end"),
+            Ask("width, or a point on its side", measure=lambda answers, point: 2 * distance_aside(answers, point), sign="W"))
+    form = "slot {0} {1} {2}"
+
+
+@dataclass
+class EllipseTool(AskingTool):
+    """Centre, end of a half axis, then the other half axis."""
+
+    name = "Ellipse"
+    asks = (Ask("centre"), Ask("end of a half axis", sign="a"),
+            Ask("the other half axis, or a point as far", measure=distance_aside, sign="b"))
+    form = "ellipse {0} {1} {2}"
+
+
+@dataclass
+class SplineTool(AskingTool):
+    """Points that it goes through, until Enter or close."""
+
+    name = "Spline"
+    asks = (Ask("first point"), Ask("next point; Enter ends, close closes"))
+    toggles = ()
+
+    @property
+    def options(self) -> tuple[str, ...]:
+        """Close, once there are three points."""
+        return ("close",) if len(self.answers) > 2 else ()
+
+    def give(self, answer: Answer) -> str | None:
+        """Take a point; the first again closes the spline."""
+        if len(self.answers) > 2 and answer == self.answers[0]:
+            return self.word("close")
+        self._keep([*self.answers, answer])
+        return None
+
+    def word(self, word: str) -> str | None:
+        """Close at `close` or `c`."""
+        if word.lower() not in ("close", "c") or len(self.answers) < 3:
+            return None
+        return self.made() + " close"
+
+    def finish(self) -> str | None:
+        """End the spline and return its line when it has two points or more."""
+        if len(self.answers) > 1:
+            return self.made()
+        self.clear()
+        return None
+
+    def line_of(self, answers: Sequence[Answer]) -> str:
+        """Return `spline a b …`."""
+        return " ".join(["spline", *map(answer_text, answers)])
+
+    def draft(self, cursor: Point, under: Pick | None) -> str | None:
+        """Return the spline that goes on to the mouse."""
+        if not self.points or math.dist(self.points[-1], cursor) < WELD:
+            return self.line_of(self.answers) if len(self.answers) > 1 else None
+        return self.line_of([*self.answers, cursor])
+
+
+@dataclass
+class PointTool(AskingTool):
+    """Points to snap to."""
+
+    name = "Point"
+    asks = (Ask("where it is"),)
+    form = "point {0}"
+
+
+@dataclass
+class GuideTool(AskingTool):
+    """Construction lines: a point, then another or the angle; or only across or only up."""
+
+    name = "Construction line"
+    asks = (Ask("a point of it"), Ask("another point, or the angle"))
+    takes_length = False
+
+    @property
+    def options(self) -> tuple[str, ...]:
+        """Across and up."""
+        return ("across", "up")
+
+    @property
+    def prompt(self) -> str:
+        """What is expected next."""
+        way = next(iter(self.on), "")
+        return f"{self.name}: {self.ask.prompt}   [{'across, up' if not way else way + ' on'}]"
+
+    def word(self, word: str) -> str | None:
+        """Draw only across, or only up, or freely again."""
+        if word.lower() not in self.options:
+            return None
+        self.on = set() if word.lower() in self.on else {word.lower()}
+        return ""
+
+    def give(self, answer: Answer) -> str | None:
+        """Take a point; across and up need no other."""
+        self._keep([*self.answers, answer])
+        return self.made() if self.on or len(self.answers) == 2 else None
+
+    def typed(self, value: float) -> str | None:
+        """Take the angle."""
+        return (self.give(value) or "") if self.answers else None
+
+    def line_of(self, answers: Sequence[Answer]) -> str:
+        """Return `guide P P`, `guide P angle`, `guide across P` or `guide up P`."""
+        return " ".join(["guide", *sorted(self.on), *map(answer_text, answers[:1] if self.on else answers)])
+
+    def draft(self, cursor: Point, under: Pick | None) -> str | None:
+        """Return the line through the mouse."""
+        return self.line_of([*self.answers, cursor]) if self.on or self.answers else None
+
+
+@dataclass
+class DimensionTool(AskingTool):
+    """Two points and where the figure stands; or a curve and where its figure stands; or three points of an angle."""
+
+    name = "Dimension"
+    toggles = ("across", "up", "angle")
+    asks = (Ask("first point, or a curve", Want.EITHER), Ask("second point"), Ask("where the figure stands"))
+
+    @property
+    def ask(self) -> Ask:
+        """The question now; a curve needs no second point, an angle a third one."""
+        if self.answers and isinstance(self.answers[0], Pick):
+            return self.asks[-1]
+        if "angle" in self.on and len(self.answers) < 3:
+            return (Ask("corner of the angle"), Ask("a point of the first side"), Ask("a point of the second side"))[len(self.answers)]
+        return super().ask
+
+    @property
+    def wanted(self) -> int:
+        """How many answers make a line."""
+        return 2 if self.answers and isinstance(self.answers[0], Pick) else 4 if "angle" in self.on else 3
+
+    def word(self, word: str) -> str | None:
+        """Switch one of the ways of measuring on, the others off."""
+        if word.lower() not in self.toggles:
+            return None
+        self.on = set() if word.lower() in self.on else {word.lower()}
+        return ""
+
+    def give(self, answer: Answer) -> str | None:
+        """Take a point or a curve."""
+        self._keep([*self.answers, answer])
+        return self.made() if len(self.answers) >= self.wanted else None
+
+    def typed(self, value: float) -> str | None:
+        """Take nothing: a number is a distance here."""
+        return None
+
+    def line_of(self, answers: Sequence[Answer]) -> str:
+        """Return `dimension P P place P`, `dimension CURVE place P` or `dimension angle P P P place P`."""
+        *what, place = answers
+        way = "" if isinstance(what[0], Pick) or "angle" in self.on else " ".join(self.on)
+        measured = str(what[0].id) if isinstance(what[0], Pick) else " ".join(map(answer_text, what))
+        return " ".join(f"dimension {'angle' if 'angle' in self.on else ''} {measured} place {answer_text(place)} {way}".split())
+
+    def draft(self, cursor: Point, under: Pick | None) -> str | None:
+        """Return the line with the figure at the mouse."""
+        return self.line_of([*self.answers, cursor]) if len(self.answers) == self.wanted - 1 else None
+
+
+@dataclass
+class TextTool(AskingTool):
+    """Where it stands, then its words, typed in the command line."""
+
+    name = "Text"
+    asks = (Ask("lower left of the words, or their height", sets="height"), Ask("type the words", Want.WORDS))
+    numbers: ClassVar[Mapping[str, float]] = {"height": 10.0}
+    form = "text {0} {height} {1}"
+
+
+@dataclass
+class MeasureTool(AskingTool):
+    """The way between two points; with a selection its lengths and areas."""
+
+    name = "Measure"
+    asks = (Ask("from, or a curve", Want.EITHER), Ask("to"))
+
+    def begin(self, desk: Desk) -> str | None:
+        """Measure what is selected at once."""
+        self.desk = desk
+        return "measure" if desk.document.selection else None
+
+    def give(self, answer: Answer) -> str | None:
+        """Take a point; a curve is measured at once."""
+        self._keep([*self.answers, answer])
+        return self.made() if len(self.answers) == 2 or isinstance(answer, Pick) else None
+
+    def line_of(self, answers: Sequence[Answer]) -> str:
+        """Return `measure P P` or `measure CURVE`."""
+        return " ".join(["measure", *(str(a.id) if isinstance(a, Pick) else answer_text(a) for a in answers)])
+
+    def draft(self, cursor: Point, under: Pick | None) -> str | None:
+        """Return nothing: it changes nothing."""
+        return None

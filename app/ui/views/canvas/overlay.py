@@ -1,0 +1,191 @@
+"""What follows the mouse: rubber band, measures, snap mark, selection window, highlight, places of findings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPen
+
+from ....drafting.difference import Difference
+from ....model.curves import Point
+from ....model.finding import Finding
+from ...framework.theme import Theme, text_font
+from ...framework.words import tr
+from .curve_path import curve_path
+from .drawing_tool import Preview
+from .notes_picture import paint_notes
+from .pens import FINE, screen_pen
+from .track import Acquired, Tracked
+from .view import View
+
+_GRIP_HALF = 3.5
+_LABEL_GAP = 16.0
+
+
+def paint_preview(painter: QPainter, view: View, preview: Preview, theme: Theme) -> None:
+    """Paint the shape that is being drawn and its lines of construction."""
+    painter.save()
+    painter.setTransform(view.transform(), True)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    if preview.helpers:
+        painter.setPen(screen_pen(painter, theme.muted, 1.0, (4.0, 4.0)))
+        painter.drawPath(curve_path(*preview.helpers))
+    if preview.curves:
+        painter.setPen(screen_pen(painter, theme.accent, 1.8))
+        painter.drawPath(curve_path(*preview.curves))
+    painter.restore()
+
+
+_MANY_TRIED = 500
+"""More curves than these are tried with pens of one px, which Qt strokes far faster."""
+
+
+class TrialPicture:
+    """What a command would make, ready to paint: its paths are built once, not at every move of the mouse."""
+
+    def __init__(self) -> None:
+        """Begin with nothing."""
+        self._trial = Difference()
+        self._gone, self._added = QPainterPath(), QPainterPath()
+
+    def paths(self, trial: Difference) -> tuple[QPainterPath, QPainterPath]:
+        """Return the paths of what goes and of what comes, mm."""
+        if trial is not self._trial:
+            self._trial = trial
+            self._gone, self._added = (curve_path(*(entity.curve for entity in some)) for some in (trial.gone, trial.added))
+        return self._gone, self._added
+
+    def paint(self, painter: QPainter, view: View, trial: Difference, theme: Theme) -> None:
+        """Paint what comes in the accent, what goes in the colour of errors."""
+        paint_notes(painter, view, trial.notes, (theme.accent, 1.4), QRectF(painter.viewport()))
+        if not (trial.added or trial.gone):
+            return
+        painter.save()
+        painter.setTransform(view.transform(), True)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        fine = len(trial.gone) + len(trial.added) > _MANY_TRIED
+        for path, colour, width in zip(self.paths(trial), (theme.error, theme.accent), (2.2, 1.8), strict=True):
+            painter.setPen(screen_pen(painter, colour, FINE if fine else width))
+            painter.drawPath(path)
+        painter.restore()
+
+
+def paint_points(painter: QPainter, view: View, points: list[tuple[float, float]], theme: Theme) -> None:
+    """Paint points that were given."""
+    painter.setPen(QPen(theme.accent, 1.5))
+    painter.setBrush(theme.canvas)
+    for point in points:
+        painter.drawEllipse(view.to_screen(point), 3.0, 3.0)
+
+
+def paint_grips(painter: QPainter, view: View, points: Sequence[Point], hot: Point | None, theme: Theme) -> None:
+    """Paint small squares to pull at; the hot one is full."""
+    painter.setPen(QPen(theme.accent_text, 1.2))
+    for point in points:
+        painter.setBrush(theme.accent if point == hot else theme.canvas)
+        at = view.to_screen(point)
+        painter.drawRect(QRectF(at.x() - _GRIP_HALF, at.y() - _GRIP_HALF, 2 * _GRIP_HALF, 2 * _GRIP_HALF))
+
+
+def paint_tracking(painter: QPainter, view: View, what: tuple[Tracked | None, Sequence[Acquired]], area: QRectF, theme: Theme) -> None:
+    """Paint the rays that draw the mouse, dotted from edge to edge, and small crosses at the points that were rested on."""
+    tracked, acquired = what
+    painter.setPen(screen_pen(painter, theme.accent_text, 1.2))
+    for known in acquired:
+        at = view.to_screen(known.point)
+        painter.drawLine(at + QPointF(-4, 0), at + QPointF(4, 0))
+        painter.drawLine(at + QPointF(0, -4), at + QPointF(0, 4))
+    painter.setPen(screen_pen(painter, theme.accent_text, 1.2, (2.0, 4.0)))
+    reach = (area.width() + area.height()) / view.scale
+    for ray in tracked.rays if tracked is not None else ():
+        along, _ = ray.seen_from(view.to_world(area.center()))
+        painter.drawLine(view.to_screen(ray.start), view.to_screen(ray.at(max(along, 0.0) + reach)))
+
+
+@dataclass(frozen=True, slots=True)
+class LabelPlace:
+    """Where live measures go.
+
+    Attributes:
+        mouse: screen position. away_from: the shape's last point on the screen, which they must not cover, or None.
+        area: where they must stay.
+    """
+
+    mouse: QPointF
+    away_from: QPointF | None
+    area: QRectF
+
+    def sheet(self, width: float, height: float) -> QRectF:
+        """Return the rectangle of a sheet of this size beside the mouse."""
+        right = self.away_from is None or self.mouse.x() >= self.away_from.x() - 1
+        below = self.away_from is None or self.mouse.y() >= self.away_from.y() - 1
+        x = self.mouse.x() + (_LABEL_GAP if right else -_LABEL_GAP - width)
+        y = self.mouse.y() + (_LABEL_GAP if below else -_LABEL_GAP - height)
+        x = min(max(x, self.area.left()), self.area.right() - width)
+        y = min(max(y, self.area.top()), self.area.bottom() - height)
+        sheet = QRectF(x, y, width, height)
+        step = height + 2 * _LABEL_GAP
+        return sheet.translated(0, -step if below else step) if sheet.contains(self.mouse) else sheet
+
+
+def paint_label(painter: QPainter, texts: list[str], place: LabelPlace, theme: Theme) -> None:
+    """Paint live measures on a small sheet beside the mouse."""
+    lines = [tr(line) for text in texts for line in text.split("\n") if line]
+    if not lines:
+        return
+    painter.setFont(text_font(12))
+    metrics = QFontMetricsF(painter.font())
+    width = max(metrics.horizontalAdvance(line) for line in lines) + 16
+    sheet = place.sheet(width, metrics.height() * len(lines) + 8)
+    ground = QColor(theme.paper)
+    ground.setAlphaF(0.94)
+    painter.setPen(QPen(theme.hairline, 1))
+    painter.setBrush(ground)
+    painter.drawRoundedRect(sheet, 4, 4)
+    painter.setPen(theme.ink)
+    painter.drawText(sheet.adjusted(8, 4, 8, 0), Qt.AlignmentFlag.AlignLeft, "\n".join(lines))
+
+
+def paint_band(painter: QPainter, start: QPointF, end: QPointF, theme: Theme) -> None:
+    """Paint the selection window: solid to the right (what lies inside), dashed to the left (also what it crosses)."""
+    fill = QColor(theme.selection)
+    fill.setAlphaF(0.10)
+    painter.setBrush(fill)
+    painter.setPen(screen_pen(painter, theme.accent_text, 1.0, () if end.x() >= start.x() else (4.0, 3.0)))
+    painter.drawRect(QRectF(start, end).normalized())
+
+
+def paint_highlight(painter: QPainter, view: View, path: QPainterPath, colours: tuple[QColor, QColor], width: float = 2.5) -> None:
+    """Paint a path in mm as the thing under the mouse: a broad band of the first colour with a fine line of the second in it."""
+    glow = QColor(colours[0])
+    glow.setAlphaF(0.35)
+    painter.save()
+    painter.setTransform(view.transform(), True)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for hue, broad in ((glow, width + 4), (colours[1], width - 0.7)):
+        pen = screen_pen(painter, hue, broad)
+        pen.setCapStyle(Qt.PenCapStyle.RoundCap)
+        pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
+        painter.setPen(pen)
+        painter.drawPath(path)
+    painter.restore()
+
+
+def paint_findings(painter: QPainter, view: View, findings: tuple[Finding, ...], theme: Theme) -> None:
+    """Paint a ring with a cross at the place of each finding; remarks are quieter."""
+    for finding in findings:
+        if finding.x is None or finding.y is None:
+            continue
+        at = view.to_screen((finding.x, finding.y))
+        paint_place(painter, at, theme.error if finding.counts else theme.warning, 1.8 if finding.counts else 1.2)
+
+
+def paint_place(painter: QPainter, at: QPointF, colour: QColor, width: float = 1.8) -> None:
+    """Paint a ring with a cross round a place on the screen."""
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setPen(QPen(colour, width))
+    painter.drawEllipse(at, 8.0, 8.0)
+    for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+        painter.drawLine(QPointF(at.x() + 5 * dx, at.y() + 5 * dy), QPointF(at.x() + 11 * dx, at.y() + 11 * dy))

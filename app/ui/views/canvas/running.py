@@ -1,0 +1,266 @@
+"""The running tool: clicks and typed words in, lines of the drawing language out. Knows no widget."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import replace
+
+from ....core.errors import InputError
+from ....core.tolerances import WELD
+from ....drafting.document import Document
+from ....drafting.expressions.errors import CommandError, reason_of
+from ....drafting.expressions.evaluate import value_of
+from ....drafting.expressions.grammar import read_value
+from ....drafting.expressions.values import Curves
+from ....drafting.language.language import command_word
+from ....model.curves import Point
+from .aim import tidy
+from .asking import Answer, AskingTool
+from .drawing_tool import Desk, DrawingTool, Pick, Preview, Want
+from .modes import CanvasTool
+from .tools import TOOL_WORDS, TOOLS
+from .trials import Trial, Trials
+
+_SELECT_PROMPT = "Select: click, or drag a window; from right to left it takes what it crosses"
+
+
+class ToolRunner:
+    """Holds the running tool and carries out what it makes.
+
+    Attributes:
+        kind: which tool runs. tool: the tool itself, None for SELECT.
+        cursor: where the tool aims, mm. under: the curve that a click would pick, or None.
+        unit: what lengths are typed and shown in, mm.
+    """
+
+    def __init__(self, document: Document, say: Callable[[str], None]) -> None:
+        """Begin with SELECT; `say` gets the sentence of every error."""
+        self._document, self._say = document, say
+        self.kind = CanvasTool.SELECT
+        self.tool: DrawingTool | None = None
+        self.cursor: Point = (0.0, 0.0)
+        self.unit = 1.0
+        self.under: Pick | None = None
+        self._desk, self._trials = Desk(document, {}), Trials(document)
+        self._last = CanvasTool.LINE
+
+    @property
+    def prompt(self) -> str:
+        """What is expected next."""
+        return self.tool.prompt if self.tool else _SELECT_PROMPT
+
+    @property
+    def busy(self) -> bool:
+        """True while a shape has been begun."""
+        return self.tool is not None and self.tool.busy
+
+    @property
+    def choosing(self) -> bool:
+        """True while a tool asks for curves to be selected."""
+        return self.tool is not None and self.tool.wants is Want.SELECTION
+
+    @property
+    def wants_words(self) -> bool:
+        """True while words are asked for, which may hold blanks and every other sign."""
+        return self.tool is not None and self.tool.wants is Want.WORDS
+
+    @property
+    def looking(self) -> bool:
+        """True while what lies under the mouse is to be lit: it would be selected, or picked."""
+        return self.tool is None or self.under is not None or self.tool.wants in (Want.SELECTION, Want.CURVE)
+
+    @property
+    def shows_change(self) -> bool:
+        """True while the tool shows what would become of curves that are drawn."""
+        return isinstance(self.tool, AskingTool) and bool(self.preview(self.cursor).trial.gone)
+
+    @property
+    def last(self) -> CanvasTool:
+        """The tool that Enter begins again."""
+        return self._last
+
+    def set_unit(self, unit: float) -> None:
+        """Count in another unit, of so many mm."""
+        self.unit = unit
+        if self.tool is not None:
+            self.tool.unit = unit
+
+    def start(self, kind: CanvasTool) -> None:
+        """Begin a tool; an unfinished shape is given up. One that has nothing to ask does its work at once."""
+        self.kind, self.under = kind, None
+        self.tool = TOOLS[kind]() if kind in TOOLS else None
+        if self.tool is not None:
+            self._last, self.tool.unit = kind, self.unit
+            self._run(self.tool.begin(self._desk))
+
+    def hold(self, tool: DrawingTool) -> None:
+        """Take a tool in hand for one point, beside SELECT."""
+        self.kind, self.tool = CanvasTool.SELECT, tool
+        tool.unit = self.unit
+
+    def aim_at(self, point: Point, under: Pick | None = None) -> None:
+        """See the mouse aim at a point, mm, and at a curve that can be picked there."""
+        self.cursor, self.under = point, under
+        if self.tool is not None:
+            self.tool.follow(point)
+
+    def click(self, point: Point) -> None:
+        """Take a point, or the curve there; a point that repeats the last is passed over."""
+        tool = self.tool
+        if tool is None:
+            return
+        if isinstance(tool, AskingTool) and tool.wants in (Want.CURVE, Want.EITHER) and (self.under or tool.wants is Want.CURVE):
+            self._pick(tool)
+            return
+        if tool.wants is not Want.POINT or tool.base is None or math.dist(tool.base, point) >= WELD:
+            self.aim_at(point)
+            self._answer(tool, lambda: tool.add(point))
+
+    def accept(self) -> None:
+        """End the shape; without one end the tool; without a tool begin the last one again."""
+        if self.tool is None:
+            self.start(self._last)
+        elif self.tool.goes_on:
+            tool = self.tool
+            self._answer(tool, tool.finish)
+        else:
+            self.start(CanvasTool.SELECT)
+
+    def back(self) -> None:
+        """Take the last point back."""
+        if self.tool is not None:
+            self._run(self.tool.back())
+
+    def after_undo(self) -> None:
+        """Let the running tool go on from where an undone drawing ends."""
+        if self.tool is not None and self._document.log and self._document.log[-1].command in ("undo", "u"):
+            self.tool.after_undo(self._document.last_point)
+
+    def cancel(self) -> bool:
+        """Give up the shape, or else the tool; return whether there was either."""
+        if self.tool is None:
+            return False
+        if self.busy and isinstance(self.tool, AskingTool):
+            self.tool.clear()
+        else:
+            self.start(self.kind if self.busy else CanvasTool.SELECT)
+        return True
+
+    def count_on(self, by: int) -> bool:
+        """Change the count of the tool; return False where there is none."""
+        return self.tool is not None and self.tool.count_on(by)
+
+    def takes(self, text: str) -> bool:
+        """Return whether a typed text is an option of the running tool, or the words that it asks for."""
+        return self.wants_words or (self.tool is not None and text.strip().lower() in self.tool.options)
+
+    def preview(self, point: Point) -> Preview:
+        """Return what a click at a point would make."""
+        tool = self.tool
+        if not isinstance(tool, AskingTool):
+            return tool.preview(point) if tool is not None else Preview()
+        shown, line = tool.helpers(point), tool.draft(point, self.under)
+        trial = self._trials.of(line) if line is not None else Trial()
+        return replace(shown, trial=trial.difference, label="\n".join(filter(None, (shown.label, trial.reason.split(";")[0]))))
+
+    def type_text(self, text: str) -> bool:
+        """Take typed text: a word of the tool, a point, a distance, or a command word alone that begins a tool.
+
+        Returns:
+            False when the text is nothing for a tool, and may be a whole line of the drawing language.
+        """
+        text = text.strip()
+        if not text:
+            return False
+        if self.tool is not None and self._word(text):
+            return True
+        command = command_word(text)
+        if command is not None:
+            return self._begin(command) if " " not in text else False
+        if self.tool is None or ";" in text or (text[0].isalpha() and "," not in text and not self._is_named(text)):
+            return False
+        try:
+            self._place(self.tool, text)
+        except CommandError as error:
+            self._say(error.reason)
+        return True
+
+    def _is_named(self, text: str) -> bool:
+        """Return whether a text begins with a name that stands for something."""
+        word = re.match(r"\w+", text)
+        return word is not None and word[0] in self._document.session.names
+
+    def _word(self, word: str) -> bool:
+        tool = self.tool
+        if isinstance(tool, AskingTool):
+            option, _, value = word.partition(" ")
+            if value and tool.wants is not Want.WORDS and option.lower() in tool.numbers:
+                tool.setting = option.lower()
+                self._place(tool, value)
+                return True
+        line = tool.word(word if tool.wants is Want.WORDS else word.lower()) if tool else None
+        if line:
+            self._run(line)
+        return line is not None
+
+    def _begin(self, command: str) -> bool:
+        if command not in TOOL_WORDS:
+            return False
+        self.start(TOOL_WORDS[command])
+        return True
+
+    def _place(self, tool: DrawingTool, text: str) -> None:
+        scope = replace(self._document.session.scope, last=tool.base or self._document.last_point, plain=self.unit)
+        value = value_of(read_value(text), scope)
+        if isinstance(value, tuple):
+            self.click(value)
+            return
+        if isinstance(value, Curves):
+            raise CommandError(f"'{text}' is a curve; a point or a length is wanted.")
+        if tool.takes_length:
+            value = float(scope.length(value))
+        before = self._answers(tool)
+        line = tool.typed(value)
+        if line is not None:
+            self._run(line, before)
+            return
+        point = tool.number(value, self.cursor)
+        if point is None:
+            raise CommandError(f"'{text}' is a distance without a direction; write x,y or @dx,dy, or point with the mouse first.")
+        self.click(tidy(point))
+
+    def _pick(self, tool: AskingTool) -> None:
+        under = self.under
+        if under is None:
+            self._say("No curve is there; click on one.")
+        else:
+            self._answer(tool, lambda: tool.give(under))
+
+    def _answer(self, tool: DrawingTool, act: Callable[[], str | None]) -> None:
+        """Give a tool what it asked for, and carry out what comes of it."""
+        before = self._answers(tool)
+        try:
+            self._run(act(), before)
+        except InputError as error:
+            tool.clear()
+            self._say(reason_of(error))
+
+    def _answers(self, tool: DrawingTool) -> list[Answer]:
+        return list(tool.answers) if isinstance(tool, AskingTool) else []
+
+    def _run(self, line: str | None, before: list[Answer] | None = None) -> None:
+        """Carry out a line; a tool whose line is refused goes back to the answers before."""
+        if not line:
+            return
+        tool = self.tool
+        try:
+            self._document.run(line)
+        except InputError as error:
+            self._say(reason_of(error))
+            if isinstance(tool, AskingTool) and before is not None:
+                tool.restore(before)
+                return
+        if isinstance(tool, AskingTool) and tool.once and self.tool is tool:
+            self.start(CanvasTool.SELECT)

@@ -1,0 +1,177 @@
+"""Smooths the program that the NC view shows, in the background, and does with the answer what is asked."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QFileDialog
+
+from ....core.atomic import write_atomically
+from ....core.errors import HitofudeError
+from ....core.progress import Progress
+from ...framework.figures import counted
+from ...framework.log import Log
+from ...shell.main_window import MainWindow
+from ...shell.showing import Showing
+from ...shell.views import View
+from ..nc.control import NcControl
+from ..nc.motion_picture import MotionPicture
+from ..nc.motion_shapes import Side
+from ..nc.reading import FILTER, Reading, Shown
+from .curves_shown import CurvesShown, Layers, layers, smoothed
+from .curves_view import picture_of
+
+
+class Smoothing(QObject):
+    """Follows the NC view: its program is the one that is smoothed.
+
+    Signals:
+        failed(sentence).
+    """
+
+    failed = Signal(str)
+
+    def __init__(self, window: MainWindow, nc: NcControl, showing: Showing, log: Log) -> None:
+        super().__init__(window)
+        self._window, self._nc, self._showing, self._log = window, nc, showing, log
+        self._view, self._panel = window.views.curves, window.curves_panel
+        self._followed: Shown | None = None
+        self._filled = False
+        self.reading = Reading(self)
+        self.reading.failed.connect(self._on_failed)
+        self.reading.progress.connect(window.status.show_progress)
+        self.reading.busy_changed.connect(self._on_busy)
+        window.status.cancelled.connect(self.reading.worker.cancel)
+        window.actions_["cancel"].triggered.connect(lambda *_: self.reading.worker.cancel())
+        window.closed.connect(self.reading.worker.finish)
+        nc.changed.connect(self._follow)
+        showing.view_changed.connect(self._on_view)
+        self._panel.smooth_asked.connect(self.smooth_or_cancel)
+        self._panel.save_asked.connect(self.choose_place)
+        self._panel.nc_asked.connect(self.open_in_nc)
+        self._view.side_wanted.connect(self._draw_side)
+        self._view.path.hovered.connect(showing.show_hovered)
+        self._view.deviation.hovered.connect(showing.show_hovered)
+        self._view.spotted.connect(window.status.show_message)
+        self._view.path.cursor_moved.connect(lambda right, up: window.status.show_place(right, up, self._view.side.name))
+        window.actions_["curves_smooth"].triggered.connect(lambda *_: self._smooth_from_menu())
+
+    def smooth_or_cancel(self) -> None:
+        """Smooth the program as the form says; while that is done, leave it."""
+        from ....usecases.smooth import SmoothOptions
+
+        if self.reading.worker.busy:
+            self.reading.worker.cancel()
+            return
+        shown = self._window.views.nc.shown
+        if shown is None:
+            return
+        try:
+            options = self._panel.options(SmoothOptions())
+        except HitofudeError as error:
+            self._panel.show_reason(str(error))
+            return
+        self._panel.show_reason("")
+        self.reading.start(partial(smoothed, shown, options, self._view.side), self._on_smoothed)
+
+    def choose_place(self) -> None:
+        """Ask where the new text goes, and write it."""
+        curves = self._view.curves
+        if curves is None:
+            return
+        start = str(Path(self._window.settings.last_folder or Path.home()) / curves.now.source.name)
+        name, _ = QFileDialog.getSaveFileName(self._window, "Save smoothed program", start, FILTER)
+        if name:
+            self.save(Path(name))
+
+    def save(self, path: Path) -> None:
+        """Write the new text to a file: whole or not at all."""
+        curves = self._view.curves
+        if curves is None:
+            return
+        try:
+            write_atomically(path, curves.done.data)
+        except HitofudeError as error:
+            self.failed.emit(str(error))
+            return
+        self._log.note(f"save {path.name}", f"{counted(len(curves.now.text), 'line')} written to {path}")
+        self._window.status.show_message(f"{path.name} is written.")
+
+    def open_in_nc(self) -> None:
+        """Show the new text in the NC view; it is in no file yet."""
+        if self._view.curves is not None:
+            self._nc.show_text(self._view.curves.now.source)
+
+    def _smooth_from_menu(self) -> None:
+        self._showing.show_view(View.CURVES)
+        if not self.reading.worker.busy:
+            self.smooth_or_cancel()
+
+    def _on_view(self, view: View) -> None:
+        if view is View.CURVES:
+            self._fill()
+            self._follow()
+
+    def _fill(self) -> None:
+        """Fill the form, once; what it needs is not loaded before it is seen."""
+        if not self._filled:
+            from ....gcode.posts.posts import post_titles
+            from ....usecases.smooth import SmoothOptions
+
+            self._filled = True
+            self._panel.show_options(SmoothOptions(), post_titles())
+
+    def _follow(self) -> None:
+        """Show the NC view's program when it is another one; curves of the one before are of no use any more."""
+        shown = self._window.views.nc.shown
+        if self._showing.view is not View.CURVES or (shown is self._followed and shown is not None):
+            return
+        self.reading.worker.cancel()
+        self._followed = shown
+        self._panel.show_program(shown.source.name if shown is not None else "")
+        self._panel.show_reason("")
+        self._panel.show_result(None)
+        self._view.show_program(shown)
+        self._showing.show_missing()
+
+    def _on_smoothed(self, curves: CurvesShown) -> None:
+        if curves.was is not self._followed:
+            return
+        self._panel.show_result(curves.done)
+        self._view.show_curves(curves)
+        self._log.note(f"smooth {curves.was.source.name}", self._panel.title.text())
+        self._showing.show_hovered("")
+
+    def _on_failed(self, sentence: str) -> None:
+        self._panel.show_reason(sentence)
+        self.failed.emit(sentence)
+
+    def _on_busy(self, busy: bool) -> None:
+        self._panel.show_busy(busy)
+        self._window.actions_["cancel"].setEnabled(busy or self._window.worker.busy)
+        if busy or not self._window.worker.busy:
+            self._window.status.show_progress(0.0 if busy else None)
+
+    def _draw_side(self, side: Side) -> None:
+        """Have the side prepared that is missing; a job on its way ends first, and what it shows asks again."""
+        if self._followed is not None and not self.reading.worker.busy:
+            self.reading.start(partial(_drawn, self._view.curves, self._followed, side), self._on_drawn)
+
+    def _on_drawn(self, made: tuple[CurvesShown | None, Shown, Side, Layers | MotionPicture]) -> None:
+        curves, shown, side, picture = made
+        if curves is not None and isinstance(picture, Layers):
+            curves.layers[side] = picture
+        elif isinstance(picture, MotionPicture):
+            shown.pictures[side] = picture
+        if curves is self._view.curves and shown is self._followed:
+            self._view.set_side(self._view.side)
+
+
+def _drawn(
+    curves: CurvesShown | None, shown: Shown, side: Side, progress: Progress
+) -> tuple[CurvesShown | None, Shown, Side, Layers | MotionPicture]:
+    """Return what is seen from another side, and of what."""
+    progress.step(0.0, "Preparing the picture")
+    return curves, shown, side, layers(curves, side, progress) if curves is not None else picture_of(shown, side)

@@ -1,0 +1,367 @@
+"""The Cut view: the stock as the program leaves it; orbit, pan, zoom, probe, section."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from PySide6.QtCore import QEasingCurve, QEvent, QPointF, Qt, QVariantAnimation, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent, QWheelEvent
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+
+from ...framework.samples import Sample
+from ...framework.theme import Theme
+from ..canvas.viewport import GLIDE_MS
+from ..nc.motion_shapes import Look
+from .camera import Camera, StandardView
+from .colouring import CutColour, possible
+from .colours import Colours
+from .cut_legend import CutLegend, Side
+from .hands import KEYS, Hands
+from .inks import look_of
+from .overlay import CutOverlay, Line, Pin, Probe
+from .overlay_words import facts_of, place_of
+from .painting import Painting
+from .picking import Hit, Section, pick_finest
+from .picture import CutPicture
+from .profile import profile
+from .profile_panel import HEIGHT, ProfilePanel
+from .surface import GlSurface, ImageSurface, pixel_size
+from .surfacing import Surfacing
+
+_NOTCH, _CROWDED_PX = 1.2, 6.0
+_EDGE_PX = 16
+_STEEP, _MOST_OF_STOCK = np.radians(55.0), 0.5
+_LOOKS = {Sample.RAPID: Look.RAPID, Sample.POCKET: Look.CUT, Sample.PLUNGE: Look.PLUNGE, Sample.CONTOUR: Look.CONTOUR}
+
+
+class CutView(QWidget):
+    """Shows a cut; whoever owns it computes it.
+
+    Signals:
+        cell_picked(x, y, z, move): the metal was clicked at a place, mm; move = index of the one that cut it last, -1 = none.
+        hovered(sentence): what is under the mouse, or "".
+        cursor_moved(x, y): the place under the mouse, mm.
+
+    Attributes:
+        picture: what is shown; None = nothing. detail: a part of it that was cut again with finer cells; None = there is none.
+        colours: of both. camera: from where they are seen, in the screen's px.
+        playing: the tool at its place, and cells that change. hit: the cell under the mouse. failure: why nothing can be shown here, or "".
+        surfacing: gives it what it is painted on.
+    """
+
+    cell_picked = Signal(float, float, float, int)
+    hovered = Signal(str)
+    cursor_moved = Signal(float, float)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.picture: CutPicture | None = None
+        self.detail: CutPicture | None = None
+        self.camera = Camera()
+        self.section: Section | None = None
+        self.hit: Hit | None = None
+        self.failure = ""
+        self.surface: GlSurface | ImageSurface | None = None
+        self.painting, self.colours, self._hands = Painting(self), Colours(self), Hands(self)
+        self.playing = self.painting.playing
+        self._shown = frozenset(int(look) for look in Look)
+        self._fitted, self.surfacing = True, Surfacing(self)
+        self._side, self._signs = Side.WHOLE, (1.0, 1.0)
+        self.sentence = QLabel()
+        self.sentence.setProperty("role", "muted")
+        self.sentence.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.sentence.setWordWrap(True)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self.sentence)
+        self.overlay, self.legend, self.profile = CutOverlay(self), CutLegend(self), ProfilePanel(self)
+        self._way = (self.camera, self.camera)
+        self._glide = QVariantAnimation(self)
+        self._glide.setDuration(GLIDE_MS)
+        self._glide.setEasingCurve(QEasingCurve.Type.OutCubic)
+        self._glide.setStartValue(0.0)
+        self._glide.setEndValue(1.0)
+        self._glide.valueChanged.connect(lambda share: self._look(self._way[0].towards(self._way[1], float(share))))
+        self._begin()
+
+    def _begin(self) -> None:
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setMinimumSize(200, 150)
+        self.setAccessibleName("Cut in three dimensions")
+        self.legend.colour_chosen.connect(self.set_colour)
+        self.legend.layer_switched.connect(self._on_layer)
+        self.legend.wedges_switched.connect(self.playing.switch_wedges)
+        self.legend.section_chosen.connect(self._on_section)
+        self.profile.closed.connect(lambda: self.show_line(None))
+        self.colours.known.connect(self._show_colours)
+        self.overlay.hide()
+        self.legend.hide()
+
+    def show_cut(self, picture: CutPicture | None) -> None:
+        """Show another cut; the view stays unless the stock is another one."""
+        before, self.picture, self.detail = self.picture, picture, None
+        self.overlay.show_probe(None)
+        self.overlay.show_pin(None)
+        self.show_line(None)
+        self.hit = None
+        self.overlay.setVisible(picture is not None)
+        self.legend.setVisible(picture is not None)
+        if picture is None:
+            self.update()
+            return
+        looks = set(picture.paths.look.tolist()) if picture.paths is not None else set()
+        self.legend.show_layers({sample for sample, look in _LOOKS.items() if look in looks})
+        self.overlay.show_pitch(picture.pitch, finer=False)
+        self.painting.new_picture()
+        self.colours.refresh()
+        self._on_section(self.legend.chosen_side, self.legend.slider.value() / self.legend.slider.maximum())
+        if before is None or not (np.array_equal(before.low, picture.low) and np.array_equal(before.high, picture.high)):
+            self.look_now(self._fitted_camera())
+            self._fitted = True
+            self._thin_out(picture)
+        if self.isVisible():
+            self.surfacing.need()
+
+    def _thin_out(self, picture: CutPicture) -> None:
+        """Leave out paths of cuts that would hide the metal, until the user wants them."""
+        area = float(np.prod((picture.high - picture.low)[:2]))
+        for sample in (Sample.POCKET, Sample.CONTOUR):
+            length = picture.paths.length(int(_LOOKS[sample])) if picture.paths is not None else 0.0
+            self.legend.rows[sample].setChecked(length * _CROWDED_PX < area * self.camera.scale)
+
+    def show_detail(self, detail: CutPicture | None) -> None:
+        """Show a part of the cut in finer cells, or only the whole again."""
+        if self.picture is None or detail is self.detail:
+            return
+        self.detail = detail
+        colour = self.colours.told
+        self.overlay.show_pitch((detail or self.picture).pitch, finer=detail is not None)
+        if self.overlay.line is not None:
+            self.show_line(self.overlay.line)
+        if detail is None or colour in detail.values:
+            self.painting.new_detail(detail.values[colour] if detail is not None else None)
+        else:
+            self.colours.refresh()
+
+    @property
+    def colour(self) -> CutColour:
+        """What the colours of the metal tell."""
+        return self.colours.asked
+
+    def set_colour(self, colour: CutColour) -> None:
+        """Let the colours of the metal tell something else."""
+        self.colours.asked = colour
+        self.colours.refresh()
+
+    def set_theme(self, theme: Theme) -> None:
+        """Paint by day or by night."""
+        self.colours.set_theme(theme)
+
+    def fit(self) -> None:
+        """Show the whole stock in the direction that is looked in."""
+        if self.picture is not None:
+            self.glide_to(self._fitted_camera())
+            self._fitted = True
+
+    def zoom_by(self, factor: float, at: QPointF | None = None) -> None:
+        """Zoom; what is seen at a place, by default in the middle, stays there."""
+        ratio = self.devicePixelRatioF()
+        place = at * ratio if at is not None else QPointF(*pixel_size(self)) / 2
+        self.look_now(self.camera.zoomed(factor, (place.x(), place.y()), pixel_size(self)))
+
+    def stand(self, view: StandardView) -> None:
+        """Look from a standard direction at the whole stock."""
+        if self.picture is not None:
+            self.glide_to(self._fitted_camera(self.camera.seen_from(view)))
+            self._fitted = True
+
+    def go_to(self, pin: Pin, field: float) -> None:
+        """Glide to a place, steeply enough to look into the metal, and point at it.
+
+        Args:
+            pin: the place. field: about how much round it should be seen, mm.
+        """
+        if self.picture is None:
+            return
+        self.overlay.show_pin(pin)
+        width, height = pixel_size(self)
+        field = min(field, _MOST_OF_STOCK * float(np.max((self.picture.high - self.picture.low)[:2])))
+        towards = replace(self.camera, target=pin.place, pitch=max(self.camera.pitch, _STEEP), scale=min(width, height) / field)
+        self._fitted = False
+        self.glide_to(towards.panned(-self._covered() / 2, 0.0))
+
+    def look_now(self, camera: Camera) -> None:
+        """Look this way at once."""
+        self._glide.stop()
+        self._fitted = False
+        self._look(camera)
+
+    def probe(self, at: QPointF) -> Hit | None:
+        """Return the cell that is seen at a place of the widget, px; None beside the metal."""
+        if self.picture is None:
+            return None
+        place = at * self.devicePixelRatioF()
+        return pick_finest(self.picture, self.detail, self.camera.ray((place.x(), place.y()), pixel_size(self)), self.section)
+
+    def metal_changed(self) -> None:
+        """The picture's cells have changed in place: what is told of single ones is told anew, or no more."""
+        if self.overlay.line is not None:
+            self.show_line(self.overlay.line)
+        self.show_hit(None, QPointF())
+
+    def frame_parts(self) -> tuple[Camera, Section | None, frozenset[int]]:
+        """Return what is to be painted: from where, what is taken away, and which paths."""
+        return self.camera, self.section, self._shown
+
+    def showEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
+        """Make the surface when it is first needed: a window with OpenGL in it costs more to paint."""
+        if self.picture is not None:
+            self.surfacing.need()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Keep what was fitted fitted."""
+        for widget in (self.surface, self.overlay):
+            if widget is not None:
+                widget.setGeometry(self.rect())
+        self.profile.setGeometry(0, self.height() - HEIGHT, self.width(), HEIGHT)
+        self._place_legend()
+        if self.picture is not None and self._fitted:
+            self._look(self._fitted_camera())
+        else:
+            self.painting.moved()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Hold the stock."""
+        self._hands.press(event)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Turn or shift what is held; else tell what is under the mouse."""
+        self._hands.move(event)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Let go; a click picks the cell."""
+        self._hands.release(event)
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
+        """The second press of two is a press like any other."""
+        self._hands.press(event)
+
+    def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
+        """Nothing is under the mouse."""
+        self.show_hit(None, QPointF())
+
+    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
+        """Zoom at the mouse."""
+        if event.angleDelta().y() and self.picture is not None:
+            self.show_hit(None, event.position())
+            self.zoom_by(_NOTCH ** (event.angleDelta().y() / 120), event.position())
+        event.accept()
+
+    def event(self, event: QEvent) -> bool:
+        """Keep the digits and F from whoever types elsewhere."""
+        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and not event.modifiers() and event.key() in KEYS:
+            event.accept()
+            return True
+        return super().event(event)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
+        """F fits, 1 to 4 are the standard views, arrows turn, Escape ends the profile."""
+        if not self._hands.key(event):
+            super().keyPressEvent(event)
+
+    def show_line(self, line: Line | None) -> None:
+        """Show the heights along a line over the metal, or no line any more.
+
+        Args:
+            line: its two ends, mm.
+        """
+        self.overlay.show_line(line)
+        self.profile.setVisible(line is not None)
+        if line is not None and self.picture is not None:
+            finer = self.detail is not None and all(self.detail.holds(*end[:2]) for end in line)
+            picture = self.detail if self.detail is not None and finer else self.picture
+            self.profile.show_profile(profile(picture, line[0][:2], line[1][:2]))
+
+    def _fitted_camera(self, camera: Camera | None = None) -> Camera:
+        """Return the camera that shows the whole stock beside the legend and above the profile."""
+        if self.picture is None:
+            return self.camera
+        width, height = pixel_size(self)
+        free = width - self._covered()
+        below = HEIGHT * self.devicePixelRatioF() if self.profile.isVisible() and height > 2 * HEIGHT else 0.0
+        fitted = (camera or self.camera).fitted(self.picture.low, self.picture.high, (free, height - below))
+        return fitted.panned((free - width) / 2, -below / 2)
+
+    def _covered(self) -> float:
+        """Return how much of the width the legend covers, px; none where the view is too narrow to keep clear of it."""
+        covered = (self.legend.width() + _EDGE_PX) * self.devicePixelRatioF()
+        return covered if covered < 0.45 * pixel_size(self)[0] else 0.0
+
+    def _look(self, camera: Camera) -> None:
+        self.camera = camera
+        self.overlay.show_camera(camera)
+        self.painting.moved()
+
+    def glide_to(self, camera: Camera) -> None:
+        """Look another way, by and by."""
+        self._glide.stop()
+        self.show_hit(None, QPointF())
+        if not self.isVisible():
+            self._look(camera)
+            return
+        self._way = (self.camera, camera)
+        self._glide.start()
+
+    def _show_colours(self) -> None:
+        """Paint in other colours, and explain them."""
+        if self.picture is None:
+            return
+        colour, made = self.colours.told, self.colours.of_whole(self.picture)
+        detail = self.detail.values[colour] if self.detail is not None else None
+        self.painting.new_colours(made, detail, look_of(self.colours.theme))
+        self.legend.show_colours(colour, made.key, possible(self.picture))
+        self._place_legend()
+
+    def _place_legend(self) -> None:
+        self.legend.move(self.width() - self.legend.width() - _EDGE_PX, _EDGE_PX)
+
+    def _on_layer(self, sample: Sample, on: bool) -> None:
+        look = int(_LOOKS[sample])
+        self._shown = self._shown | {look} if on else self._shown - {look}
+        self.painting.moved()
+
+    def _on_section(self, side: Side, share: float) -> None:
+        """Cut the stock open across an axis; the part towards the eye is taken away, and stays so while the cut is turned."""
+        self._place_legend()
+        if side is not self._side:
+            self._side, towards = side, self.camera.axes[2]
+            self._signs = (1.0 if towards[0] > 0 else -1.0, 1.0 if towards[1] > 0 else -1.0)
+        if self.picture is None or side is Side.WHOLE:
+            self.section = None
+        else:
+            axis = 0 if side is Side.X else 1
+            sign = self._signs[axis]
+            low, high = self.picture.low[axis], self.picture.high[axis]
+            normal = (sign, 0.0) if axis == 0 else (0.0, sign)
+            self.section = Section(normal, sign * float(low + share * (high - low)))
+        self.painting.moved()
+
+    def hover(self, at: QPointF) -> None:
+        """Tell what is under the mouse."""
+        self.show_hit(self.probe(at), at)
+
+    def show_hit(self, hit: Hit | None, at: QPointF) -> None:
+        """Tell what is known of a cell, here and to whoever listens."""
+        if hit is None and self.hit is None:
+            return
+        self.hit = hit
+        if hit is None:
+            self.overlay.show_probe(None)
+            self.hovered.emit("")
+            return
+        facts = facts_of(hit)
+        self.overlay.show_probe(Probe(at, place_of(hit), facts))
+        self.hovered.emit(facts)
+        self.cursor_moved.emit(hit.place[0], hit.place[1])

@@ -1,0 +1,229 @@
+"""Shows the cut of the job's program as soon as it is computed, and of any other program when that is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal
+
+from ....core.progress import Progress
+from ...framework.verdict import Level, Verdict, verdict
+from ...framework.worker import Answer, Worker
+from ...shell.computation import State
+from ...shell.main_window import MainWindow
+from ..nc.reading import Source
+from .colouring import CutColour, key_of
+from .cut_panel import colour_of
+from .entries import Entry, EntryColour
+from .foreign import Asked, Foreign, foreign_shown
+from .given import Given
+from .inks import inks_of
+from .overlay import Pin
+from .shown_cut import ProgramFile, ShownCut, shown_cut
+from .zooming import Followed, Zooming
+
+if TYPE_CHECKING:
+    from ....gcode.interpreter.dialect import Dialect
+    from ....usecases.make import Made
+    from ....verify.parts import Part
+
+
+def job_shown(made: Made, name: str, colour: CutColour, progress: Progress) -> ShownCut | None:
+    """Return the cut that came with the job's program, prepared; None where nothing was cut.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    if made.cut is None:
+        return None
+    files = tuple(ProgramFile(f"{name}{file.suffix}", file.nc.text.encode("ascii")) for file in made.files)
+    return shown_cut(made.cut, files, colour, progress)
+
+
+class Cutting(QObject):
+    """Follows the computation, and shows the cut of another program when it is asked to.
+
+    Its own worker, so that it never holds up computing.
+
+    Signals:
+        shown(): the view shows another cut, or none, or something is asked for. failed(sentence).
+
+    Attributes:
+        cut: what is shown; None = nothing.
+    """
+
+    shown = Signal()
+    failed = Signal(str)
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window, self._view, self._computation = window, window.views.cut, window.computation
+        self._panel, self._form = window.cut_panel, window.cut_form
+        self.cut: ShownCut | None = None
+        self._own: ShownCut | None = None
+        self._foreign: Foreign | None = None
+        self._shown_foreign: Foreign | None = None
+        self._made: object = None
+        self.worker, self.foreign_worker = Worker(self), Worker(self)
+        self.zooming = Zooming(self._view, self)
+        self.player = window.views.cut_page.player
+        self._connect()
+
+    def _connect(self) -> None:
+        window = self._window
+        for worker in (self.worker, self.foreign_worker):
+            worker.done.connect(self._on_done)
+            worker.failed.connect(self._on_failed)
+            window.status.cancelled.connect(worker.cancel)
+        self.foreign_worker.progress.connect(window.status.show_progress)
+        self.foreign_worker.busy_changed.connect(self._on_busy)
+        window.closed.connect(self.player.pause)
+        for worker in (self.worker, self.foreign_worker, self.zooming.worker, self._view.colours.worker, self.player.worker):
+            window.closed.connect(worker.finish)
+        window.closed.connect(self._leave)
+        self.zooming.failed.connect(self.failed)
+        self.player.failed.connect(self.failed)
+        self._view.surfacing.said.connect(self.failed)
+        self.player.moved.connect(self._on_played)
+        self.player.state_changed.connect(self._on_played)
+        self._computation.changed.connect(self._follow)
+        self._computation.changed.connect(self._tell)
+        self._view.colours.known.connect(self._show_key)
+        self._panel.picked.connect(self._go_to)
+        self._panel.form_wanted.connect(self._open_form)
+        self._panel.left.connect(self.back)
+        self._form.accepted.connect(self._cut_as)
+        self._form.left.connect(self._leave_form)
+
+    def show_program(self, source: Source, dialect: Dialect, scene: Callable[[], Part] | None = None) -> None:
+        """Cut a program that is none of the job's; what was there stays until it is cut.
+
+        Args:
+            source, dialect: what it is and how it is read. scene: makes what a scene's program is to come to; None: it is no scene's.
+        """
+        before = self._foreign
+        given = before.given if before is not None and before.source.bytes() == source.bytes() else Given()
+        made, job = self._computation.made, self._window.document.job
+        part = made.cut.setup.part if made is not None and made.cut is not None else None
+        self._foreign = Foreign(source, dialect, given, {tool.number: tool for tool in job.tools}, part, scene)
+        self._cut_foreign()
+
+    def back(self) -> None:
+        """Show the job's own cut again."""
+        self.foreign_worker.cancel()
+        self._form.ask(None)
+        if self._foreign is not None or self.cut is not self._own:
+            self._foreign = self._shown_foreign = None
+            self._show(self._own)
+
+    def _leave(self) -> None:
+        """Let go of what takes much memory; the window itself may be kept by somebody for longer."""
+        self._foreign = self._shown_foreign = self._own = self._made = None
+        self._show(None)
+
+    def _follow(self) -> None:
+        made = self._computation.made
+        if made is self._made or self._computation.state is State.RUNNING:
+            return
+        self._made = made
+        if made is None or made.cut is None:
+            self._show_own(None)
+            return
+        name, colour = made.job.part.name, self._view.colour
+        self.worker.start(lambda progress: job_shown(made, name, colour, progress), 0)
+
+    def _cut_foreign(self) -> None:
+        foreign, colour = self._foreign, self._view.colour
+        if foreign is not None:
+            self.foreign_worker.start(lambda progress: foreign_shown(foreign, colour, progress), 0)
+
+    def _cut_as(self, given: Given) -> None:
+        """Cut the foreign program with other tools and stock."""
+        if self._foreign is not None:
+            self._foreign = replace(self._foreign, given=given)
+            self._cut_foreign()
+
+    def _open_form(self) -> None:
+        """Let the user say other tools and another stock."""
+        if self._foreign is not None and self.cut is not None and self.cut.given is not None:
+            self._form.ask(Asked("Other tools, or another stock, give another cut.", self._foreign, self.cut.given))
+            self.shown.emit()
+
+    def _leave_form(self) -> None:
+        self._form.ask(None)
+        if self.cut is None or self.cut.given is None:
+            self.back()
+        self.shown.emit()
+
+    def _show_own(self, cut: ShownCut | None) -> None:
+        self._own = cut
+        if self._foreign is None:
+            self._show(cut)
+
+    def _show(self, cut: ShownCut | None) -> None:
+        self.cut = cut
+        self._view.show_cut(cut.picture if cut is not None else None)
+        self.zooming.follow(Followed(cut.cut) if cut is not None else None)
+        self._panel.show_cut(cut)
+        self.player.follow(cut, self._panel.entries)
+        self._tell()
+        self._show_key()
+        self.shown.emit()
+
+    def _tell(self) -> None:
+        """The job's own cut is headed by the badge's verdict, or by that it is out of date."""
+        made, own = self._computation.made, self.cut is not None and self.cut is self._own
+        if not own or made is None:
+            self._panel.show_told(None)
+        elif self._computation.outdated:
+            self._panel.show_told(Verdict(Level.NONE, "Out of date: compute again"))
+        else:
+            self._panel.show_told(verdict(made.findings, made.report.data))
+
+    def _show_key(self) -> None:
+        """The histogram has the colours of the deviation, whatever the metal's tell."""
+        if self.cut is not None and self.cut.histogram is not None:
+            picture = self.cut.picture
+            self._panel.show_key(key_of(picture, CutColour.DEVIATION, inks_of(self._view.colours.theme), picture.span))
+
+    def _go_to(self, entry: Entry) -> None:
+        """Glide to a place; gouges and metal left are seen best by their deviation. On the way of the cut, go to when it was done."""
+        if not self.player.at_end:
+            self.player.go(entry.motion + 1 if entry.motion >= 0 else self.player.length)
+        if entry.place is None:
+            return
+        if entry.colour is not EntryColour.ACCIDENT and self._view.picture is not None and self._view.picture.deviation is not None:
+            self._view.set_colour(CutColour.DEVIATION)
+        theme = self._view.colours.theme
+        self._view.go_to(Pin(entry.place, entry.title, entry.words, colour_of(entry.colour, theme)), entry.field)
+
+    def _on_done(self, answer: Answer) -> None:
+        result = answer.value
+        if isinstance(result, Asked):
+            self._form.ask(result)
+            self.shown.emit()
+        elif isinstance(result, ShownCut) and result.given is not None:
+            self._form.ask(None)
+            self._shown_foreign = self._foreign
+            self._show(result)
+        elif isinstance(result, ShownCut):
+            self._show_own(result)
+
+    def _on_failed(self, answer: Answer) -> None:
+        self.failed.emit(answer.error or "")
+        if self._form.asked is None:
+            self._foreign = self._shown_foreign
+
+    def _on_played(self) -> None:
+        """A finer look shows the moment that the cut rests at; within a motion there is none."""
+        at, cut = self.player.at, self.cut
+        if cut is None or self.player.playing or (at is not None and at.fraction > 0):
+            self.zooming.follow(None)
+        else:
+            self.zooming.follow(Followed(cut.cut, None if at is None or self.player.at_end else at.motion))
+
+    def _on_busy(self, busy: bool) -> None:
+        if busy or not self._window.worker.busy:
+            self._window.status.show_progress(0.0 if busy else None)

@@ -1,0 +1,114 @@
+"""The histogram of the deviation: bars in the colours that the metal has, the tolerance marked, areas in mm²."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QBrush, QColor
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+
+from ...framework.figures import grouped
+from ...framework.labels import muted
+from ...framework.theme import LIGHT, Theme, text_font
+from .colouring import STEPS, ColourKey
+from .histogram import Histogram
+
+if TYPE_CHECKING:
+    from pyqtgraph import PlotWidget
+
+HEIGHT = 184
+_LEAST_MM2 = 1e-3
+
+
+class HistogramPlot(QWidget):
+    """Areas over the scale of the deviation; they differ by powers of ten, and so does the height of the bars."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._theme = LIGHT
+        self._plot: PlotWidget | None = None
+        self.shown: Histogram | None = None
+        self._key: ColourKey | None = None
+        self.sums = muted()
+        self.sums.setTextFormat(Qt.TextFormat.RichText)
+        self.sums.setWordWrap(True)
+        self._column = QVBoxLayout(self)
+        self._column.setContentsMargins(0, 0, 0, 0)
+        self._column.setSpacing(4)
+        self._column.addWidget(self.sums)
+        self.setFixedHeight(HEIGHT)
+
+    def show_histogram(self, histogram: Histogram, key: ColourKey) -> None:
+        """Show other areas.
+
+        Args:
+            histogram: the areas. key: of the deviation's colours.
+        """
+        self.shown, self._key = histogram, key
+        if self._plot is None:
+            self._plot = self._made_plot()
+            self._column.addWidget(self._plot, 1)
+        self._draw(self._plot, histogram, key)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme; the colours of the bars come with the next key."""
+        self._theme = theme
+        if self._plot is not None and self.shown is not None and self._key is not None:
+            self._draw(self._plot, self.shown, self._key)
+
+    def _made_plot(self) -> PlotWidget:
+        from pyqtgraph import PlotWidget  # heavy; not every cut is judged
+
+        plot = PlotWidget()
+        plot.setMenuEnabled(False)
+        plot.setMouseEnabled(x=False, y=False)
+        plot.hideButtons()
+        plot.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        plot.setAccessibleName("Histogram of the deviation")
+        return plot
+
+    def _draw(self, plot: PlotWidget, histogram: Histogram, key: ColourKey) -> None:
+        from pyqtgraph import BarGraphItem, LinearRegionItem, mkPen
+
+        plot.clear()
+        self._dress(plot, key)
+        logs = np.log10(np.maximum(histogram.areas, _LEAST_MM2) / _LEAST_MM2)
+        middles = (histogram.borders[:-1] + histogram.borders[1:]) / 2
+        inks = [QColor(*key.palette[min(int(at * STEPS), STEPS - 1), :3].tolist()) for at in middles]
+        band = LinearRegionItem(_band_of(histogram), movable=False, brush=QBrush(self._theme.hover), pen=mkPen(self._theme.hairline))
+        band.setZValue(-10)
+        plot.addItem(band)
+        plot.addItem(BarGraphItem(x0=histogram.borders[:-1], x1=histogram.borders[1:], height=logs, brushes=inks, pen=mkPen(None)))
+        plot.setXRange(0.0, 1.0, padding=0.12)
+        plot.setYRange(0.0, max(float(logs.max()), 1.0), padding=0.04)
+        self.sums.setText(self._sums(histogram))
+
+    def _dress(self, plot: PlotWidget, key: ColourKey) -> None:
+        from pyqtgraph import mkPen
+
+        plot.setBackground(self._theme.paper)
+        bottom, left = plot.getAxis("bottom"), plot.getAxis("left")
+        for axis in (bottom, left):
+            axis.setPen(mkPen(self._theme.hairline))
+            axis.setTextPen(mkPen(self._theme.muted))
+            axis.setStyle(tickFont=text_font(11), tickLength=3)
+        bottom.setTicks([[(tick.at, tick.text) for tick in key.ticks[::2]]])
+        left.setTicks([[(power + 3, f"{10.0 ** power:g}") for power in range(-3, 7, 2)]])
+        left.setLabel("mm²", color=self._theme.muted.name())
+
+    def _sums(self, histogram: Histogram) -> str:
+        theme = self._theme
+        deep = theme.error if histogram.gouge >= 5e-3 else theme.muted  # red once the figure shows it
+        parts = [(deep, histogram.gouge, "too deep"), (theme.muted, histogram.right, f"within ± {histogram.tolerance:.3f}"),
+                 (theme.left, histogram.left, "left")]
+        parts += [(theme.muted, histogram.beyond, "out of reach")] if histogram.beyond else []
+        return " · ".join(f"<span style='color:{ink.name()}'>{grouped(area, 2 if area < 100 else 0)} {words}</span>"
+                          for ink, area, words in parts) + " mm²"
+
+
+def _band_of(histogram: Histogram) -> tuple[float, float]:
+    """Return the bar of what is within tolerance: the widest one round the middle."""
+    k = int(np.searchsorted(histogram.borders, 0.5)) - 1
+    return float(histogram.borders[k]), float(histogram.borders[k + 1])

@@ -1,0 +1,186 @@
+"""What lies over the cut: the axes, and what is known of the place under the mouse."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QWidget
+
+from ...framework.theme import LIGHT, Theme, text_font
+from .camera import Camera
+from .overlay_words import pitch_words
+
+_AXIS_PX, _AXES_EDGE_PX, _NAME_PX = 30.0, 52.0, 11.0
+_RING_PX, _LEADER_PX = 9.0, 34.0
+_CARD_GAP_PX, _PAD_PX, _ROW_PX, _CROSS_PX = 18.0, 10.0, 18.0, 9.0
+
+
+Line = tuple[tuple[float, float, float], tuple[float, float, float]]
+"""Two places, mm."""
+
+
+@dataclass(frozen=True, slots=True)
+class Probe:
+    """What is known of one place: where it is on the screen, px, and two lines of words."""
+
+    at: QPointF
+    place: str
+    facts: str
+
+
+@dataclass(frozen=True, slots=True)
+class Pin:
+    """A place that is pointed at: where, mm, two lines of words, and the colour of the first."""
+
+    place: tuple[float, float, float]
+    title: str
+    facts: str
+    colour: QColor
+
+
+class CutOverlay(QWidget):
+    """Painted over the cut; mouse and keys pass through it."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self._theme, self._camera = LIGHT, Camera()
+        self.probe: Probe | None = None
+        self.line: Line | None = None
+        self.pin: Pin | None = None
+        self._pitch, self._finer = "", False
+
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme."""
+        self._theme = theme
+        self.update()
+
+    def show_camera(self, camera: Camera) -> None:
+        """Turn the axes, and keep the line where it is."""
+        turned = camera.axes.tolist() != self._camera.axes.tolist()
+        self._camera = camera
+        if turned or self.line is not None or self.pin is not None:
+            self.update()
+
+    def show_line(self, line: Line | None) -> None:
+        """Show a line over the metal, or none."""
+        self.line = line
+        self.update()
+
+    def show_pin(self, pin: Pin | None) -> None:
+        """Point at a place, or at none."""
+        self.pin = pin
+        self.update()
+
+    def show_pitch(self, pitch: float, finer: bool) -> None:
+        """Tell how wide the cells are, mm, and whether they are finer than those of the whole."""
+        self._pitch, self._finer = f"cells {pitch_words(pitch)}", finer
+        self.update()
+
+    def show_probe(self, probe: Probe | None) -> None:
+        """Show what is known of a place, or nothing."""
+        if probe != self.probe:
+            self.probe = probe
+            self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Paint axes and probe."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        self._paint_axes(painter)
+        self._paint_pitch(painter)
+        if self.line is not None:
+            self._paint_line(painter, self.line)
+        if self.pin is not None:
+            self._paint_pin(painter, self.pin)
+        if self.probe is not None:
+            self._paint_cross(painter, self.probe.at)
+            self._paint_card(painter, self.probe)
+
+    def _paint_axes(self, painter: QPainter) -> None:
+        """Paint the three axes, the nearest to the eye last."""
+        theme, origin = self._theme, QPointF(_AXES_EDGE_PX, self.height() - _AXES_EDGE_PX)
+        right, up, towards = self._camera.axes
+        painter.setFont(text_font(12))
+        for axis in sorted(range(3), key=lambda k: towards[k]):
+            way = QPointF(right[axis], -up[axis])
+            colour = (theme.plunge, theme.pocket, theme.left)[axis]
+            painter.setPen(QPen(colour, 1.8, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+            painter.drawLine(origin, origin + way * _AXIS_PX)
+            if right[axis] ** 2 + up[axis] ** 2 > 0.02:
+                name = origin + way * (_AXIS_PX + _NAME_PX)
+                painter.drawText(QRectF(name.x() - 8, name.y() - 8, 16, 16), Qt.AlignmentFlag.AlignCenter, "XYZ"[axis])
+
+    def _paint_pitch(self, painter: QPainter) -> None:
+        """Paint how wide the cells are, beside the axes."""
+        painter.setFont(text_font(12, semibold=self._finer))
+        painter.setPen(self._theme.accent_text if self._finer else self._theme.muted)
+        row = QRectF(2 * _AXES_EDGE_PX + 8, self.height() - _AXES_EDGE_PX + 10, 160, 18)
+        painter.drawText(row, Qt.AlignmentFlag.AlignVCenter, self._pitch)
+
+    def _on_screen(self, place: tuple[float, float, float]) -> QPointF:
+        ratio = self.devicePixelRatioF()
+        x, y, _ = self._camera.project(np.array([place]), (self.width() * ratio, self.height() * ratio))[0] / ratio
+        return QPointF(x, y)
+
+    def _paint_pin(self, painter: QPainter, pin: Pin) -> None:
+        """Paint a ring round the place, and a line from it to the words."""
+        at = self._on_screen(pin.place)
+        if not self.rect().contains(at.toPoint()):
+            return
+        ground = QColor(pin.colour)
+        ground.setAlphaF(0.25)
+        painter.setBrush(ground)
+        painter.setPen(QPen(pin.colour, 1.6))
+        painter.drawEllipse(at, _RING_PX, _RING_PX)
+        knee = at + QPointF(_LEADER_PX, _LEADER_PX)
+        painter.drawLine(at + QPointF(0.7, 0.7) * _RING_PX, knee)
+        painter.drawLine(knee, knee + QPointF(10, 0))
+        rows = ((pin.title, text_font(13, semibold=True), pin.colour), (pin.facts, text_font(12), self._theme.ink))
+        wide = max(QFontMetricsF(font).horizontalAdvance(text) for text, font, _ in rows) + 2 * _PAD_PX
+        sheet = QColor(self._theme.canvas)
+        sheet.setAlphaF(0.85)
+        row = QRectF(knee.x() + 12, knee.y() - _ROW_PX, wide, _ROW_PX)
+        painter.fillRect(row.united(row.translated(0, _ROW_PX)).adjusted(0, -2, 0, 2), sheet)
+        for k, (text, font, colour) in enumerate(rows):
+            painter.setFont(font)
+            painter.setPen(colour)
+            painter.drawText(row.translated(_PAD_PX / 2, k * _ROW_PX), Qt.AlignmentFlag.AlignVCenter, text)
+
+    def _paint_line(self, painter: QPainter, line: Line) -> None:
+        ends = [self._on_screen(place) for place in line]
+        for colour, width in ((self._theme.canvas, 4.0), (self._theme.accent, 1.8)):
+            painter.setPen(QPen(colour, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+            painter.drawLine(ends[0], ends[1])
+        painter.setBrush(self._theme.accent)
+        for end in ends:
+            painter.drawEllipse(end, 3.0, 3.0)
+
+    def _paint_cross(self, painter: QPainter, at: QPointF) -> None:
+        for colour, width in ((self._theme.canvas, 4.0), (self._theme.accent, 1.6)):
+            painter.setPen(QPen(colour, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.FlatCap))
+            for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+                painter.drawLine(at + QPointF(dx, dy) * 3.0, at + QPointF(dx, dy) * _CROSS_PX)
+
+    def _paint_card(self, painter: QPainter, probe: Probe) -> None:
+        """Paint the words beside the place, on the side where there is room."""
+        metrics = QFontMetricsF(text_font(12))
+        wide = max(metrics.horizontalAdvance(text) for text in (probe.place, probe.facts)) + 2 * _PAD_PX
+        card = QRectF(probe.at.x() + _CARD_GAP_PX, probe.at.y() - _CARD_GAP_PX - 2 * _ROW_PX - _PAD_PX, wide, 2 * _ROW_PX + _PAD_PX)
+        if card.right() > self.width() - 8:
+            card.moveRight(probe.at.x() - _CARD_GAP_PX)
+        if card.top() < 8:
+            card.moveTop(probe.at.y() + _CARD_GAP_PX)
+        ground = QColor(self._theme.raised)
+        ground.setAlphaF(0.96)
+        painter.setPen(QPen(self._theme.hairline, 1))
+        painter.setBrush(ground)
+        painter.drawRoundedRect(card, 4, 4)
+        painter.setFont(text_font(12))
+        rows = card.adjusted(_PAD_PX, _PAD_PX / 2, 0, 0)
+        for k, (text, colour) in enumerate(((probe.place, self._theme.ink), (probe.facts, self._theme.muted))):
+            painter.setPen(colour)
+            painter.drawText(QRectF(rows.left(), rows.top() + k * _ROW_PX, wide, _ROW_PX), Qt.AlignmentFlag.AlignVCenter, text)

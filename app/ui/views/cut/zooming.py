@@ -1,0 +1,133 @@
+"""Step S101: what is seen of the stock is cut again with as many cells as the whole, whenever the view rests."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal
+
+from ....core.progress import Progress
+from ...framework.worker import Answer, Worker
+from .colouring import CutColour, prepare
+from .picture import CutPicture
+from .shown_cut import picture_of
+from .surface import pixel_size
+from .window import Sighted, serves, wanted
+
+if TYPE_CHECKING:
+    from ....usecases.cut import CutProgram
+    from .cut_view import CutView
+
+MOST_LOOKS = 5
+"""A finer look shows better what is seen, and so may ask for another one; so often at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """What a finer look found.
+
+    Attributes:
+        sight: what was looked at. detail: its part in finer cells; None = the whole will do.
+    """
+
+    sight: Sighted
+    detail: CutPicture | None
+
+
+def look_closer(followed: Followed, sight: Sighted, colour: CutColour, progress: Progress) -> Look:
+    """Cut the part of the stock that is seen with as many cells as the whole; runs on the worker's thread.
+
+    Args:
+        followed: the whole, cut. sight: what is looked at. colour: what its colours tell.
+
+    Raises:
+        HitofudeError: it cannot be cut.
+        Cancelled: the view has moved on.
+    """
+    from ....usecases.cut import CutOptions, cut
+
+    program, cells = followed.program, followed.program.options.cells
+    window = wanted(sight, cells)
+    progress.step(0.3, "Looking closer")
+    if window is None:
+        return Look(sight, None)
+    if serves(window, sight.detail):
+        return Look(sight, sight.detail)
+    moves = sight.picture.moves
+    assert moves is not None
+    part = cut(program.setup, CutOptions(cells, window, judge=False, stop=followed.stop), progress.part(0.3, 0.9))
+    detail = picture_of(part, moves)
+    prepare(detail, colour, sight.picture.span)
+    return Look(sight, detail)
+
+
+@dataclass(frozen=True, slots=True)
+class Followed:
+    """A program, and how many of its motions are done; None = all."""
+
+    program: CutProgram
+    stop: int | None = None
+
+
+class Zooming(QObject):
+    """Follows a view; its own worker, so that a look never holds up anything else.
+
+    Signals:
+        looked(): the view shows the cells that it should. failed(sentence).
+    """
+
+    looked = Signal()
+    failed = Signal(str)
+
+    def __init__(self, view: CutView, parent: QObject) -> None:
+        super().__init__(parent)
+        self._view = view
+        self._followed: Followed | None = None
+        self._job_id: int | None = None
+        self._looks = 0
+        self.worker = Worker(self, head_start_s=0.0)
+        self.worker.done.connect(self._on_done)
+        self.worker.failed.connect(self._on_failed)
+        view.painting.stirred.connect(self._on_stirred)
+        view.painting.rested.connect(self._look)
+
+    def follow(self, followed: Followed | None) -> None:
+        """Look closer at another program, or another moment of it, from now on; None: at nothing."""
+        if followed != self._followed:
+            self.worker.cancel()
+            self._followed, self._looks = followed, 0
+            self._view.show_detail(None)
+            if self._view.painting.resting:
+                self._look()
+
+    def _on_stirred(self) -> None:
+        self._looks = 0
+        if self.worker.busy:
+            self.worker.cancel()
+
+    def _look(self) -> None:
+        view, followed = self._view, self._followed
+        if followed is None or view.picture is None or not view.isVisible() or self._looks >= MOST_LOOKS:
+            return
+        sight, colour = Sighted(view.picture, view.detail, view.camera, pixel_size(view), view.section), view.colours.told
+        self._looks += 1
+        self._job_id = self.worker.start(lambda progress: look_closer(followed, sight, colour, progress), 0)
+
+    def _on_done(self, answer: Answer) -> None:
+        """Show what was found; with it, more of what is seen may be known, so look again until nothing changes."""
+        look, view = answer.value, self._view
+        if answer.job_id != self._job_id or not isinstance(look, Look) or look.sight.picture is not view.picture:
+            return
+        if look.detail is view.detail:
+            self.looked.emit()
+            return
+        view.show_detail(look.detail)
+        if look.detail is not None and view.painting.resting:
+            self._look()
+        else:
+            self.looked.emit()
+
+    def _on_failed(self, answer: Answer) -> None:
+        if answer.job_id == self._job_id:
+            self.failed.emit(answer.error or "")

@@ -1,0 +1,176 @@
+"""The bars over text and path: what is shown and how it was read; from where it is seen and what colours tell."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QWidget
+
+from ....gcode.interpreter.dialect import HABITS, Dialect
+from ...framework.fields import ChoiceField
+from ...framework.icons import IconButton
+from ...framework.labels import Elided, muted
+from .motion_picture import PathColour
+from .motion_shapes import Side
+
+BAR_PX = 36
+_ROOM_PX = 320
+
+
+def bar(widget: QWidget, spacing: int = 8) -> QHBoxLayout:
+    """Make a widget a bar over what is below it; return its row."""
+    widget.setObjectName("ncBar")
+    widget.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+    widget.setFixedHeight(BAR_PX)
+    row = QHBoxLayout(widget)
+    row.setContentsMargins(12, 0, 8, 0)
+    row.setSpacing(spacing)
+    return row
+
+
+class TextHead(QWidget):
+    """Name of the program, its dialect, find.
+
+    Signals:
+        dialect_chosen(Dialect or None): how to read it; None = as it looks. file_chosen(index): of a program in several
+            files. find_asked(). closed(): take this program away.
+    """
+
+    dialect_chosen = Signal(object)
+    file_chosen = Signal(int)
+    find_asked = Signal()
+    closed = Signal()
+
+    def __init__(self, closable: bool = False) -> None:
+        super().__init__()
+        self.name, self.detail = Elided(), muted()
+        self.files, self.dialect = QComboBox(), QComboBox()
+        self.files.setAccessibleName("File of the program")
+        self.files.setToolTip("This control takes one file for each tool")
+        self.files.setFixedHeight(24)
+        self.files.activated.connect(self.file_chosen)
+        self.files.hide()
+        self.dialect.setAccessibleName("Control that the program is for")
+        self.dialect.setToolTip("How the program is read")
+        self.dialect.setFixedHeight(24)
+        self.dialect.activated.connect(lambda at: self.dialect_chosen.emit(self.dialect.itemData(at)))
+        self._offer("as it looks")
+        row = bar(self)
+        row.addWidget(self.name, 1)
+        row.addWidget(self.files, 1)
+        row.addWidget(self.detail)
+        row.addWidget(self.dialect)
+        find = IconButton("find", "Find (Ctrl+F)")
+        find.clicked.connect(self.find_asked)
+        row.addWidget(find)
+        if closable:
+            close = IconButton("cancel", "Close this program")
+            close.clicked.connect(self.closed)
+            row.addWidget(close)
+
+    def show_program(self, name: str, detail: str) -> None:
+        """Name the program."""
+        self.name.setText(name)
+        self.name.setToolTip(name)
+        self.detail.setText(detail)
+
+    def show_files(self, names: list[str], current: int) -> None:
+        """Offer the files of a program that has several; one alone is only named."""
+        self.files.clear()
+        self.files.addItems(names)
+        self.files.setCurrentIndex(current)
+        self.files.setVisible(len(names) > 1)
+        self.name.setVisible(len(names) < 2)
+
+    def show_dialect(self, guessed: Dialect, chosen: Dialect | None, free: bool) -> None:
+        """Show how the program is read.
+
+        Args:
+            guessed: what it looks like.
+            chosen: what the user said; None = nothing.
+            free: the user may say otherwise.
+        """
+        self._offer(HABITS[guessed].title)
+        self.dialect.setCurrentIndex(self.dialect.findData(chosen))
+        self.dialect.setVisible(free)
+
+    def _offer(self, guessed: str) -> None:
+        self.dialect.clear()
+        self.dialect.addItem(f"Auto: {guessed}", None)
+        for dialect, habits in HABITS.items():
+            self.dialect.addItem(habits.title, dialect)
+
+
+class Banner(QWidget):
+    """One sentence about the program that is shown, and what to do about it.
+
+    Signals:
+        pressed(): do it.
+    """
+
+    pressed = Signal()
+
+    def __init__(self) -> None:
+        super().__init__()
+        row = bar(self)
+        self.sentence, self.button = Elided(role="muted"), QPushButton()
+        self.button.setProperty("role", "link")
+        self.button.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.button.clicked.connect(self.pressed)
+        row.addWidget(self.sentence)
+        row.addWidget(self.button, 1)
+        self.hide()
+
+    def say(self, sentence: str, button: str) -> None:
+        """Show a sentence and the button behind it."""
+        self.sentence.setText(sentence)
+        self.button.setText(button)
+        self.show()
+
+
+class PathHead(QWidget):
+    """Sides and colours of the path.
+
+    Signals:
+        side_chosen(Side). colour_chosen(PathColour). fit_asked(): show everything. cut_asked(): show what the program leaves.
+    """
+
+    fit_asked = Signal()
+    cut_asked = Signal()
+    side_chosen = Signal(Side)
+    colour_chosen = Signal(PathColour)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.side = ChoiceField("", [(side, side.name) for side in Side])
+        self.colour = ChoiceField("", [(PathColour.TOOL, "Tool"), (PathColour.MOTION, "Motion")])
+        self.side.show_value(Side.XY)
+        self.colour.show_value(PathColour.TOOL)
+        self.side.chosen.connect(self.side_chosen)
+        self.colour.chosen.connect(self.colour_chosen)
+        for field, what in ((self.side, "Seen from"), (self.colour, "Colour by")):
+            for button in field.buttons.values():
+                button.setToolTip(f"{what} {button.text()}")
+                button.setAccessibleName(f"{what} {button.text()}")
+        row = bar(self, 4)
+        row.addWidget(self.side)
+        row.addStretch(1)
+        self.key = muted("Colour by")
+        row.addWidget(self.key)
+        row.addWidget(self.colour)
+        self.fit = IconButton("fit", "Fit (F)")
+        self.fit.clicked.connect(self.fit_asked)
+        self.cut = QPushButton("Show the cut")
+        self.cut.setProperty("role", "link")
+        self.cut.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.cut.setToolTip("Cut this program out of its stock and show what is left (Ctrl+K)")
+        self.cut.clicked.connect(self.cut_asked)
+        row.addSpacing(4)
+        row.addWidget(self.fit)
+        row.addSpacing(4)
+        row.addWidget(self.cut)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave out what explains itself where there is no room for it."""
+        super().resizeEvent(event)
+        self.key.setVisible(event.size().width() >= _ROOM_PX)

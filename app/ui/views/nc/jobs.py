@@ -1,0 +1,86 @@
+"""What the NC view has made in the background: a frame, a restart, a comparison. Runs on the worker's thread."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ....core.progress import Progress
+from .motion_picture import MotionPicture
+from .motion_shapes import Side
+from .places import Compared, drawn_apart
+from .reading import Shown, Source, read_shown
+
+if TYPE_CHECKING:
+    from ....usecases.make import Made
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """A program seen from another side, and what it and the one that it is compared with do alone."""
+
+    shown: Shown
+    picture: MotionPicture
+    both: Compared | None
+    alone: tuple[MotionPicture, MotionPicture] | None
+
+    def keep(self) -> None:
+        """Hand the pictures to what they are of; on the window's thread."""
+        self.shown.pictures[self.picture.side] = self.picture
+        if self.both is not None and self.alone is not None:
+            self.both.pictures[self.picture.side] = self.alone
+
+
+def framed(made: Made, name: str, side: Side, progress: Progress) -> Shown:
+    """Return the program that goes round a job's cuts, read.
+
+    Raises:
+        HitofudeError: nothing is cut.
+        Cancelled: the job was asked to stop.
+    """
+    from ....gcode.posts.posts import load_post
+
+    return read_shown(Source(name, made.frame().encode(), dialect=load_post(made.job.post).dialect), side, progress)
+
+
+def restarted(shown: Shown, line: int, side: Side, progress: Progress) -> Shown:
+    """Return the program that leads in to a line (1-based) of another and goes on from there, read.
+
+    Raises:
+        InputError: it cannot be safe from there.
+        Cancelled: the job was asked to stop.
+    """
+    from ....gcode.rework.restart import RestartOptions, restart
+
+    data = restart(shown.source.bytes(), line, RestartOptions(shown.source.options(shown.dialect)), progress.part(0.0, 0.5))
+    name = Path(shown.source.name)
+    source = Source(f"{name.stem}-from-{line}{name.suffix}", data, dialect=shown.dialect, tools=shown.source.tools)
+    return read_shown(source, side, progress.part(0.5, 1.0))
+
+
+def compared(shown: Shown, other: Source, side: Side, progress: Progress) -> tuple[Shown, Compared]:
+    """Return the shown program as it was, and a second one held against it.
+
+    Raises:
+        InputError: the second one's file cannot be read.
+        Cancelled: the job was asked to stop.
+    """
+    from ....gcode.rework.compare import compare
+
+    second = read_shown(other, side, progress.part(0.0, 0.5))
+    progress.step(0.5, "Comparing")
+    differences = compare(shown.program, second.program, progress=progress.part(0.5, 0.9))
+    return shown, Compared(second, differences, {side: drawn_apart(shown, second, differences, side)})
+
+
+def drawn(shown: Shown, both: Compared | None, side: Side, progress: Progress) -> Drawn:
+    """Return the pictures of another side.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    progress.step(0.0, "Preparing the picture")
+    picture = MotionPicture(shown.shapes, side)
+    progress.step(0.5, "Preparing the picture")
+    return Drawn(shown, picture, both, drawn_apart(shown, both.other, both.differences, side) if both is not None else None)

@@ -1,0 +1,97 @@
+"""Problems and differences as rows of a list, and the lines they mark. No Qt but for the rows' own type."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ....gcode.interpreter.program import Problem, Severity
+from ....gcode.rework.compare import Difference, DifferenceKind, Differences, Span
+from ...framework.figures import counted
+from .motion_picture import MotionPicture
+from .motion_shapes import Ints, Side
+from .places_panel import Place, Weight
+from .reading import Shown
+
+
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """Another program held against the one that is shown.
+
+    Attributes:
+        other: the second program. differences: between the shown one (a) and the second (b).
+        pictures: by side, what only the first does and what only the second does.
+    """
+
+    other: Shown
+    differences: Differences
+    pictures: dict[Side, tuple[MotionPicture, MotionPicture]]
+
+
+_APART = (DifferenceKind.PATH, DifferenceKind.RAPID, DifferenceKind.MISSING, DifferenceKind.EXTRA)
+
+
+def drawn_apart(first: Shown, second: Shown, differences: Differences, side: Side) -> tuple[MotionPicture, MotionPicture]:
+    """Return pictures of what only the first program does, and of what only the second does: where paths differ, not their feeds."""
+    items = [item for item in differences.items if item.kind in _APART]
+    one, other = (_motions([getattr(item, name) for item in items]) for name in "ab")
+    return MotionPicture(first.shapes, side, one), MotionPicture(second.shapes, side, other)
+
+
+def _motions(spans: Sequence[Span]) -> Ints:
+    return np.unique(np.concatenate([np.zeros(0, np.int64), *(np.arange(span.first, span.stop) for span in spans)]))
+
+
+def in_order(problems: Sequence[Problem]) -> tuple[Problem, ...]:
+    """Return problems in the order of the text."""
+    return tuple(sorted(problems, key=lambda problem: (problem.line, problem.column)))
+
+
+def problem_places(problems: Sequence[Problem]) -> tuple[str, list[Place]]:
+    """Return title and rows for problems."""
+    errors = sum(problem.severity is Severity.ERROR for problem in problems)
+    warnings = len(problems) - errors
+    words = [counted(errors, "error") if errors else "", counted(warnings, "warning") if warnings else ""]
+    return ", ".join(filter(None, words)), [_problem_place(problem) for problem in problems]
+
+
+def _problem_place(problem: Problem) -> Place:
+    at = f"{problem.line}:{problem.column}" if problem.column else f"{problem.line}"
+    weight = Weight.ERROR if problem.severity is Severity.ERROR else Weight.WARNING
+    return Place(f"{at}   {problem.word + ': ' if problem.word else ''}{problem.text}", problem.text, weight)
+
+
+def difference_places(differences: Differences) -> tuple[str, list[Place]]:
+    """Return title and rows for differences."""
+    items = differences.items
+    if not items:
+        words = "No motion, feed, tool, length, work offset, spindle, coolant, path mode or dwell differs."
+        return "Both programs do the same.", [Place(words, "", Weight.REMARK)]
+    motion = "the same motion" if differences.same_motion else f"paths up to {differences.largest_distance:.3f} mm apart"
+    return f"{counted(len(items), 'difference')}, {motion}", [_difference_place(item) for item in items]
+
+
+def _difference_place(item: Difference) -> Place:
+    lines = f"{_lines(item.a)}  \u2194  {_lines(item.b)}"
+    loud = Weight.REMARK if item.kind is DifferenceKind.SAME_PATH else Weight.WARNING
+    return Place(f"{lines}   {item.kind.value}: {item.text}", item.text, loud)
+
+
+def _lines(span: Span) -> str:
+    if span.stop == span.first:
+        return f"after {span.first_line}"
+    return f"{span.first_line}" if span.first_line == span.last_line else f"{span.first_line} to {span.last_line}"
+
+
+def rows_of(span: Span) -> tuple[int, int]:
+    """Return first and last row (0-based) of a stretch."""
+    first, last = sorted((max(span.first_line, 1) - 1, max(span.last_line, 1) - 1))
+    return first, last
+
+
+def differing_rows(spans: Sequence[Span]) -> Ints:
+    """Return the rows (0-based) of stretches, in order, each once; a stretch without motions has none."""
+    rows = [np.arange(first, last + 1) for first, last in (rows_of(span) for span in spans if span.stop > span.first)]
+    return np.unique(np.concatenate(rows)).astype(np.int64) if rows else np.zeros(0, np.int64)

@@ -1,0 +1,174 @@
+"""Print or plot: shows the sheets beside what is asked of them, keeps them in step with the drawing, writes and prints them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import date
+from pathlib import Path
+
+from PySide6.QtCore import QMarginsF, QObject, QSizeF, Signal
+from PySide6.QtGui import QPageLayout, QPageSize, QPainter
+from PySide6.QtWidgets import QFileDialog
+
+from ....core.atomic import write_together
+from ....core.progress import Progress
+from ....drafting.document import Change
+from ....formats.plot.content import Shown
+from ....formats.plot.layout import PlotOptions, lay_out
+from ...framework.figures import counted
+from ...framework.log import Log
+from ...framework.worker import Answer, Worker
+from ...shell.main_window import MainWindow
+from ...shell.showing import Showing
+from .painting import Sheet, sheets
+from .writing import FILTER, FORMATS, paint_all, plot_files
+
+
+@dataclass(frozen=True)
+class Ready:
+    """Sheets that can be shown and written.
+
+    Attributes:
+        columns: sheets in a row. scale: size on paper over size of the part. size: of what is plotted, mm.
+    """
+
+    sheets: tuple[Sheet, ...]
+    columns: int
+    scale: float
+    size: tuple[float, float]
+
+
+def _made_ready(shown: Shown, options: PlotOptions, today: str, progress: Progress) -> Ready:
+    plot = lay_out(shown, options, today)
+    progress.step(0.5, "Preparing the sheets")
+    x0, y0, x1, y1 = shown.box() or (0.0, 0.0, 0.0, 0.0)
+    return Ready(sheets(plot), plot.columns, plot.scale, (x1 - x0, y1 - y0))
+
+
+@dataclass(frozen=True)
+class Kept:
+    """Files that were written, and how many sheets they hold."""
+
+    paths: tuple[Path, ...]
+    sheets: int
+
+
+def _write(path: Path, those: tuple[Sheet, ...], name: str) -> Kept:
+    files = plot_files(path, those, name)
+    write_together(files)
+    return Kept(tuple(files), len(those))
+
+
+class Plotting(QObject):
+    """Brings the page preview to the front and takes it away again.
+
+    Signals:
+        failed(sentence).
+
+    Attributes:
+        ready: the sheets of the drawing as it is now; None while they are being made or cannot be.
+    """
+
+    failed = Signal(str)
+
+    def __init__(self, window: MainWindow, showing: Showing, log: Log) -> None:
+        super().__init__(window)
+        self._window, self._showing, self._log = window, showing, log
+        self._panel, self._preview = window.plot_panel, window.views.plot
+        self._today = date.today().isoformat
+        self.ready: Ready | None = None
+        self.worker = Worker(self, head_start_s=0.0)
+        self.worker.done.connect(self._on_done)
+        self.worker.failed.connect(self._on_failed)
+        self.writer = Worker(self, head_start_s=0.0)
+        self.writer.done.connect(self._on_written)
+        self.writer.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
+        for worker in (self.worker, self.writer):
+            window.closed.connect(worker.finish)
+        window.actions_["plot"].triggered.connect(self.start)
+        window.computation.changed.connect(self.refresh)
+        self._panel.changed.connect(lambda _: self.refresh())
+        self._panel.save_wanted.connect(self.choose_place)
+        self._panel.print_wanted.connect(self.choose_printer)
+        for leaving in (self._panel.left, self._preview.left):
+            leaving.connect(self.leave)
+        self._unsubscribe = window.document.subscribe(self._on_change)
+
+    def start(self) -> None:
+        """Show the drawing on paper."""
+        self._window.views.show_plot()
+        self._showing.show_missing()
+        self.refresh()
+
+    def leave(self) -> None:
+        """Go back to the view that was there before."""
+        self._showing.show_view(self._showing.view)
+
+    def _on_change(self, change: Change) -> None:
+        if change & Change.PART:
+            self.refresh()
+
+    def refresh(self) -> None:
+        """Lay the drawing out anew, if it is looked at."""
+        if not self._window.views.plotting:
+            return
+        wish, program = self._panel.wish, self._window.computation.program
+        current = program is not None and not self._window.computation.outdated
+        self._panel.show_paths_there(current)
+        moves = program.moves if program is not None and current and wish.paths else None
+        shown, layout, today = Shown(self._window.document.part, moves, wish.notes, wish.black), wish.layout, self._today()
+        self.worker.start(lambda progress: _made_ready(shown, layout, today, progress), self._window.document.revision)
+
+    def _on_done(self, answer: Answer) -> None:
+        assert isinstance(answer.value, Ready)
+        self.ready = answer.value
+        self._preview.show_sheets(self.ready.sheets, self.ready.columns)
+        self._panel.show_result(self.ready.scale, len(self.ready.sheets), self.ready.size)
+
+    def _on_failed(self, answer: Answer) -> None:
+        self.ready = None
+        self._preview.show_sheets((), 1)
+        self._panel.refuse(answer.error or "")
+
+    def choose_place(self) -> None:
+        """Ask for a file and write the sheets."""
+        stem = self._window.document.path.stem if self._window.document.path else self._window.document.part.name
+        start = str(Path(self._window.settings.last_folder or Path.home()) / f"{stem}.pdf")
+        name, chosen = QFileDialog.getSaveFileName(self._window, "Save plot", start, FILTER)
+        if name:
+            path = Path(name)
+            suffix = next((each for each in FORMATS if f"*{each}" in chosen), ".pdf")
+            self.save(path if path.suffix.lower() in FORMATS else Path(name + suffix))
+
+    def save(self, path: Path) -> None:
+        """Write the sheets in the format that the name ends in: every file, or none."""
+        if self.ready is None:
+            return
+        sheets, name = self.ready.sheets, self._window.document.part.name
+        self._window.status.show_message(f"Writing {path.name}")
+        self.writer.start(lambda progress: _write(path, sheets, name), 0)
+
+    def _on_written(self, answer: Answer) -> None:
+        assert isinstance(answer.value, Kept)
+        paths, count = answer.value.paths, answer.value.sheets
+        names = paths[0].name if len(paths) == 1 else f"{paths[0].name} … {paths[-1].name}"
+        self._log.note(f"plot {names}", f"{counted(count, 'sheet')} written to {paths[0].parent}")
+        self._window.status.show_message(f"{names} {'is' if len(paths) == 1 else 'are'} written.")
+
+    def choose_printer(self) -> None:
+        """Ask for a printer and print the sheets at true size."""
+        from PySide6.QtPrintSupport import QPrintDialog, QPrinter  # asks the system for its printers, which takes a while
+
+        if self.ready is None:
+            return
+        page = self.ready.sheets[0].page
+        printer = QPrinter(QPrinter.PrinterMode.HighResolution)
+        printer.setDocName(self._window.document.part.name)
+        size = QPageSize(QSizeF(min(page.width, page.height), max(page.width, page.height)), QPageSize.Unit.Millimeter)
+        lies = QPageLayout.Orientation.Landscape if page.width > page.height else QPageLayout.Orientation.Portrait
+        printer.setPageLayout(QPageLayout(size, lies, QMarginsF()))
+        printer.setFullPage(True)
+        if QPrintDialog(printer, self._window).exec():
+            painter = QPainter(printer)
+            paint_all(painter, self.ready.sheets, printer)
+            painter.end()

@@ -1,0 +1,166 @@
+"""Has the stages of the job computed when they are to be seen, and shows them."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from PySide6.QtCore import QObject, Signal
+
+from ....drafting.document import Change
+from ....usecases.bitmap_options import BitmapSize
+from ...framework.worker import Answer, Worker
+from ...shell.main_window import MainWindow
+from ...shell.showing import NOTHING, Missing
+from .reel import Reel, Wish, reel_of
+from .stages_panel import Rules
+
+
+class StagesState(Enum):
+    """What is known of the stages of the job as it is now; the value is what the status bar says."""
+
+    NONE = "No stages yet"
+    RUNNING = "Computing the stages"
+    CURRENT = "Stages up to date"
+    FAILED = "The stages could not be computed"
+
+
+class Staging(QObject):
+    """Follows the document while the view is at the front.
+
+    Its own worker, so that it never holds up computing.
+
+    Signals:
+        changed(): state or film changed. failed(sentence).
+
+    Attributes:
+        reel: what is shown; None = nothing. error: why the last run failed, or "".
+    """
+
+    changed = Signal()
+    failed = Signal(str)
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window, self._document = window, window.document
+        self._view, self._panel = window.views.stages, window.stages_panel
+        self.worker = Worker(self)
+        self.reel: Reel | None = None
+        self.error = ""
+        self._size, self._published, self._seen = BitmapSize(), False, False
+        self._asked: Wish | None = None
+        self._connect()
+
+    def _connect(self) -> None:
+        window, worker = self._window, self.worker
+        worker.done.connect(self._on_done)
+        worker.failed.connect(self._on_failed)
+        worker.cancelled.connect(lambda _: self._on_cancelled())
+        worker.progress.connect(window.status.show_progress)
+        worker.busy_changed.connect(self._on_busy)
+        window.status.cancelled.connect(worker.cancel)
+        window.closed.connect(worker.finish)
+        self._view.shown.connect(lambda: self._panel.show_still(self._view.still))
+        self._view.chain_picked.connect(self._panel.chains.choose)
+        self._panel.chain_picked.connect(self._view.light_chain)
+        self._panel.rules_chosen.connect(self._choose_rules)
+        self._panel.size_chosen.connect(self._choose_size)
+        self._unsubscribe = self._document.subscribe(self._on_change)
+
+    @property
+    def state(self) -> StagesState:
+        """Where the stages stand."""
+        if self.worker.busy:
+            return StagesState.RUNNING
+        if self.error:
+            return StagesState.FAILED
+        return StagesState.CURRENT if self.reel is not None else StagesState.NONE
+
+    @property
+    def missing(self) -> Missing:
+        """What there is to say in the place of the stages."""
+        if self.state is StagesState.RUNNING:
+            return Missing("The stages are being computed.", "Cancel  Shift+F5", "cancel")
+        if self.error:
+            return Missing(self.error, "Compute again", "stages_again")
+        return NOTHING if self.reel is not None else Missing("The stages are not computed yet.", "Compute the stages", "stages_again")
+
+    def see(self, seen: bool) -> None:
+        """The view is at the front, or no longer: then nothing more is computed."""
+        self._seen = seen
+        if seen:
+            self._follow()
+        else:
+            self._view.player.pause()
+
+    def again(self) -> None:
+        """Compute the stages, also where that failed or was cancelled."""
+        self._asked = None
+        self._follow()
+
+    def cancel(self) -> None:
+        """Leave the running computation."""
+        self.worker.cancel()
+
+    def _wish(self) -> Wish:
+        job = self._document.job
+        return Wish(job, self._size, self._window.computation.pixels_of(job.part), self._published)
+
+    def _follow(self) -> None:
+        """Compute what is to be seen, unless it is there, on its way, or was asked for and failed."""
+        wish = self._wish()
+        if not self._seen or not self._document.part.entities or (self._asked is not None and _alike(wish, self._asked)):
+            return
+        self._asked, self.error, before = wish, "", self.reel
+        self.worker.start(lambda progress: reel_of(wish, before, progress), self._document.revision)
+        self.changed.emit()
+
+    def _choose_rules(self, rules: Rules) -> None:
+        self._published = rules is Rules.PUBLISHED
+        self._follow()
+
+    def _choose_size(self, size: BitmapSize) -> None:
+        self._size = size
+        self._follow()
+
+    def _on_change(self, change: Change) -> None:
+        if not change & (Change.PART | Change.JOB):
+            return
+        if change & Change.LOADED or not self._document.part.entities:
+            self.worker.cancel()
+            self.error, self._asked = "", None
+            self._show(None)
+        self._follow()
+
+    def _show(self, reel: Reel | None) -> None:
+        self.reel = reel
+        if reel is not None:
+            self._panel.show_reel(reel)
+        self._view.show_film(*((reel.film, reel.part.frame) if reel is not None else (None, None)))
+        self.changed.emit()
+
+    def _on_done(self, answer: Answer) -> None:
+        if isinstance(answer.value, Reel):
+            self._show(answer.value)
+
+    def _on_failed(self, answer: Answer) -> None:
+        """Show no stages but the reason: those of another job or size would mislead."""
+        self.error = answer.error or ""
+        self._show(None)
+        self.failed.emit(self.error)
+
+    def _on_cancelled(self) -> None:
+        """Show no stages rather than those of an earlier job."""
+        if not self.worker.busy and self.reel is not None and not _alike(self.reel.wish, self._wish()):
+            self._show(None)
+        self.changed.emit()
+
+    def _on_busy(self, busy: bool) -> None:
+        other = self._window.worker.busy
+        if busy or not other:
+            self._window.status.show_progress(0.0 if busy else None)
+        self._window.actions_["cancel"].setEnabled(busy or other)
+        self.changed.emit()
+
+
+def _alike(a: Wish, b: Wish) -> bool:
+    return a.same_paths(b) and a.published == b.published

@@ -1,0 +1,135 @@
+"""Export of a computed scene: NC program, plot, table of points or report; the suffix of the name says which."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QFileDialog
+
+from ....core.atomic import write_together
+from ....core.progress import Progress
+from ....model.finding import FindingKind
+from ...framework.figures import counted, grouped
+from ...framework.log import Log
+from ...framework.worker import Answer, Worker
+from ...shell.main_window import MainWindow
+from .scene_work import Proven
+from .shown_scene import ShownScene
+from .surfaces_view import Look
+
+FORMATS: Mapping[str, str] = {
+    "NC program (*.ngc)": ".ngc", "Plot, SVG (*.svg)": ".svg", "Plot, PDF (*.pdf)": ".pdf", "Plot, PNG (*.png)": ".png",
+    "Plot for pen plotters, HP-GL/2 (*.hpgl)": ".hpgl", "Table of points (*.csv)": ".csv", "Report (*.json)": ".json",
+}  # fmt: skip
+"""What the file dialog offers, by suffix."""
+_PLOTS = (".svg", ".pdf", ".png", ".hpgl", ".plt")
+_VIEWS = {Look.SPACE: "isometric", Look.PLAN: "plan", Look.SECTION: "front"}
+
+
+@dataclass(frozen=True)
+class _Wish:
+    """What to write of: a scene, its program if it is proven, and from where it is looked at."""
+
+    shown: ShownScene
+    proven: Proven | None
+    view: str
+
+
+@dataclass(frozen=True)
+class _Exported:
+    paths: tuple[Path, ...]
+    size: int
+    remarks: tuple[str, ...]
+
+
+class SceneExport(QObject):
+    """Writes what was made of the scene that is shown.
+
+    Signals:
+        written(path), failed(sentence).
+
+    Attributes:
+        choose_file: asks the user for a path, given a first choice; None = he changed his mind.
+    """
+
+    written = Signal(Path)
+    failed = Signal(str)
+
+    def __init__(self, window: MainWindow, log: Log, proven: Callable[[], Proven | None]) -> None:
+        """Make one; `proven` tells what the scene that is shown came to as NC, None while nobody knows."""
+        super().__init__(window)
+        self._window, self._log, self._proven = window, log, proven
+        self._worker = Worker(window)
+        self.choose_file: Callable[[Path], Path | None] = self._choose
+        self._worker.done.connect(self._on_done)
+        self._worker.failed.connect(lambda answer: self.failed.emit(f"{answer.error} Nothing was written."))
+        window.closed.connect(lambda: self._worker.finish(10.0))
+
+    def start(self) -> None:
+        """Ask for a file and write it."""
+        view = self._window.views.surfaces
+        if view.shown is None:
+            self.failed.emit("No scene is computed yet, so there is nothing to export.")
+            return
+        chosen = self.choose_file(view.shown.path.with_suffix(".ngc"))
+        if chosen is not None:
+            self._worker.start(partial(_export, _Wish(view.shown, self._proven(), _VIEWS[view.look]), chosen), 0)
+
+    def _choose(self, first: Path) -> Path | None:
+        dialog = QFileDialog(self._window, "Export scene", str(first), ";;".join(FORMATS))
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix("ngc")
+        dialog.filterSelected.connect(lambda name: dialog.setDefaultSuffix(FORMATS[name][1:]))
+        return Path(dialog.selectedFiles()[0]) if dialog.exec() else None
+
+    def _on_done(self, answer: Answer) -> None:
+        exported = answer.value
+        assert isinstance(exported, _Exported)
+        first, said = exported.paths[0], " ".join(exported.remarks)
+        self._log.note(f"export {first.name}", f"{grouped(exported.size / 1000, 1)} kB written to {first.parent}. {said}".strip())
+        self._window.status.show_message(f"{first.name} is written.")
+        if exported.remarks:
+            self._window.notice.ask(f"{first.name} is written. {said}")
+        self.written.emit(first)
+
+
+def _export(wish: _Wish, path: Path, progress: Progress) -> _Exported:
+    """Write one file, or one a tool or sheet."""
+    remarks: list[str] = []
+    texts = dict(_texts(wish, path, (progress, remarks)))
+    write_together(texts)
+    return _Exported(tuple(texts), sum(len(data) for data in texts.values()), tuple(remarks))
+
+
+def _texts(wish: _Wish, path: Path, told: tuple[Progress, list[str]]) -> Iterator[tuple[Path, bytes]]:
+    """Yield what to write, by file; `told` is how far it is, and what the user has to know."""
+    from ....formats.plot.surface_plot import VIEWS
+    from ....usecases.surface_nc import write_scene_nc
+    from ....usecases.surface_plot import Drawn, PlotScene, plot_surface
+    from ....usecases.surface_points import scene_points_csv
+    from ....usecases.surface_report import surface_report
+
+    (progress, remarks), computed, suffix = told, wish.shown.computed, path.suffix.lower()
+    if suffix in _PLOTS:
+        sheets = plot_surface(computed, suffix, PlotScene(VIEWS[wish.view], drawn=Drawn.PATHS))
+        for number, data in enumerate(sheets, 1):
+            yield path if len(sheets) == 1 else path.with_name(f"{path.stem}_{number}{path.suffix}"), data
+        return
+    if suffix == ".csv":
+        yield path, scene_points_csv(computed)
+        return
+    written = wish.proven.written if wish.proven is not None else write_scene_nc(computed, progress)
+    unproven = f"{counted(len(written.unproven), 'move')} could not be proven. " if len(written.unproven) else ""
+    if findings := written.findings():
+        worst = next((each for each in findings if each.kind is FindingKind.GOUGE), findings[0])
+        more = f" ({counted(len(findings) - 1, 'more finding')})" if len(findings) > 1 and not unproven else ""
+        remarks.append(f"{unproven}{worst.text}{more}")
+    if suffix == ".json":
+        yield path, surface_report(computed, written).text().encode()
+        return
+    for file in written.files:
+        yield file.named(path), file.nc.text.encode()

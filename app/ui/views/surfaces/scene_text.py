@@ -1,0 +1,158 @@
+"""The text of a scene: numbers, colours, and what is wrong with it, in place."""
+
+from __future__ import annotations
+
+import re
+
+from PySide6.QtCore import QRect, Qt, Signal
+from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPalette, QResizeEvent, QSyntaxHighlighter, QTextCharFormat, QTextCursor
+from PySide6.QtWidgets import QPlainTextEdit, QTextEdit, QVBoxLayout, QWidget
+
+from ...framework.section import hairline
+from ...framework.theme import LIGHT, Theme, mixed, mono_font
+from ..language.gutter import Gutter
+from ..language.page import Verdict
+from .scene_document import SceneDocument
+
+WIDTH = 460
+_TOKEN = re.compile(r"(?P<remark>#.*)|(?P<table>^\s*\[.*?\]+)|(?P<text>\"[^\"]*\"?|'[^']*'?)|(?P<key>[A-Za-z_][\w.-]*(?=\s*=))"
+                    r"|(?P<number>[+-]?\d[\d_]*(?:\.\d+)?(?:[eE][+-]?\d+)?|\b(?:true|false)\b)")  # fmt: skip
+
+
+class Highlighter(QSyntaxHighlighter):
+    """Colours TOML."""
+
+    formats: dict[str, QTextCharFormat]
+
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme."""
+        inks = {"remark": theme.muted, "table": theme.accent_text, "text": mixed(theme.rest, theme.ink, 0.5),
+                "key": theme.parameter, "number": theme.warning}  # fmt: skip
+        self.formats = {}
+        for name, colour in inks.items():
+            made = QTextCharFormat()
+            made.setForeground(colour)
+            made.setFontItalic(name == "remark")
+            made.setFontWeight(QFont.Weight.DemiBold if name == "table" else QFont.Weight.Normal)
+            self.formats[name] = made
+        self.rehighlight()
+
+    def highlightBlock(self, text: str) -> None:  # noqa: N802 (Qt's name)
+        """Colour a line."""
+        for token in _TOKEN.finditer(text):
+            self.setFormat(token.start(), token.end() - token.start(), self.formats[str(token.lastgroup)])
+
+
+class SceneEditor(QPlainTextEdit):
+    """A text editor with line numbers and one line that is wrong."""
+
+    def __init__(self, document: SceneDocument) -> None:
+        super().__init__()
+        self.setAccessibleName("Text of the scene")
+        self.setDocument(document.document)
+        self.setFrameShape(QPlainTextEdit.Shape.NoFrame)
+        self.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
+        self.setFont(mono_font())
+        self.setStyleSheet(f"QPlainTextEdit {{ font-family: '{mono_font().family()}'; }}")
+        self.document().setDefaultFont(mono_font())
+        self.document().setDocumentMargin(8)
+        self._theme, self.wrong = LIGHT, 0
+        self.gutter, self.highlighter = Gutter(self), Highlighter(self.document())
+        self.highlighter.set_theme(LIGHT)
+        self.blockCountChanged.connect(lambda _: self._lay_out())
+        self.updateRequest.connect(self._follow)
+        self.cursorPositionChanged.connect(self.gutter.update)
+        self._lay_out()
+
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme."""
+        self._theme = theme
+        palette = self.palette()
+        palette.setColor(QPalette.ColorRole.Base, theme.raised)
+        palette.setColor(QPalette.ColorRole.Text, theme.ink)
+        self.setPalette(palette)
+        self.highlighter.set_theme(theme)
+        self.show_wrong(self.wrong)
+
+    def show_wrong(self, line: int) -> None:
+        """Mark a line, 1-based; 0 = none is wrong."""
+        self.wrong = self.gutter.wrong = line
+        marks = []
+        if line:
+            mark = QTextEdit.ExtraSelection()
+            colour = QColor(self._theme.error)
+            colour.setAlphaF(0.14)
+            mark.format.setBackground(colour)
+            mark.format.setProperty(QTextCharFormat.Property.FullWidthSelection, True)
+            mark.cursor = QTextCursor(self.document().findBlockByNumber(line - 1))
+            marks.append(mark)
+        self.setExtraSelections(marks)
+        self.gutter.update()
+
+    def go_to(self, line: int) -> None:
+        """Put the cursor on a line, 1-based, and bring it into sight."""
+        self.setTextCursor(QTextCursor(self.document().findBlockByNumber(max(line, 1) - 1)))
+        self.centerCursor()
+        self.setFocus()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Give the numbers their place."""
+        super().resizeEvent(event)
+        self._lay_out()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Draw a hairline between numbers and text, and the text."""
+        super().paintEvent(event)
+        QPainter(self.viewport()).fillRect(QRect(0, 0, 1, self.viewport().height()), self._theme.hairline)
+
+    def _lay_out(self) -> None:
+        wide = self.gutter.width_wanted()
+        self.setViewportMargins(wide, 0, 0, 0)
+        inner = self.contentsRect()
+        self.gutter.setGeometry(inner.left(), inner.top(), wide, inner.height())
+
+    def _follow(self, area: QRect, shifted: int) -> None:
+        if shifted:
+            self.gutter.scroll(0, shifted)
+        else:
+            self.gutter.update(0, area.y(), self.gutter.width(), area.height())
+
+
+class SceneText(QWidget):
+    """Editor, and under it what the scene is, or what is wrong; a click on that goes there.
+
+    Signals:
+        left(): Esc.
+    """
+
+    left = Signal()
+
+    def __init__(self, document: SceneDocument) -> None:
+        super().__init__()
+        self.setFixedWidth(WIDTH)
+        self.editor, self.verdict = SceneEditor(document), Verdict()
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.editor, 1)
+        column.addWidget(hairline())
+        column.addWidget(self.verdict)
+        self.setFocusProxy(self.editor)
+        self.verdict.pressed.connect(lambda: self.editor.go_to(self.editor.wrong) if self.editor.wrong else None)
+
+    def show_problem(self, line: int, sentence: str) -> None:
+        """Mark a line, 1-based (0: none), and say what is wrong there."""
+        self.editor.show_wrong(line)
+        self.verdict.say(f"Line {line}: {sentence}" if line else sentence, error=True)
+
+    def show_right(self, sentence: str) -> None:
+        """Say what the text makes."""
+        self.editor.show_wrong(0)
+        self.verdict.say(sentence)
+
+    def keyPressEvent(self, event: object) -> None:  # noqa: N802 (Qt's name)
+        """Esc goes back to the picture."""
+        if event.key() == Qt.Key.Key_Escape:  # type: ignore[attr-defined]
+            self.left.emit()
+        else:
+            super().keyPressEvent(event)  # type: ignore[arg-type]

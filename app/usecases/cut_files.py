@@ -1,0 +1,23 @@
+"""What a cut leaves, as files: its heights, and a picture of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ..formats.plot.height_image import HeightImage, height_image
+from ..simulation.heights_file import heights_files
+from .cut import CutProgram
+
+
+def heights_of(done: CutProgram) -> tuple[bytes, bytes]:
+    """Return the NPY file of the heights and the JSON file that tells where they lie; `read_stock` reads both again."""
+    return heights_files(done.cut.workpiece, done.told.engine)
+
+
+def picture_of(done: CutProgram, title: str) -> bytes:
+    """Return the picture of what is left, PNG: gouges red, metal left blue where it was compared with a part."""
+    judged, cut = done.judgement, done.cut
+    image = HeightImage(cut.heights, cut.before.grid.pitch, done.top, done.floor, title)
+    if judged is not None:
+        image = replace(image, deviation=judged.deviation, unreachable=judged.unreachable, tolerance=judged.tolerance)
+    return height_image(image)

@@ -1,0 +1,246 @@
+"""From a drawing to an NC program and what there is to know about it: the one place where the rooms are put together.
+
+The command line and the window both call it. Everything is pure: bytes and values in, values out, no file is touched.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..core.errors import GeometryError
+from ..core.progress import NO_PROGRESS, Progress
+from ..core.tolerances import LEVEL
+from ..formats.drawing import Drawing
+from ..gcode.posts.posts import load_post
+from ..gcode.rework.frame import Frame, frame_text
+from ..gcode.timing.extent import Extent
+from ..gcode.writer.write import NcFile, NcText
+from ..model.finding import Finding, FindingKind, worst_first
+from ..model.job import Job
+from ..model.machine import Machine
+from ..model.moves import Program
+from ..model.operation import follows_lines
+from ..model.stock_box import stock_box, work_origin
+from ..model.tool import ToolKind
+from ..toolpath.coverage.coverage import Coverage, coverage_findings, measure
+from ..toolpath.coverage.wanted import CHORD
+from ..toolpath.witness import about_floors
+from ..verify.verdict import Gouge, RapidInMaterial, clamps_met, deepest_of, gouge_depths, rapids_in_material
+from .bitmap_options import is_picture
+from .cut import CutProgram
+from .cut_job import cut_job, news
+from .machining import check_order
+from .options import MakeOptions, job_with_options
+from .own_job import with_own_job
+from .plausible import read_for
+from .report import Measured, Report, make_report, rings_in_words
+from .written import write_and_check
+
+NO_TEXT = NcText("", np.zeros(0, np.int32))
+
+NAMED = 3
+"""How many findings the one line names that says why nothing can be cut."""
+
+
+@dataclass(frozen=True)
+class Made:
+    """What a make job gives.
+
+    Attributes:
+        job: what it was computed from.
+        program: the moves; each knows its line of its NC file.
+        files: the NC program, read back and found to be the moves: one file, or one a tool where the control changes
+            none; none when no move was made.
+        box: round its cutting motions, mm, program coordinates.
+        report: every measured number.
+        findings: everything there is to say, what counts first.
+        coverage: what is left on the floor, with outlines.
+        cut: the files cut out of the stock and compared with the drawing; None when no move was made.
+    """
+
+    job: Job
+    program: Program
+    files: tuple[NcFile, ...]
+    box: Extent
+    report: Report
+    findings: tuple[Finding, ...]
+    coverage: Coverage
+    cut: CutProgram | None
+
+    @property
+    def nc(self) -> NcText:
+        """The NC text, of several files the first one; an empty one when no move was made."""
+        return self.files[0].nc if self.files else NO_TEXT
+
+    def frame(self) -> str:
+        """Return the NC text that goes round the cuts at clearance height with the first tool, spindle off.
+
+        Raises:
+            ParameterError: nothing is cut.
+        """
+        program = self.program
+        top = work_origin(self.job, stock_box(self.job, program.regions, program.lines))[2] if self.files else 0.0
+        height = self.job.travel_z - top if self.files else 0.0
+        tool = int(self.program.moves.tool[0]) if self.files else 0
+        return frame_text(Frame(self.box, height, tool), self.job, load_post(self.job.post))
+
+    @property
+    def clean(self) -> bool:
+        """True when no finding counts (exit status 0)."""
+        return not any(finding.counts for finding in self.findings)
+
+
+def job_from_drawing(drawing: Drawing, options: MakeOptions) -> Job:
+    """Return the job for a drawing: the given or the default one with every given option put in.
+
+    Raises:
+        ParameterError: an option is out of its range or has no effect on the job, or two contradict one another.
+        InputError: there is no such post, or a layer is not in the drawing.
+    """
+    job = job_with_options(drawing.part, options)
+    check_order(job, options.order)
+    load_post(job.post)
+    return job
+
+
+def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_PROGRESS) -> Made:
+    """Return NC program and report for the bytes of a drawing.
+
+    Args:
+        name: file name of the drawing; its suffix tells the format.
+        data: its bytes.
+
+    Raises:
+        HitofudeError: the drawing or an option cannot be used, or nothing in it can be cut with these tools.
+        Cancelled: the job was asked to stop.
+    """
+    progress.step(0.0, f"Reading {name}")
+    options = with_own_job(name, data, options)
+    if options.bitmap is not None or is_picture(name):
+        return _make_on_bitmap(name, data, options, progress)
+    drawing = read_for(name, data, options)
+    job = job_from_drawing(drawing, options)
+    made = export(job, progress.part(0.1, 1.0), drawing.findings, options.machine)
+    if not len(made.program.moves):
+        raise GeometryError(_nothing(name, made.findings))
+    return made
+
+
+def _make_on_bitmap(name: str, data: bytes, options: MakeOptions, progress: Progress) -> Made:
+    """Return what `make` returns, computed on pixels alone."""
+    from .bitmap_job import bitmap_job
+    from .bitmap_way import compute_on_bitmap
+
+    ready = bitmap_job(name, data, options)
+    load_post(ready.job.post)
+    program = compute_on_bitmap(ready.job, ready.part, progress.part(0.1, 0.5)).program
+    made = finish(program, ready.job, progress.part(0.5, 1.0), ready.findings, options.machine)
+    if not len(program.moves):
+        raise GeometryError(_nothing(name, made.findings))
+    return made
+
+
+def _nothing(name: str, findings: tuple[Finding, ...]) -> str:
+    """Return why a drawing gave no path."""
+    if not findings:
+        return f"{name}: there is no closed contour to machine; draw one, or choose other layers."
+    telling = sorted(findings, key=lambda finding: (not finding.counts, finding.kind is not FindingKind.OPEN_CONTOUR))
+    more = f" ({len(findings) - NAMED} more findings)" if len(findings) > NAMED else ""
+    counting = {finding.kind for finding in findings if finding.counts}
+    why = "there is no closed contour, so nothing can be cut." if counting == {FindingKind.OPEN_CONTOUR} else "nothing can be cut."
+    return f"{name}: {why} {' '.join(finding.text for finding in telling[:NAMED])}{more}"
+
+
+def export(job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[Finding, ...] = (), machine: Machine | None = None) -> Made:
+    """Compute a job, write its NC text, read it back, and measure what was made.
+
+    Args:
+        job: what to compute.
+        progress: steps through all of it.
+        drawing_findings: what reading the drawing had to say; goes into the report with the rest.
+        machine: that it has to fit, and on which it is timed; None = timed on a usual one.
+
+    Raises:
+        HitofudeError: the job cannot be computed or written, or what was written is not what was computed.
+        Cancelled: the job was asked to stop.
+    """
+    from ..operations.compute import compute
+
+    job.check_operations()
+    return finish(compute(job, progress.part(0.0, 0.6)), job, progress.part(0.6, 1.0), drawing_findings, machine)
+
+
+def finish(
+    program: Program, job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[Finding, ...] = (),
+    machine: Machine | None = None,
+) -> Made:  # fmt: skip
+    """Slow the feed where too much is engaged, write the NC text, read it back, and measure it: for a caller that has the program.
+
+    Args and errors: as `export`.
+    """
+    from ..toolpath.engagement.feed import followed  # compiled code: loaded where it is used
+
+    program = followed(program, job, progress.part(0.0, 0.1))
+    progress.step(0.1, "Writing NC")
+    written = write_and_check(program, job, load_post(job.post), machine, progress.part(0.1, 0.2))
+    lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
+    program = replace(program, moves=replace(program.moves, line=lines))
+    progress.step(0.2, "Checking clearance")
+    depths = gouge_depths(program, job, progress=progress.part(0.2, 0.28))
+    rapids = rapids_in_material(program, job, progress.part(0.28, 0.3))
+    deepest = deepest_of(depths)
+    coverage = measure(program, job, progress.part(0.3, 0.7))
+    clamped = deepest_of(clamps_met(program, job, depths))
+    unsafe = (*_gouge_findings(deepest, program), *_clamp_findings(clamped, program), *_rapid_findings(rapids, program))
+    metal = cut_job(program, job, written, (depths, coverage), progress.part(0.7, 0.98)) if written.files else None
+    own = (*unsafe, *(news(metal, unsafe) if metal is not None else ()), *_shape_findings(program, job),
+           *written.coarseness(job.out_units), *(written.misfits() if machine else ()),
+           *coverage_findings(coverage), *about_floors(program.areas, CHORD), *_ring_findings(program))
+    findings = worst_first((*own, *program.findings, *drawing_findings))
+    progress.step(1.0, "Done")
+    report = make_report(Measured(program, job, written, deepest, rapids, coverage, findings, metal))
+    return Made(job, program, written.files, written.box(cuts=True), report, findings, coverage, metal)
+
+
+def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:
+    """Return what is to say of tools that do not cut straight walls and a flat floor, as paths beside walls take them to do."""
+    moves, bare = program.moves, [k for k, each in enumerate(job.operations) if follows_lines(each)]
+    tools = [job.tool(number) for number in dict.fromkeys(moves.tool[~np.isin(moves.operation, bare)].tolist())]
+    return tuple(
+        Finding(FindingKind.TOOL_SHAPE, f"T{tool.number} is a {tool.kind.value} cutter, and its path is that of a flat one of "
+                f"{tool.diameter:g} mm: walls and floor will not come out as they are shown; choose a flat cutter.")
+        for tool in tools if tool.kind is not ToolKind.FLAT
+    )  # fmt: skip
+
+
+def _ring_findings(program: Program) -> tuple[Finding, ...]:
+    """Return the remark that some rings are not exact lines and arcs."""
+    count = program.polyline_rings
+    return (Finding(FindingKind.TOLERANCE, f"{rings_in_words(count)}.", counts=False, amount=float(count)),) if count else ()
+
+
+def _gouge_findings(gouge: Gouge, program: Program) -> tuple[Finding, ...]:
+    if gouge.max_mm <= LEVEL or gouge.x is None or gouge.y is None:
+        return ()
+    text = (f"{gouge.count} moves cut into the part, the worst by {gouge.max_mm:.4f} mm at ({gouge.x:.3f}, {gouge.y:.3f}), "
+            f"NC line {program.moves.line[gouge.move]}; do not run this program.")
+    return (Finding(FindingKind.GOUGE, text, gouge.x, gouge.y, amount=gouge.max_mm),)
+
+
+def _clamp_findings(met: Gouge, program: Program) -> tuple[Finding, ...]:
+    if met.max_mm <= LEVEL or met.x is None or met.y is None:
+        return ()
+    text = (f"{met.count} moves reach into a keep-out area, the worst by {met.max_mm:.4f} mm at ({met.x:.3f}, {met.y:.3f}), "
+            f"NC line {program.moves.line[met.move]}; do not run this program.")
+    return (Finding(FindingKind.CLAMP, text, met.x, met.y, amount=met.max_mm),)
+
+
+def _rapid_findings(rapids: tuple[RapidInMaterial, ...], program: Program) -> tuple[Finding, ...]:
+    if not rapids:
+        return ()
+    first = rapids[0]
+    text = (f"{len(rapids)} rapids go through material, the first to ({first.x:.3f}, {first.y:.3f}, {first.z:.3f}), "
+            f"NC line {program.moves.line[first.move]}; do not run this program.")
+    return (Finding(FindingKind.RAPID_IN_MATERIAL, text, first.x, first.y, amount=float(len(rapids))),)

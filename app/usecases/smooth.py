@@ -1,0 +1,385 @@
+"""`hitofude smooth`: straight feed moves of any NC program become lines, arcs or splines within a proven tolerance.
+
+What goes out is read back from its own bytes, and each stretch that was written anew is judged against the moves it stands
+for. One that does not pass, or takes more blocks than it had, stays as it was.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.errors import HitofudeError, InputError, ParameterError
+from ..core.progress import NO_PROGRESS, Progress
+from ..fitting.fitted import FittedPath
+from ..fitting.line_arcs.arc_fit import BEND, ArcOptions, fit_arcs
+from ..fitting.point_curves.corners import LEAST_LEG, bends, corners
+from ..fitting.point_curves.effective_method import EffectiveMethod, PointClasses, without_repeats
+from ..fitting.point_curves.proven_curve import SplineOptions, fit_splines
+from ..fitting.point_curves.smoothness import Smoothness, of_curve, of_points
+from ..fitting.point_curves.space_curve import SpaceCurve, curve_of_motions, joined
+from ..fitting.point_curves.tube import Answer, Judgement, Tube, judge
+from ..gcode.interpreter.dialect import Dialect
+from ..gcode.interpreter.options import PATIENT, ReadOptions
+from ..gcode.interpreter.program import NcProgram
+from ..gcode.interpreter.reader import read_program
+from ..gcode.interpreter.text import Text
+from ..gcode.posts.post import NurbsForm, Post
+from ..gcode.rework.rewrite import Rewritten, rewrite
+from ..gcode.rework.stretches import Found, Stretch, find_stretches
+from ..gcode.writer.blocks import Blocks
+from ..gcode.writer.curve_blocks import Spelling, curve_blocks
+from ..gcode.writer.linuxcnc_biarcs import driven
+from ..geometry.same_places import near
+from ..model.motion import Floats, MotionKind, Motions, Nurbs
+from .smooth_report import certificate
+from .smooth_source import SourceProgram, read_source
+
+TOLERANCES = (1e-4, 10.0)
+"""mm; what a tolerance may be."""
+
+_FOR_CUBICS = 0.25
+"""Of the tolerance: what cubics in place of a spline of degree 5 take up."""
+_REACH = 4.0
+"""Corners are looked for over so many tolerances of the path."""
+
+LARGEST_RADIUS = 10_000.0
+"""mm; what is flatter is written as a line."""
+
+
+class Form(Enum):
+    """What stretches are written as."""
+
+    LINES = "lines"
+    ARCS = "arcs"
+    NURBS = "nurbs"
+
+
+@dataclass(frozen=True)
+class SmoothOptions:
+    """How to smooth.
+
+    Attributes:
+        tolerance: by how much curve and moves may be apart, both ways, mm.
+        form: what is written.
+        middle: half way between two points the curve may be so far away, mm; None: no farther than at them.
+        degree: of splines, 3 or 5; no control knows degree 5, which goes out as cubics that take up part of the tolerance.
+        corner: bends of more than this are kept exactly, radians.
+        post: in whose words all of the program is written; None = those of the control that it is for.
+        dialect: how the program is read; None = as the text looks, whatever the post.
+        effective: method D; None: the curve goes by all points.
+        bend: lines and arcs may turn by so much where they meet, where that saves blocks, radians; or as much as the moves do there.
+    """
+
+    tolerance: float = 0.01
+    form: Form = Form.ARCS
+    middle: float | None = None
+    degree: int = 3
+    corner: float = math.radians(30.0)
+    post: Post | None = None
+    dialect: Dialect | None = None
+    effective: EffectiveMethod | None = None
+    bend: float = BEND
+
+    @property
+    def least_leg(self) -> float:
+        """Bends above `corner` whose legs are both so long or longer are kept exactly, whatever is beside them, mm."""
+        return LEAST_LEG * _REACH * max(self.tolerance, self.middle or 0.0)
+
+    def __post_init__(self) -> None:
+        if not TOLERANCES[0] <= self.tolerance <= TOLERANCES[1]:
+            raise ParameterError(f"the tolerance is {self.tolerance:g} mm; use {TOLERANCES[0]:g} to {TOLERANCES[1]:g} mm.")
+        if self.degree not in (3, 5):
+            raise ParameterError(f"a spline of degree {self.degree}; use 3 or 5.")
+        if not 0 < self.corner <= math.pi:
+            raise ParameterError(f"a corner of {math.degrees(self.corner):g} degrees; use more than 0 and not more than 180.")
+        if not 0 < self.bend <= math.pi:
+            raise ParameterError(f"a bend of {math.degrees(self.bend):g} degrees; use more than 0 and not more than 180.")
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """One stretch, before and after.
+
+    Attributes:
+        stretch: of the program that came in.
+        points: its places, none twice in a row, mm.
+        blocks: that it had and has.
+        curve: what the written text drives along; None where the stretch stayed as it was.
+        judgement: of that curve against the points; None where it stayed.
+        kept: why it stayed, or "".
+        before, after: how smooth it is.
+        corners: numbers of its points that are kept exactly, the outer ones among them.
+        classes: what its points are by method D; None without it, and of a stretch that is too short.
+        lines: its first and last one in the text that came in, 1-based.
+        rounded: how many bends above the corner's angle, beside shorter legs than corners have, are kept no more.
+    """
+
+    stretch: Stretch
+    points: Floats
+    blocks: tuple[int, int]
+    curve: SpaceCurve | None
+    judgement: Judgement | None
+    kept: str
+    before: Smoothness
+    after: Smoothness
+    corners: NDArray[np.int64]
+    classes: PointClasses | None = None
+    lines: tuple[int, int] = (0, 0)
+    rounded: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Smoothed:
+    """A program, smoothed.
+
+    Attributes:
+        name: of the file that came in.
+        options: what was asked.
+        source: the program as its own control reads it.
+        before, after: the same in the words that it is written in, before and after smoothing, both as the control of those reads them.
+        data: the new text.
+        pieces: every stretch, in the order of the text.
+        found: stretches, and what is in none.
+        dialects: of the control that the program came for, and of the one that it is written for.
+        off: how far from the source all else may be in the other control's words, mm; 0 where it is the same control.
+    """
+
+    name: str
+    options: SmoothOptions
+    source: NcProgram
+    before: NcProgram
+    after: NcProgram
+    data: bytes
+    pieces: tuple[Piece, ...]
+    found: Found
+    dialects: tuple[Dialect, Dialect]
+    off: float = 0.0
+
+    @property
+    def bound(self) -> float:
+        """Proven: nowhere are curve and moves farther apart than this, mm."""
+        return max((piece.judgement.bound for piece in self.pieces if piece.judgement), default=0.0)
+
+
+def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = NO_PROGRESS) -> Smoothed:
+    """Return a program whose stretches of straight feed moves are written anew.
+
+    Args:
+        name: of the file, for messages.
+        data: its bytes.
+        options: tolerance and form.
+        progress: told of how much is done.
+
+    Raises:
+        InputError: the program cannot be read to its end, or has nothing that can be smoothed.
+        Cancelled: the job was asked to stop.
+    """
+    ready = read_source(name, data, options.dialect, options.post, progress.part(0.0, 0.15))
+    found = find_stretches(ready.program, Text(ready.data), progress.part(0.15, 0.2))
+    work = _Work(options, ready, found)
+    blocks, kept = work.written(progress.part(0.2, 0.7))
+    while True:
+        new = rewrite(ready.data, found.stretches, blocks, ())
+        after = read_program(new.data, ReadOptions(ready.post.dialect, limits=PATIENT), progress.part(0.7, 0.8))
+        if after.error is not None:
+            raise InputError(f"{ready.post.title} does not read what is written for it: {after.error.told(name)}")
+        judged = work.judged(after, new, progress.part(0.8, 1.0))
+        failed = {k: each.fault for k, each in judged.items() if each.fault}
+        if not failed:
+            break
+        for k, fault in failed.items():
+            del blocks[k]
+            kept[k] = fault
+    work.require_the_rest(after, new)
+    pieces = tuple(work.piece(k, judged.get(k), kept.get(k, ""), len(blocks.get(k, ()))) for k in range(len(found.stretches)))
+    dialects = ready.dialect, ready.post.dialect
+    done = Smoothed(name, options, ready.source, ready.program, after, new.data, pieces, found, dialects, ready.off)
+    return replace(done, data=rewrite(ready.data, found.stretches, blocks, _comments(done, ready)).data)
+
+
+def _comments(done: Smoothed, ready: SourceProgram) -> list[str]:
+    """Return the certificate as comment lines."""
+    head = Blocks(ready.post, ready.program.states[0].units)
+    for line in certificate(done):
+        head.comment(line)
+    return head.lines
+
+
+@dataclass(frozen=True, eq=False)
+class _Judged:
+    """A stretch as it was written.
+
+    Attributes:
+        curve: what is driven along. judgement: of it.
+        cut: whether a corner is kept no more. rounded: how many bends beside shorter legs are not.
+    """
+
+    curve: SpaceCurve
+    judgement: Judgement
+    cut: bool
+    rounded: int
+
+    @property
+    def fault(self) -> str:
+        """Why it cannot stay as it was written, or ""."""
+        if self.judgement.answer is not Answer.INSIDE:
+            return "as it was written it is not proven to keep to the tolerance"
+        return "as it was written it would lose a corner" if self.cut else ""
+
+
+class _Work:
+    """A program's stretches, on their way."""
+
+    def __init__(self, options: SmoothOptions, source: SourceProgram, found: Found) -> None:
+        self._options, self._source, self._found = options, source, found
+        self._post, self._program = source.post, source.program
+        own = [source.points(stretch) for stretch in found.stretches]
+        self._astray = [k for k, points in enumerate(own) if points is None]
+        self._points = [without_repeats(stretch.points if points is None else points)
+                        for stretch, points in zip(found.stretches, own, strict=True)]  # fmt: skip
+        self._tube = Tube(options.tolerance, options.middle)
+        self._classes: dict[int, PointClasses] = {}
+
+    def written(self, progress: Progress) -> tuple[dict[int, tuple[str, ...]], dict[int, str]]:
+        """Return the new blocks of stretches, and why others stay."""
+        blocks: dict[int, tuple[str, ...]] = {}
+        kept: dict[int, str] = {}
+        count = len(self._found.stretches)
+        for k, stretch in enumerate(self._found.stretches):
+            progress.step(k / count, f"Stretch {k + 1} of {count}")
+            if len(self._points[k]) < 3 or k in self._astray:
+                kept[k] = "its moves are not the source's one by one" if k in self._astray else "it is too short"
+                continue
+            path = self._fitted(k, progress.part(k / count, (k + 1) / count))
+            state = self._program.states[self._program.motions.state[stretch.first]]
+            made = curve_blocks(path.motions, Spelling(self._post, state, stretch.feed, stretch.resumed))
+            if len(made) >= stretch.stop - stretch.first:
+                kept[k] = "it would not take fewer blocks"
+            else:
+                blocks[k] = made
+        return blocks, kept
+
+    def _fitted(self, k: int, progress: Progress) -> FittedPath:
+        points, stretch = self._points[k], self._found.stretches[k]
+        state = self._program.states[self._program.motions.state[stretch.first]]
+        step = 10.0 ** -self._post.digits(state.units).X * state.units.value
+        slack = 2.0 * step
+        if not self._options.tolerance > 2 * slack:
+            raise InputError(f"the tolerance of {self._options.tolerance:g} mm is too near to the last decimal of {self._post.title}, "
+                             f"{step:g} mm; use {5 * step:g} mm or more, or a post with more decimals.")
+        if self._options.effective is not None:
+            classes = self._options.effective.classes(points, corners(points, self._options.corner, _REACH * self._tube.widest))
+            self._classes[k] = classes
+            points, spent = classes.passed, classes.off
+            slack += spent
+            if not self._tube.radius > slack:
+                raise InputError(
+                    f"Points of lines {' to '.join(map(str, self._source.lines(stretch)))} are up to {spent:.4g} mm off the path by the "
+                    f"effective ones, which leaves nothing of the tolerance; use a smaller epsilon, or more than {slack:.4g} mm."
+                )
+        tube = self._tube.narrower(slack)
+        form, nurbs = self._options.form, self._post.nurbs.form
+        largest = min(self._post.arcs.largest_radius_mm, LARGEST_RADIUS)
+        arcs = ArcOptions(tube.radius, self._options.corner, largest, form is not Form.LINES, tube.middle, self._options.bend)
+        if form is not Form.NURBS or nurbs is NurbsForm.NONE:
+            return fit_arcs(points, arcs, progress)
+        level = nurbs is NurbsForm.BEZIER
+        blocks, uncut = _quarters if level else _knots, replace(arcs, corner=math.pi)
+        cubic = _FOR_CUBICS * tube.radius if self._options.degree != 3 else 0.0
+        tube = tube.narrower(cubic)
+        splines = SplineOptions(
+            tube, self._options.degree, cubic, self._options.corner, blocks, level, lambda part, share: fit_arcs(part, uncut, share)
+        )
+        return fit_splines(points, splines, progress)
+
+    def judged(self, after: NcProgram, new: Rewritten, progress: Progress) -> dict[int, _Judged]:
+        """Return what each stretch that was written anew has become, and the judge's answer."""
+        order = np.argsort(after.motions.line, kind="stable")
+        lines, answers = after.motions.line[order], {}
+        for n, (k, (first, last)) in enumerate(new.lines.items()):
+            progress.step(n / len(new.lines), "Proving what was written")
+            rows = order[np.searchsorted(lines, first) : np.searchsorted(lines, last, side="right")]
+            row, stop = int(rows.min()), int(rows.max()) + 1
+            curve, ends = self._driven(after.motions, row, stop), after.motions.end[row:stop]
+            answers[k] = _Judged(curve, judge(curve, self._points[k], self._tube), *self._lost(self._points[k], ends))
+        return answers
+
+    def _lost(self, points: Floats, ends: Floats) -> tuple[bool, int]:
+        """Return whether a corner is kept no more, and how many bends beside shorter legs are not: no written motion ends there."""
+        sharp, legs = bends(points, self._options.corner)
+        away = ~near(points[sharp], ends, self._step)
+        corner = legs >= self._options.least_leg * (1 - 1e-9)
+        return bool(np.any(away & corner)), int(np.sum(away & ~corner))
+
+    def require_the_rest(self, after: NcProgram, new: Rewritten) -> None:
+        """Make sure that all motions outside of what was written anew are those of the text before, one by one.
+
+        Raises:
+            HitofudeError: they are not.
+        """
+        before = self._program.motions
+        old, written = np.ones(len(before), np.bool_), np.zeros(int(after.motions.line.max(initial=0)) + 1, np.bool_)
+        for k, (first, last) in new.lines.items():
+            old[self._found.stretches[k].first : self._found.stretches[k].stop] = False
+            written[first : last + 1] = True
+        rows, others = np.flatnonzero(old), np.flatnonzero(~written[after.motions.line])
+        if len(rows) == len(others):
+            same = before.kind[rows] == after.motions.kind[others]
+            ends = np.abs(before.end[rows] - after.motions.end[others]).max(axis=1, initial=0.0) <= self._step
+            feeds = np.isclose(before.feed[rows], after.motions.feed[others], rtol=1e-9, atol=0.0, equal_nan=True)
+            pairs, which = np.unique(np.column_stack([before.state[rows], after.motions.state[others]]), axis=0, return_inverse=True)
+            states = np.array([self._program.states[a] == after.states[b] for a, b in pairs.tolist()], np.bool_)[which.ravel()]
+            wrong = np.flatnonzero(~(same & ends & feeds & states))
+            if not len(wrong):
+                return
+            rows = rows[wrong]
+        line = int(before.line[rows[0]]) if len(rows) else 1
+        raise HitofudeError(f"What is smoothed is not proven to go on as before at line {line}, so it is not kept; please report this "
+                            "with the program.")  # fmt: skip
+
+    @property
+    def _step(self) -> float:
+        """The last decimal of an axis word, mm: the coarser one where the program has two units."""
+        units = {self._program.states[k].units for k in np.unique(self._program.motions.state).tolist()}
+        return max((10.0 ** -self._post.digits(unit).X * unit.value for unit in units), default=0.0)
+
+    def _driven(self, motions: Motions, first: int, stop: int) -> SpaceCurve:
+        """Return what the control drives along in some motions of the written text."""
+        if self._post.nurbs.form is not NurbsForm.BEZIER or not motions.splines:
+            return curve_of_motions(motions, first, stop)
+        rows = (first + np.flatnonzero(motions.kind[first:stop] == MotionKind.SPLINE)).tolist()
+        parts, at = [], first
+        for row in rows:
+            parts += [curve_of_motions(motions, at, row)] if row > at else []
+            parts.append(curve_of_motions(driven(motions.splines[row])))
+            at = row + 1
+        parts += [curve_of_motions(motions, at, stop)] if stop > at else []
+        return joined(parts)
+
+    def piece(self, k: int, judged: _Judged | None, kept: str, blocks: int) -> Piece:
+        """Return one stretch, before and after."""
+        stretch, points, classes = self._found.stretches[k], self._points[k], self._classes.get(k)
+        count = stretch.stop - stretch.first
+        at = corners(points, self._options.corner, _REACH * self._tube.widest) if len(points) > 2 else np.array([0])
+        before = of_points(points, points[at])
+        lines = self._source.lines(stretch)
+        if judged is None:
+            return Piece(stretch, points, (count, count), None, None, kept, before, before, at, classes, lines)
+        after = of_curve(judged.curve, points[at])
+        numbers = (count, blocks)
+        return Piece(stretch, points, numbers, judged.curve, judged.judgement, "", before, after, at, classes, lines, judged.rounded)
+
+
+def _knots(curve: Nurbs) -> int:
+    """Blocks of a spline with knots."""
+    return len(curve.knots) + 1
+
+
+def _quarters(curve: Nurbs) -> int:
+    """Blocks of a spline as cubic pieces."""
+    return 5 * len(np.unique(curve.knots)) - 4

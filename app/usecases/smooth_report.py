@@ -1,0 +1,146 @@
+"""What smoothing did: the certificate, as JSON and as comments of the program."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..fitting.line_arcs.arc_fit import BEND
+from ..fitting.point_curves.effective_points import PointState
+from ..gcode.interpreter.dialect import HABITS
+from ..model.finding import Finding, FindingKind
+
+if TYPE_CHECKING:
+    from .smooth import Piece, Smoothed
+
+Json = dict[str, Any]
+LISTED = 1000
+"""Stretches that the report lists singly, those that changed first."""
+
+
+def certificate(done: Smoothed) -> tuple[str, ...]:
+    """Return the proof in a few sentences, for the program's head."""
+    changed = _changed(done)
+    came, left = _blocks(done)
+    told = f"hitofude smooth: {len(changed)} of {len(done.pieces)} stretches written anew as {done.options.form.value}"
+    if not changed:
+        return (told, *_other_control(done))
+    bend, step = _most(done, "bend"), _most(done, "curvature_step")
+    return (
+        f"{told}, {came} blocks before, {left} after",
+        f"tolerance {done.options.tolerance:g} mm; proven both ways, as written: {done.bound:.6f} mm; found: curve to moves "
+        f"{max(piece.judgement.from_curve for piece in changed if piece.judgement):.6f} mm, moves to curve "
+        f"{max(piece.judgement.from_points for piece in changed if piece.judgement):.6f} mm",
+        f"largest bend {math.degrees(bend[0]):.3f} deg before, {math.degrees(bend[1]):.3f} after{_bend_words(done)}; "
+        f"curvature step {step[0]:.4g} per mm before, {step[1]:.4g} after",
+        _corner_words(done),
+        *(f"effective points: {told['effective']} of {told['all']}, {told['corrected']} corrected" for told in _points(done)),
+        "the control may add what its own blending allows",
+        *_other_control(done),
+    )
+
+
+def _bend_words(done: Smoothed) -> str:
+    """Return by how much neighbours were allowed to bend, where it is not what they always may."""
+    asked = done.options.form.value == "arcs" and done.options.bend != BEND
+    return f", where up to {math.degrees(done.options.bend):g} deg or the moves' own bend was allowed" if asked else ""
+
+
+def _corner_words(done: Smoothed) -> str:
+    """Return which corners are kept, and how many bends as sharp are not: those of steps as small as the tolerance."""
+    angle, rounded = f"{math.degrees(done.options.corner):g} deg", sum(piece.rounded for piece in done.pieces)
+    told = f"corners above {angle} kept where both legs are {done.options.least_leg:g} mm or longer"
+    bends = "1 bend" if rounded == 1 else f"{rounded} bends"
+    return f"{told}; {bends} above {angle} beside a shorter leg rounded, within the tolerance" if rounded else told
+
+
+def _other_control(done: Smoothed) -> tuple[str, ...]:
+    """Return for which control the program was written, where it came for another one, and how far all else is from what it was."""
+    came, left = (HABITS[dialect].title for dialect in done.dialects)
+    if came == left:
+        return ()
+    return (f"all of it is written for {left} and read back as {left}; what is not smoothed is within {done.off:.4g} mm of the "
+            f"{came} program",)  # fmt: skip
+
+
+def findings(done: Smoothed) -> tuple[Finding, ...]:
+    """Return what somebody has to know: stretches whose curve could not be proven."""
+    lost = [piece for piece in done.pieces if piece.kept.startswith("as it was written")]
+    return tuple(
+        Finding(FindingKind.TOLERANCE, f"Lines {piece.lines[0]} to {piece.lines[1]} stay as they were: {piece.kept}.")
+        for piece in lost
+    )
+
+
+def report(done: Smoothed) -> Json:
+    """Return everything that smoothing found, lengths in mm, angles in degrees."""
+    came, left = _blocks(done)
+    bend, step = _most(done, "bend"), _most(done, "curvature_step")
+    changed = _changed(done)
+    listed = sorted(done.pieces, key=lambda piece: (piece.judgement is None, piece.stretch.first_line))[:LISTED]
+    return {
+        "program": done.name,
+        "control": {"of_the_program": done.dialects[0].value, "written_for": done.dialects[1].value, "elsewhere_mm": done.off},
+        "warnings": [problem.told(done.name) for problem in done.source.problems],
+        "as": done.options.form.value,
+        "tolerance": {
+            "asked_mm": done.options.tolerance, "middle_mm": done.options.middle, "proven_mm": done.bound,
+            "curve_to_moves_found_mm": max((piece.judgement.from_curve for piece in changed if piece.judgement), default=0.0),
+            "moves_to_curve_found_mm": max((piece.judgement.from_points for piece in changed if piece.judgement), default=0.0),
+        },
+        "blocks": {"before": came, "after": left, "moves_left_alone": {reason.value: n for reason, n in done.found.left.items() if n}},
+        "largest_bend_deg": {"before": math.degrees(bend[0]), "after": math.degrees(bend[1])},
+        "largest_curvature_step_per_mm": {"before": step[0], "after": step[1]},
+        "points": next(iter(_points(done)), None),
+        "bend_deg": math.degrees(done.options.bend),
+        "corner_deg": math.degrees(done.options.corner), "corner_least_leg_mm": done.options.least_leg,
+        "bends_rounded": sum(piece.rounded for piece in done.pieces),
+        "stretches": {"found": len(done.pieces), "changed": len(changed), "listed": [_listed(piece) for piece in listed]},
+    }  # fmt: skip
+
+
+def report_text(done: Smoothed) -> str:
+    """Return the report as JSON."""
+    return json.dumps(report(done), indent=1) + "\n"
+
+
+def _listed(piece: Piece) -> Json:
+    told: Json = {
+        "lines": list(piece.lines),
+        "blocks": {"before": piece.blocks[0], "after": piece.blocks[1]},
+    }
+    if piece.judgement is None:
+        return told | {"kept": piece.kept}
+    judgement = piece.judgement
+    x, y, z = judgement.place
+    return told | {
+        "proven_mm": judgement.bound, "curve_to_moves_found_mm": judgement.from_curve, "moves_to_curve_found_mm": judgement.from_points,
+        "farthest": {"x": x, "y": y, "z": z, "chord": judgement.chord},
+    }  # fmt: skip
+
+
+def _changed(done: Smoothed) -> list[Piece]:
+    return [piece for piece in done.pieces if piece.judgement is not None]
+
+
+def _blocks(done: Smoothed) -> tuple[int, int]:
+    return sum(piece.blocks[0] for piece in done.pieces), sum(piece.blocks[1] for piece in done.pieces)
+
+
+def _points(done: Smoothed) -> list[Json]:
+    """Return how many points of the stretches that changed are effective and corrected, of how many; nothing without method D."""
+    classes = [piece.classes for piece in _changed(done) if piece.classes is not None]
+    if not classes:
+        return []
+    states = np.bincount(np.concatenate([each.state for each in classes]), minlength=len(PointState)).tolist()
+    return [{"effective": states[PointState.EFFECTIVE], "corrected": states[PointState.CORRECTED], "all": sum(states)}]
+
+
+def _most(done: Smoothed, name: str) -> tuple[float, float]:
+    """Return the largest value before and after, of the stretches that changed."""
+    changed = _changed(done)
+    before, after = ([getattr(getattr(piece, side), name) for piece in changed] for side in ("before", "after"))
+    return max(before, default=0.0), max(after, default=0.0)

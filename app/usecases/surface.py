@@ -1,0 +1,229 @@
+"""A scene from its text to tool paths over its surfaces: the compound surface, the cutters' paths, all told apart by surface."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from ..core.errors import GeometryError, ParameterError
+from ..core.progress import NO_PROGRESS, Progress
+from ..formats.scene.toml import read_scene
+from ..gcode.posts.posts import load_post
+from ..model.finding import Finding
+from ..model.job import Job, OriginXY, OriginZ
+from ..model.part import Part
+from ..model.scene import Boundary, Centre, Passes, Scene
+from ..model.scene_curves import Sources
+from ..model.stock_box import StockBox
+from ..model.tool import Tool
+from ..operations.parallel.surface_moves import Milling, SurfaceMoves, surface_moves
+from ..surfaces.cutter_contact.scene_facets import SceneFacets, region_area, scene_facets
+from ..surfaces.passes.path import Follower, FollowOptions, Overrun, cutter_path
+from ..surfaces.passes.scallop import corner_radius, scallop_planes, stepover_for_scallop
+from ..surfaces.patches.build import Built, build, regions_of
+from ..surfaces.patches.facets import Facets, joined
+from ..surfaces.sections.compound import Compound, Planes
+from ..surfaces.sections.planes import even_planes, widened
+from ..surfaces.sections.section import compound_surface
+from .scene_findings import moves_findings, scene_findings
+
+FLOOR = "floor"
+"""Name of what a tool is on where it stays at the lowest height that it may have."""
+
+
+@dataclass(frozen=True, eq=False)
+class Family:
+    """One family of passes, computed.
+
+    Attributes:
+        passes: as the scene has it. tool: with the feeds and the speed that the passes ask for.
+        surface: the compound surface on its planes. path: of the cutter.
+        follower: that made the path, for proofs; it numbers surfaces in an order of its own.
+    """
+
+    passes: Passes
+    tool: Tool
+    surface: Compound
+    path: Compound
+    follower: Follower
+
+    @property
+    def planes(self) -> Planes:
+        """Its cutting planes."""
+        return self.path.planes
+
+    def numbered(self, numbers: NDArray[np.int64]) -> Family:
+        """Return it with other numbers of surfaces: `numbers[k]` for k."""
+        return replace(self, surface=self.surface.numbered(numbers), path=self.path.numbered(numbers))
+
+
+@dataclass(frozen=True, eq=False)
+class Computed:
+    """A scene, computed.
+
+    Attributes:
+        scene: what was computed. built: its surfaces, made. facets: of those that are machined.
+        families: of the passes that are switched on, in the order of cutting.
+        moves: of all of them; `moves.surface` counts the scene's surfaces.
+        stock: the block. origin: the work origin in the scene's coordinates, mm: NC = scene - origin.
+        grid: of the coordinates that are written, mm.
+        findings: what is wrong with the surfaces, their place, and where the tools go.
+    """
+
+    scene: Scene
+    built: tuple[Built, ...]
+    facets: SceneFacets
+    families: tuple[Family, ...]
+    moves: SurfaceMoves
+    stock: StockBox
+    origin: tuple[float, float, float]
+    grid: float
+    findings: tuple[Finding, ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the surfaces, by number; behind them that of the floor."""
+        return (*(surface.name for surface in self.scene.surfaces), FLOOR)
+
+
+def read_and_compute(name: str, data: bytes, sources: Sources, progress: Progress = NO_PROGRESS) -> Computed:
+    """Compute a scene file.
+
+    Args:
+        name: of the file, for errors. data: its bytes. sources: reads the files that it names.
+
+    Raises:
+        HitofudeError: it cannot be read, a surface cannot be made, or passes cannot be computed.
+        Cancelled: the job was asked to stop.
+    """
+    return compute(read_scene(name, data), sources, progress)
+
+
+def compute(scene: Scene, sources: Sources, progress: Progress = NO_PROGRESS) -> Computed:
+    """Compute all passes of a scene that are switched on.
+
+    Raises:
+        HitofudeError: a surface cannot be made, or passes cannot be computed. Cancelled: the job was asked to stop.
+    """
+    built = build(scene, sources, progress.part(0.0, 0.05))
+    order = sorted(range(len(built)), key=lambda k: built[k].surface.name)  # what surfaces coincide is told by names, not by order
+    facets = scene_facets([built[k] for k in order], progress=progress.part(0.05, 0.15))
+    numbers = np.array([*order, len(built)])
+    stock = stock_of(scene, facets.facets)
+    post = load_post(scene.post)
+    digits = post.digits(scene.out_units)
+    grid = scene.out_units.value * 10.0 ** -min(digits.X, digits.Y, digits.Z)
+    origin = tuple(round(value / grid) * grid for value in origin_of(scene, stock))
+    wanted = [passes for passes in scene.passes if passes.enabled]
+    families = []
+    for number, passes in enumerate(wanted):
+        share = progress.part(0.15 + 0.75 * number / len(wanted), 0.15 + 0.75 * (number + 1) / len(wanted))
+        families.append(_family(scene, facets, passes, (grid, sources, stock), share).numbered(numbers))
+    progress.step(0.9, "Joining passes")
+    top = max(stock.z1, float(facets.facets.triangles[:, :, 2].max()))
+    moves = surface_moves([_milling(family) for family in families], top + scene.safe_z, top + scene.retract_z)
+    trimmed, uncut = (replace(each, owner=numbers[each.owner]) for each in (facets.facets, facets.uncut))
+    own = SceneFacets(trimmed, uncut, {order[number]: area for number, area in facets.areas.items()})
+    tools = [family.tool for family in families]
+    found = (*scene_findings(built, facets.facets, stock, tools), *moves_findings(moves, stock, tools))
+    return Computed(scene, built, own, tuple(families), moves, stock, (origin[0], origin[1], origin[2]), grid, found)
+
+
+def stock_of(scene: Scene, facets: Facets) -> StockBox:
+    """Return the block: as the scene gives it, or the surfaces' extent and the margin round it."""
+    if scene.stock.box:
+        return StockBox(*scene.stock.box)
+    low, high, margin = facets.triangles.min(axis=(0, 1)), facets.triangles.max(axis=(0, 1)), scene.stock.margin
+    return StockBox(*(low - margin).tolist(), *(high + margin).tolist())
+
+
+def origin_of(scene: Scene, stock: StockBox) -> tuple[float, float, float]:
+    """Return the work origin in the scene's coordinates, mm."""
+    x, y = {
+        OriginXY.DRAWING: (0.0, 0.0),
+        OriginXY.LOWER_LEFT: (stock.x0, stock.y0),
+        OriginXY.CENTRE: ((stock.x0 + stock.x1) / 2, (stock.y0 + stock.y1) / 2),
+    }[scene.origin_xy]
+    z = 0.0 if scene.origin_z is None else (stock.z1 if scene.origin_z is OriginZ.TOP else stock.z0)
+    return x, y, z
+
+
+def _family(scene: Scene, facets: SceneFacets, passes: Passes, rest: tuple[float, Sources, StockBox], progress: Progress) -> Family:
+    """Compute one family of passes; `rest` is the grid, what reads files, and the stock."""
+    grid, sources, stock = rest
+    tool = _tool(scene, passes)
+    if passes.pitch is not None:
+        planes = even_planes(passes.origin, passes.angle, passes.pitch, facets.facets.triangles[:, :, :2].reshape(-1, 2))
+    else:
+        planes = scallop_planes(facets.facets, tool, passes.scallop or 0.0, passes.origin, passes.angle)
+    overrun, places = _overrun(passes, tool, stock), facets.facets.triangles[:, :, :2].reshape(-1, 2)
+    if overrun.far > 0:
+        planes = widened(planes, places, overrun.far, _step(passes, tool))
+    below = facets.facets if passes.floor is None else _with_floor(facets.facets, passes.floor, len(scene.surfaces), overrun.far)
+    follower = Follower(below, tool, FollowOptions(passes.stock_to_leave, passes.chord_tolerance, grid))
+    path = cutter_path(follower, planes, _area(passes.boundary, tool, sources), progress.part(0.0, 0.7), overrun)
+    if not path.runs:
+        name = passes.name or f"with T{tool.number}"
+        raise GeometryError(f"passes {name} touch no surface; check their boundary and the surfaces' trims.")
+    surface = compound_surface(facets.uncut, path.planes, passes.chord_tolerance, facets.areas, progress.part(0.7, 1.0))
+    return Family(passes, tool, surface, path, follower)
+
+
+def _overrun(passes: Passes, tool: Tool, stock: StockBox) -> Overrun:
+    """Return how far passes leave the surfaces' box: as far as the tool still touches one, and metal is in its way."""
+    far = tool.radius if passes.overrun is None else passes.overrun
+    box = stock.x0 - tool.radius, stock.y0 - tool.radius, stock.x1 + tool.radius, stock.y1 + tool.radius
+    return Overrun(far, box, stock.z0)
+
+
+def _step(passes: Passes, tool: Tool) -> float:
+    """Return how far apart passes are beside the surfaces, mm."""
+    if passes.pitch is not None:
+        return passes.pitch
+    return stepover_for_scallop(corner_radius(tool), passes.scallop or 0.0)
+
+
+def _tool(scene: Scene, passes: Passes) -> Tool:
+    """Return the passes' tool with their feeds and speed."""
+    tool = scene.tool(passes.tool)
+    own = {name: value for name in ("feed_rate", "plunge_rate", "spindle_speed") if (value := getattr(passes, name)) is not None}
+    return replace(tool, **own)
+
+
+def _with_floor(facets: Facets, floor: float, number: int, far: float) -> Facets:
+    """Return facets with a level one below everything, as wide as a tool's centre comes."""
+    places = facets.triangles[:, :, :2]
+    (x0, y0), (x1, y1) = (places.min(axis=(0, 1)) - far).tolist(), (places.max(axis=(0, 1)) + far).tolist()
+    if not math.isfinite(floor):
+        raise ParameterError("The floor is no number; give a height in mm.")
+    a, b, c, d = ([x, y, floor] for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1)))
+    return joined([facets, Facets.of_mesh(np.array([[a, b, c], [a, c, d]]), number)])
+
+
+def _area(boundaries: Sequence[Boundary], tool: Tool, sources: Sources) -> shapely.Geometry | None:
+    """Return where the cutter's centre may be."""
+    if not boundaries:
+        return None
+    parts = []
+    for boundary in boundaries:
+        area = region_area(regions_of(boundary, sources))
+        parts.append(shapely.buffer(area, -tool.radius, quad_segs=64) if boundary.centre is Centre.INSIDE else area)
+    return shapely.union_all(parts)
+
+
+def _milling(family: Family) -> Milling:
+    passes, offsets = family.passes, family.planes.offsets
+    widest = max(np.diff(offsets).max() if len(offsets) > 1 else 0.0, 0.0)
+    gap = passes.link_gap if passes.link_gap is not None else max(1.5 * float(widest), family.tool.diameter)
+    return Milling(family.path, family.follower, family.tool, passes.strategy, gap)
+
+
+def job_of(scene: Scene, tools: Mapping[int, Tool] | None = None) -> Job:
+    """Return a job with a scene's name, tools and way of writing, and without a drawing."""
+    return Job(Part(name=scene.name), tools=tuple((tools or {}).get(tool.number, tool) for tool in scene.tools), operations=(),
+               safe_z=scene.safe_z, retract_z=scene.retract_z, post=scene.post, out_units=scene.out_units, exact_path=scene.exact_path)

@@ -1,0 +1,142 @@
+"""Descents into metal at the feed that is meant for going sideways.
+
+A mill goes down where little of it cuts, at its axis, and so is fed down more slowly. How slowly the program's header may say; else the
+program itself does, where it goes down more slowly elsewhere. One that has a single feed for everything is told only of what is deep.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.progress import NO_PROGRESS, Progress
+from ..core.tolerances import LEVEL
+from ..model.motion import Floats, MotionKind
+from ..model.tool import Tool, ToolKind
+from ..simulation.cutter import Cutter
+from ..simulation.field.workpiece import Workpiece
+from .closer import NARROW, Metal, Way
+from .led_ways import hits_along
+from .plunges import PIN, alike_runs
+
+STEEP = math.tan(math.radians(60.0))
+"""mm down per mm sideways from which on a motion goes down rather than along; ramps and helices are no such."""
+
+SHARE = 0.8
+"""Of the greatest feed sideways: a slower descent tells of a plunge rate, a faster one does not."""
+
+MORE = 1.02
+"""Times the plunge rate that F words may be off it."""
+
+DEEP, DEEP_MM = 0.25, 0.5
+"""Of the diameter, and mm: the metal under the axis, in the way of a descent, that makes it a plunge."""
+
+ALONE, ALONE_MM = 1.0, 3.0
+"""The same, where the program has one feed for everything."""
+
+LEAST = 0.3
+"""mm; shorter descents tell of no plunge rate."""
+
+
+@dataclass(frozen=True, slots=True)
+class FastPlunge:
+    """The deepest of a tool's descents into metal that are too fast.
+
+    Attributes:
+        motion: its first row. tool: T number.
+        x, y: where it is deepest, mm. depth: of the metal under the axis there, mm.
+        feed: of it, mm/min. rate: that the tool may be fed down with, mm/min; None: nobody says.
+        count: of such descents.
+    """
+
+    motion: int
+    tool: int
+    x: float
+    y: float
+    depth: float
+    feed: float
+    rate: float | None
+    count: int
+
+
+def fast_plunges(metal: Metal, before: Workpiece, tools: Mapping[int, Tool], rates: Mapping[int, float],
+                 progress: Progress = NO_PROGRESS) -> Iterator[FastPlunge]:  # fmt: skip
+    """Yield, by tool, the descents of the last program of some that are too fast for it.
+
+    Args:
+        before: the metal before that program. tools: by T number.
+        rates: that the program's header names, mm/min, by T number.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    course, top = metal.courses[-1], float(before.heights.max())
+    known = _rates(metal, tools, rates, top)
+    limit = np.full(int(course.tool.max(initial=0)) + 1, math.inf)
+    for number, rate in known.items():
+        limit[number] = MORE * rate if rate is not None else 0.0
+    motions = course.motions
+    fast = _descends(motions.end - motions.start, motions.kind) & (motions.feed > limit[course.tool]) & (motions.end[:, 2] < top - LEVEL)
+    fast[list(course.left_out)] = False
+    spans = [span for span in alike_runs(fast.astype(np.int64), course.tool) if _may_be_deep(metal, tools, known, span, top)]
+    if not spans:
+        return
+    wide = NARROW * before.grid.pitch  # metal under the axis that a cell would not show makes no plunge, so no closer look is taken
+    radius = {number: max(tool.radius * PIN, min(wide, tool.radius)) for number, tool in tools.items()}
+    ways = [Way(first, np.concatenate([motions.start[first : first + 1], motions.end[first : last + 1]]),
+                Cutter(radius[int(course.tool[first])], radius[int(course.tool[first])])) for first, last in spans]  # fmt: skip
+    deepest: dict[int, list[FastPlunge]] = {}
+    for k, hits in hits_along(metal, before, ways, progress).hits.items():
+        (first, last), hit = spans[k], max(hits, key=lambda each: each.depth)
+        number = int(course.tool[first])
+        if hit.depth >= _least(tools[number], known[number]):
+            feed, (x, y) = float(motions.feed[first : last + 1].max()), _at_height(ways[k].points, hit.z)
+            deepest.setdefault(number, []).append(FastPlunge(first, number, x, y, hit.depth, feed, known[number], 1))
+    for found in deepest.values():
+        worst = max(found, key=lambda each: each.depth)
+        yield FastPlunge(worst.motion, worst.tool, worst.x, worst.y, worst.depth, worst.feed, worst.rate, len(found))
+
+
+def _at_height(points: Floats, z: float) -> tuple[float, float]:
+    """Return where on a way down (n, 3) it is at a height."""
+    x, y = (float(np.interp(-z, -points[:, 2], points[:, column])) for column in (0, 1))
+    return x, y
+
+
+def _descends(way: Floats, kind: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """Return which motions at feed rate go down, straight or nearly."""
+    return np.asarray((kind == MotionKind.LINE) & (way[:, 2] < 0) & (-way[:, 2] > STEEP * np.hypot(way[:, 0], way[:, 1])))
+
+
+def _rates(metal: Metal, tools: Mapping[int, Tool], rates: Mapping[int, float], top: float) -> dict[int, float | None]:
+    """Return the plunge rate of each mill that cuts, None where nothing tells of it."""
+    course = metal.courses[-1]
+    motions, way = course.motions, course.motions.end - course.motions.start
+    sideways = (motions.kind != MotionKind.RAPID) & (np.hypot(way[:, 0], way[:, 1]) > STEEP * np.abs(way[:, 2])) & (motions.end[:, 2] < top)
+    down = _descends(way, motions.kind) & (way[:, 2] < -LEAST)
+    found: dict[int, float | None] = {}
+    for number, tool in tools.items():
+        mine = (course.tool == number) & (motions.feed > 0)
+        along, slowly = motions.feed[mine & sideways], motions.feed[mine & down]
+        if tool.kind is ToolKind.DRILL or number not in metal.cutters or not len(slowly) or not (len(along) or number in rates):
+            continue
+        least = float(slowly.min())
+        found[number] = rates.get(number, least if len(along) and least < SHARE * float(along.max()) else None)
+    return found
+
+
+def _least(tool: Tool, rate: float | None) -> float:
+    """Return how much metal under a tool's axis makes a descent a plunge, mm."""
+    return max(DEEP * tool.diameter, DEEP_MM) if rate is not None else max(ALONE * tool.diameter, ALONE_MM)
+
+
+def _may_be_deep(metal: Metal, tools: Mapping[int, Tool], known: Mapping[int, float | None], span: tuple[int, int], top: float) -> bool:
+    """Return whether motions go down so far below the top that they may go deep into metal."""
+    course, (first, last) = metal.courses[-1], span
+    number = int(course.tool[first])
+    low, high = float(course.motions.end[last, 2]), min(float(course.motions.start[first, 2]), top)
+    return number in known and high - low >= _least(tools[number], known[number])

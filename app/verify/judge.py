@@ -1,0 +1,269 @@
+"""A cut against the part: which cells are gouged or left, how large each place is, and what holds between the cells.
+
+For a drawing milled to depths, gouges and areas left are measured on the motions themselves, exactly; the cells confirm
+them, and a gouge that only the cells show counts too. For a solid, and where a tool's end is not flat, the cells decide.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.progress import NO_PROGRESS, Progress
+from ..simulation.cutter import Cutter
+from ..simulation.field.target import MARGIN, Target, frozen, solid_target
+from ..simulation.field.workpiece import Grid, Stock
+from ..simulation.sweeps.reach import reach_of, reachable
+from ..simulation.sweeps.trim import Cut
+from ..toolpath.coverage.coverage import Place
+from .exact import Exact
+from .flat_target import flat_target
+from .judgement import BANDS, Band, Certificate, Judgement, Spot, SpotKind
+from .parts import FlatPart, Part, SolidPart
+from .places import CellPlace, places_of
+from .solid_gouges import Probe, SolidGouges
+from .verdict import Gouge
+from .wall_probe import WallProbe
+
+Mask = NDArray[np.bool_]
+
+APART = 1.0
+"""mm between gouges that are told one by one."""
+
+MOST_GOUGES = 100
+
+STEEPEST = 10.0
+"""mm up per mm sideways; steeper places count as that steep."""
+
+
+@dataclass(frozen=True, eq=False)
+class Wanted:
+    """The part over the grid of a cut.
+
+    Attributes:
+        target: heights.
+        reach: (rows, cols) where some tool that cuts gets down to the part; of a solid, of what is left.
+        solid: the part, if it is one closed surface, and so can be asked how deep places lie in it.
+    """
+
+    target: Target
+    reach: Mask
+    solid: SolidPart | None = None
+
+
+def wanted_over(part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...], progress: Progress = NO_PROGRESS) -> Wanted:
+    """Return the part over the grid of a cut; metal that was not there is not gouged.
+
+    Args:
+        stock: all of it, where the grid may be a window.
+        cutters: that may cut.
+
+    Raises:
+        ParameterError: the grid does not fit into memory.
+        Cancelled: the job was asked to stop.
+    """
+    grid = cut.before.grid
+    solid = part if isinstance(part, SolidPart) and part.block is None and part.solid.shells == 1 else None
+    if isinstance(part, FlatPart):
+        flat = flat_target(part, grid)
+        target, reach = flat.target, flat.reach
+    else:
+        target = solid_target(part.solid, grid, part.leave, progress)
+        target = replace(target, high=target.high + _upright(target, part.allowance))
+        left = target.deviation(cut.heights) > part.tolerance
+        reach = ~left
+        if left.any() and cutters:
+            lowest = reach_of(part.solid, part.leave, stock.box, cutters, progress)
+            sure, possible = (height <= target.high + np.float32(part.tolerance) for height in lowest.over(grid))
+            reach |= reachable(left, sure, possible, max(3, math.ceil(3 * lowest.grid.pitch / grid.pitch)))
+    return Wanted(replace(target, low=np.minimum(target.low, cut.before.heights)), reach, solid)
+
+
+def _upright(target: Target, allowance: float) -> NDArray[np.float32]:
+    """Return what an allowance square to a part's surface is straight up, at each cell; at walls it is as for a slope of 10."""
+    own = slice(MARGIN, -MARGIN)
+    if not allowance:
+        return np.zeros_like(target.high)
+    with np.errstate(invalid="ignore"):  # beside the part there is no height
+        slopes = np.gradient(target.around, target.grid.pitch)
+    north, east = (np.nan_to_num(slope, nan=STEEPEST, posinf=STEEPEST, neginf=STEEPEST) for slope in slopes)
+    rise = np.hypot(north, east)
+    return np.asarray(allowance * np.hypot(1.0, np.minimum(rise[own, own], STEEPEST)), np.float32)
+
+
+@dataclass(frozen=True, eq=False)
+class Judging:
+    """What a judgement is made of: the cut, the part over it, what closed forms say, the lines of the motions.
+
+    Attributes:
+        lowest: of a solid, gives the height that is cut down to at any places, and by whom.
+        probe: who asks walls.
+    """
+
+    part: Part
+    cut: Cut
+    wanted: Wanted
+    exact: Exact | None
+    lines: NDArray[np.int32]
+    lowest: Probe | None = None
+    probe: WallProbe | None = None
+
+    @property
+    def grid(self) -> Grid:
+        """Of the cut."""
+        return self.cut.before.grid
+
+    def line_at(self, row: int, col: int) -> tuple[int, int]:
+        """Return line and row of the motion that cut a cell last; 0 and -1 where none did or nobody noted it."""
+        owner = -1 if self.cut.owner is None else int(self.cut.owner[row, col])
+        return (int(self.lines[owner]), owner) if owner >= 0 else (0, -1)
+
+    def to_program(self, x: float, y: float) -> tuple[float, float]:
+        """Return a place of the part in program coordinates."""
+        origin = self.part.origin if isinstance(self.part, FlatPart) else (0.0, 0.0)
+        return x - origin[0], y - origin[1]
+
+
+def judge(judging: Judging, certificate: Certificate | None) -> Judgement:
+    """Return what is said of a cut."""
+    part, tolerance = judging.part, judging.part.tolerance
+    deviation = judging.wanted.target.deviation(judging.cut.heights)
+    left = deviation > tolerance
+    unreachable = left & ~judging.wanted.reach
+    gouges, gouged = _gouges(judging, deviation)
+    gouge = _worst(judging, gouges, gouged)
+    masks = {SpotKind.LEFT: left & ~unreachable, SpotKind.UNREACHABLE: unreachable}
+    coverage = judging.exact.coverage if judging.exact is not None else None
+    if coverage is not None:
+        reachable_mm2, unreachable_mm2 = coverage.reachable_left_mm2, coverage.unreachable_mm2
+        left_spots = [_measured(judging, place) for place in coverage.places]
+        counts = {kind: sum(spot.kind is kind for spot in left_spots) for kind in masks}
+    else:
+        cell = judging.grid.pitch**2
+        reachable_mm2, unreachable_mm2 = (float(np.count_nonzero(mask)) * cell for mask in masks.values())
+        found = {kind: places_of(mask, deviation, judging.grid) for kind, mask in masks.items()}
+        left_spots = [_left(judging, place, kind) for kind, (places, _) in found.items() for place in places]
+        counts = {kind: count for kind, (_, count) in found.items()}
+    discs = (spot.disc_mm for spot in left_spots if spot.kind is SpotKind.UNREACHABLE)
+    line = int(judging.lines[gouge.move]) if gouge.move >= 0 else 0
+    return Judgement(
+        deviation, unreachable, gouge, line, reachable_mm2, unreachable_mm2, max(discs, default=0.0), (*gouges, *left_spots),
+        counts | {SpotKind.GOUGE: gouged}, tuple(_bands(judging, deviation)), certificate, isinstance(part, FlatPart), tolerance,
+        coverage.given_up_mm2 if coverage is not None else 0.0,
+    )  # fmt: skip
+
+
+def _gouges(judging: Judging, deviation: NDArray[np.float32]) -> tuple[tuple[Spot, ...], int]:
+    """Return the gouges, the deepest first, and how many: by closed forms, or where these know of none, those that the cells show."""
+    part = judging.part
+    exact = tuple(_exact_gouges(judging))
+    if exact:
+        return exact, len(exact)
+    gouged = np.asarray(deviation < -part.tolerance)
+    places, count = places_of(gouged, -deviation, judging.grid)
+    if isinstance(part, SolidPart) and judging.lowest is not None:
+        narrow = list(_apart(judging.probe.spots())) if judging.probe is not None else []
+        cut, around = judging.cut, judging.wanted.target.around
+        measure = SolidGouges(part, judging.lowest, cut.before, cut.heights, gouged, around, judging.lines)
+        spots = measure.spots(places, narrow)
+        return tuple(spots), len(spots) + count - len(places)
+    spots = [spot for spot in (_gouge_of_cells(judging, place) for place in places) if spot.depth_mm > part.tolerance]
+    return tuple(sorted(spots, key=lambda spot: -spot.depth_mm)), len(spots) + count - len(places)
+
+
+def _near(spot: Spot, others: Sequence[Spot]) -> bool:
+    """Return whether a spot is one of others, but for a little way."""
+    return any(np.hypot(spot.x - other.x, spot.y - other.y) <= APART for other in others)
+
+
+def _apart(spots: Iterator[Spot]) -> Iterator[Spot]:
+    """Yield spots but for those near an earlier one."""
+    told: dict[tuple[int, int], list[Spot]] = {}
+    for spot in spots:
+        col, row = math.floor(spot.x / APART), math.floor(spot.y / APART)
+        around = [other for dx in (-1, 0, 1) for dy in (-1, 0, 1) for other in told.get((col + dx, row + dy), ())]
+        if not _near(spot, around):
+            told.setdefault((col, row), []).append(spot)
+            yield spot
+
+
+def _exact_gouges(judging: Judging) -> Iterator[Spot]:
+    """Yield the gouging motions, the deepest first, but for those near a deeper one."""
+    part = judging.part
+    if judging.exact is None or not isinstance(part, FlatPart):
+        return
+    depths, origin = judging.exact.depths, np.array(part.origin)
+    told: list[tuple[float, float]] = []
+    for k in np.argsort(-depths.depth, kind="stable")[: np.count_nonzero(depths.depth > part.wall_tolerance)].tolist():
+        x, y, z = (depths.places[k] - origin).tolist()
+        if len(told) < MOST_GOUGES and all(np.hypot(x - other[0], y - other[1]) > APART for other in told):
+            told.append((x, y))
+            motion = int(depths.move[k])
+            yield Spot(SpotKind.GOUGE, x, y, z, float(depths.depth[k]), 0.0, 0.0, int(judging.lines[motion]), motion)
+
+
+def _gouge_of_cells(judging: Judging, place: CellPlace) -> Spot:
+    """Return a gouge as the cells show it; its depth is the way out of the part, not straight up."""
+    from ..simulation.field.judge_kernels import ways_out
+
+    target, grid, depths = judging.wanted.target, judging.grid, np.zeros(len(place.cells))
+    ways_out(frozen(target.around), frozen(judging.cut.heights), place.cells, (grid.pitch, 0.0), depths)
+    worst = int(np.argmax(depths))
+    row, col = divmod(int(place.cells[worst]), grid.cols)
+    x, y = grid.place(int(place.cells[worst]))
+    line, motion = judging.line_at(row, col)
+    z, depth = float(judging.cut.heights[row, col]), float(depths[worst])
+    return Spot(SpotKind.GOUGE, x, y, z, depth, place.area_mm2, place.disc_mm, line, motion)
+
+
+def _worst(judging: Judging, spots: tuple[Spot, ...], gouged: int) -> Gouge:
+    """Return the deepest gouge, of so many; where there is none, how little the path keeps from one."""
+    part, worst = judging.part, spots[0] if spots else None
+    if judging.exact is None or not isinstance(part, FlatPart):
+        return Gouge(worst.depth_mm, worst.x, worst.y, worst.z, worst.motion, gouged) if worst else Gouge()
+    depths = judging.exact.depths
+    if worst:
+        count = max(gouged, int(np.sum(depths.depth > part.wall_tolerance)))
+        return Gouge(worst.depth_mm, worst.x, worst.y, worst.z, worst.motion, count)
+    if not len(depths.depth) or depths.depth.max() <= 0:
+        return Gouge()
+    k = int(np.argmax(depths.depth))
+    x, y, z = (depths.places[k] - np.array(part.origin)).tolist()
+    return Gouge(float(depths.depth[k]), x, y, z, int(depths.move[k]), 0)
+
+
+def _left(judging: Judging, place: CellPlace, kind: SpotKind) -> Spot:
+    """Return a place of metal left."""
+    row, col = place.cell
+    x, y = judging.grid.place(row * judging.grid.cols + col)
+    line, motion = judging.line_at(row, col)
+    return Spot(kind, x, y, float(judging.cut.heights[row, col]), place.worst, place.area_mm2, place.disc_mm, line, motion)
+
+
+def _measured(judging: Judging, place: Place) -> Spot:
+    """Return a piece of floor that is left; how high it stands, and who cut there last, the cells tell."""
+    grid, (x, y) = judging.grid, judging.to_program(place.x, place.y)
+    row, col = int((y - grid.y0) / grid.pitch), int((x - grid.x0) / grid.pitch)
+    kind = SpotKind.LEFT if place.reachable else SpotKind.UNREACHABLE
+    if not (0 <= row < grid.rows and 0 <= col < grid.cols):
+        return Spot(kind, x, y, 0.0, 0.0, place.area_mm2, place.disc_mm)
+    around = (slice(max(row - 1, 0), row + 2), slice(max(col - 1, 0), col + 2))
+    over = float(np.max(judging.cut.heights[around] - judging.wanted.target.wanted[around], initial=0.0))
+    wanted = float(judging.wanted.target.wanted[around].min())
+    if over <= judging.part.tolerance and place.disc_mm < 3 * grid.pitch:  # narrower than the cells: as high as the stock was
+        over = max(float(judging.cut.before.heights[around].max()) - wanted, 0.0)
+    return Spot(kind, x, y, wanted + over, over, place.area_mm2, place.disc_mm, *judging.line_at(row, col))
+
+
+def _bands(judging: Judging, deviation: NDArray[np.float32]) -> Iterator[Band]:
+    """Yield the area of each band of deviation, where the part says something."""
+    tolerance = judging.part.tolerance
+    edges = sorted({-np.inf, np.inf, -tolerance, tolerance, *(edge for edge in BANDS if abs(edge) > tolerance)})
+    told = deviation[np.isfinite(judging.wanted.target.high) | (deviation < 0)]
+    counts, _ = np.histogram(told, np.array(edges))
+    for low, high, count in zip(edges[:-1], edges[1:], counts.tolist(), strict=True):
+        yield Band(float(low), float(high), count * judging.grid.pitch**2)

@@ -1,0 +1,56 @@
+"""The sweep of a few moves in facets, for a picture of the method."""
+
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from app.core.errors import ParameterError
+from app.exhibits.wedges_picture import FINENESS, has_wedges, wedges_picture
+from app.model.tool import Tool, ToolKind
+
+BALL = Tool(1, 6.0, ToolKind.BALL)
+TIPS = np.array([[0.0, 0.0, -2.0], [10.0, 0.0, -2.0], [10.0, 8.0, -3.0], [2.0, 8.0, -3.0]])
+
+
+def distances(points, tips, radius):
+    """How far points are from the chain of the ball's centres."""
+    centres = tips + (0.0, 0.0, radius)
+    found = np.full(len(points), np.inf)
+    for a, b in pairwise(centres):
+        share = np.clip((points - a) @ (b - a) / max(np.dot(b - a, b - a), 1e-300), 0.0, 1.0)
+        found = np.minimum(found, np.linalg.norm(points - a - share[:, None] * (b - a), axis=1))
+    return found
+
+
+def test_facets_lie_on_what_the_ball_sweeps_and_look_down():
+    made = wedges_picture(TIPS, BALL)
+    corners = made.quads.reshape(-1, 3).astype(float)
+    away = distances(corners, TIPS, BALL.radius)
+    assert made.facet == BALL.radius / FINENESS
+    assert away.max() < BALL.radius + 1e-4 and np.mean(np.abs(away - BALL.radius) < 1e-4) > 0.9
+    middles = made.quads.mean(axis=1)
+    assert middles[:, 2].max() < TIPS[:, 2].max() + BALL.radius + made.facet
+    assert set(np.unique(made.kind)) == {0, 1} and len(made.kind) == len(made.quads)
+
+
+def test_cylinders_run_along_moves_and_wedges_stand_at_corners():
+    made = wedges_picture(TIPS, BALL)
+    middles = made.quads.mean(axis=1).astype(float)
+    corner = np.array([np.linalg.norm(middles - (tip + (0, 0, BALL.radius)), axis=1) for tip in TIPS]).min(axis=0)
+    assert np.all(corner[made.kind == 1] <= BALL.radius + 1e-4)
+    assert corner[made.kind == 0].min() > 1.2 * BALL.radius
+
+
+def test_one_place_is_half_a_ball_and_finer_facets_are_more():
+    ball = wedges_picture(TIPS[:1], BALL)
+    assert set(np.unique(ball.kind)) == {1}
+    assert ball.quads[..., 2].min() == pytest.approx(-2.0, abs=0.02)
+    assert len(wedges_picture(TIPS, BALL, 0.1).quads) > 2 * len(wedges_picture(TIPS, BALL, 0.4).quads)
+
+
+def test_what_is_no_ball_has_none():
+    assert has_wedges(BALL) and not has_wedges(Tool(2, 6.0))
+    with pytest.raises(ParameterError, match="T2 is a flat tool; cylinders and wedges are the sweep of a ball"):
+        wedges_picture(TIPS, Tool(2, 6.0))

@@ -1,0 +1,25 @@
+"""The library of DXF is read without the grammar of its queries, and answers queries all the same."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+from tests.conftest import ROOT
+
+_ASK = """
+import sys
+from app.formats.drawing import read_drawing
+read_drawing("fig2.dxf", open("resources/samples/fig2.dxf", "rb").read())
+assert "pyparsing" not in sys.modules
+import ezdxf
+document = ezdxf.new()
+document.modelspace().add_circle((0, 0), 1)
+document.modelspace().add_line((0, 0), (1, 1))
+print(len(document.modelspace().query("CIRCLE")), len(document.modelspace().query("*")), "pyparsing" in sys.modules)
+"""
+
+
+def test_queries_are_answered_when_somebody_asks() -> None:
+    done = subprocess.run([sys.executable, "-c", _ASK], check=True, capture_output=True, text=True, cwd=ROOT)
+    assert done.stdout.split() == ["1", "2", "True"]

@@ -1,0 +1,77 @@
+"""Cutter compensation: where the tool's centre goes, in closed form; what cannot be reached is refused."""
+
+import pytest
+
+from app.gcode.interpreter.options import ReadOptions, ToolOffset
+from app.gcode.interpreter.reader import read_program
+from app.model.motion import MotionKind
+from tests.gcode.interpreter.programs import ends, kinds, read
+
+TABLE = {1: ToolOffset(diameter=2.0), 2: ToolOffset(diameter=10.0)}
+
+
+def centre_path(text: str) -> list[tuple[float, ...]]:
+    return ends(read(f"F100 T1 M6\n{text}\nM2\n", tool_table=TABLE))
+
+
+def told(text: str) -> str:
+    error = read_program(f"F100 T1 M6\n{text}\nM2\n".encode(), ReadOptions(tool_table=TABLE)).error
+    return error.told("a.ngc") if error else ""
+
+
+def test_inside_a_square_the_corners_are_cut_off() -> None:
+    assert centre_path("G41 G1 X10\nY10\nX0\nY0\nG40\nX-5") == [(9, 1, 0), (9, 9, 0), (1, 9, 0), (1, 0, 0), (-5, 0, 0)]
+
+
+def test_outside_a_square_the_tool_rolls_round_the_corners() -> None:
+    program = read("F100 T1 M6\nG42 G1 X10\nY10\nX0\nG40 Y20\nM2\n", tool_table=TABLE)
+    assert ends(program) == [(10, -1, 0), (11, 0, 0), (11, 10, 0), (10, 11, 0), (0, 11, 0), (0, 20, 0)]
+    assert kinds(program) == [MotionKind.LINE, MotionKind.ARC_CCW, MotionKind.LINE, MotionKind.ARC_CCW, MotionKind.LINE, MotionKind.LINE]
+    assert program.motions.centre[1].tolist() == [10, 0, 0]
+    assert program.motions.line.tolist() == [2, 3, 3, 4, 4, 5]
+
+
+def test_arcs_become_larger_or_smaller() -> None:
+    program = read("F100 T1 M6\nG41 G1 X10\nG3 X14 Y4 J4\nG1 Y8\nG2 X18 Y12 I4\nG1 X20\nM2\n", tool_table=TABLE)
+    assert ends(program) == [(10, 1, 0), (13, 4, 0), (13, 8, 0), (18, 13, 0), (20, 13, 0)]
+
+
+def test_a_line_is_cut_off_where_it_meets_an_arc() -> None:
+    path = centre_path("G41 G1 X10 Y0\nG1 X20\nG3 X20 Y8 R5\nG40 G1 X0")
+    assert path[1] == pytest.approx((17 + (4**2 - 3**2) ** 0.5, 1, 0), abs=1e-6)
+
+
+def test_heights_between_the_corners_go_with_them() -> None:
+    assert centre_path("G41 G1 X10\nZ-1\nY10 Z-2") == [(9, 1, 0), (9, 1, -1), (9, 10, -2)]
+
+
+def test_the_tool_stays_where_it_is_at_g40() -> None:
+    program = read("F100 T1 M6\nG41 G1 X10\nY10\nG40\nY20\nM2\n", tool_table=TABLE)
+    assert program.motions.start[-1].tolist() == [9, 10, 0]
+    assert program.motions.end[-1].tolist() == [10, 20, 0]
+
+
+def test_other_planes_and_given_diameters() -> None:
+    assert centre_path("G18 G42 G1 Z10\nX10")[0] == (-1, 0, 10)
+    assert centre_path("G41.1 D4 G1 X10\nY10")[0] == (8, 2, 0)
+    assert centre_path("G41 D0 G1 X10\nY10") == [(10, 0, 0), (10, 10, 0)]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("G41 G1 X0.5", "a.ngc:2:1: G41: the first move under cutter compensation must be longer than the tool's radius"),
+        ("G41 G1 X10\nG3 X10.5 Y0.5 J0.5", "the tool (radius 1 mm) does not fit into an arc of radius 0.5 mm"),
+        ("G41 G1 X10\nY10\nX9.5\nY0", "does not reach into the inner corner"),
+        ("G41 G1 X10\nG28", "G28 cannot be while cutter compensation is on"),
+        ("G41 G1 X10\nG54", "G54 cannot be while cutter compensation is on"),
+        ("G41 G1 X10\nG18", "G18 cannot be while cutter compensation is on"),
+        ("G41 G1 X10\nG81 X5 Z-1 R1", "a canned cycle cannot be while"),
+        ("G41 G1 X10\nG42 X20", "cutter compensation is on already"),
+        ("G19 G41", "works in the planes G17 and G18"),
+        ("G41 D9", "a.ngc:2:5: D9: G41 needs the diameter of tool 9"),
+        ("G41 G1 X10\nG5 I1 J1 P1 Q1 X20", "follows no splines"),
+    ],
+)
+def test_what_cannot_be_done_is_told(text: str, expected: str) -> None:
+    assert expected in told(text)

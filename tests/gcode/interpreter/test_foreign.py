@@ -1,0 +1,116 @@
+"""How Fanuc, Haas, Mach3 and grbl programs of every day are written, beside what LinuxCNC knows."""
+
+import pytest
+
+from app.gcode.interpreter.dialect import Dialect
+from app.gcode.interpreter.guess import guess_dialect
+from app.gcode.interpreter.options import ReadOptions
+from app.gcode.interpreter.reader import read_program
+from tests.gcode.interpreter.programs import ends, read, told, warnings
+
+OTHERS = [Dialect.FANUC, Dialect.HAAS, Dialect.MACH3]
+
+
+@pytest.mark.parametrize("dialect", OTHERS)
+def test_a_per_cent_sign_at_the_end_alone_skips_nothing(dialect: Dialect) -> None:
+    assert ends(read("G21\nG0 X1.\nG1 X2. F100.\nM30\n%\n", dialect)) == [(1, 0, 0), (2, 0, 0)]
+    assert ends(read("O1\nG21 G0 X1.\nM30\n%\nO2\nG0 X-500.\nM30\n", dialect)) == [(1, 0, 0)]
+    assert ends(read("tape 7, made by hand\n%\nO1\nG21 G0 X1.\nM30\n%\n", dialect)) == [(1, 0, 0)]
+
+
+@pytest.mark.parametrize("dialect", list(Dialect))
+def test_g80_goes_with_any_motion(dialect: Dialect) -> None:
+    assert ends(read("G21 G0 G17 G40 G80 G90\nG80 G0 X5.\nG1 G80 X6. F100.\nM2\n", dialect))[-2:] == [(5, 0, 0), (6, 0, 0)]
+
+
+@pytest.mark.parametrize("dialect", OTHERS)
+def test_behind_a_cycle_the_motion_before_it_is_in_force(dialect: Dialect) -> None:
+    text = "G21 G0 Z5.\nG81 G99 X1. Z-1. R2. F100.\nG80\nZ25.\nM30\n"
+    assert ends(read(text, dialect))[-1] == (1, 0, 25)
+    assert "no G code that uses them" in told(text, Dialect.LINUXCNC)
+
+
+@pytest.mark.parametrize("text", ["G91 G28 Z0.", "G0 G91 G28 Z0.", "G91 G0 G28 Z0. M9", "G28 G91 Z0."])
+def test_home_with_a_motion_word(text: str) -> None:
+    assert ends(read(f"G21 G0 Z7.\n{text}\nM30\n", Dialect.FANUC)) == [(0, 0, 7), (0, 0, 0)]
+
+
+def test_the_next_hole_is_reached_level() -> None:
+    text = "G21 G0 Z50.\nG99 G81 X1. Z-1. R2. F100.\nG98 X2.\nG80\nM30\n"
+    assert ends(read(text, Dialect.FANUC)) == [(0, 0, 50), (1, 0, 50), (1, 0, 2), (1, 0, -1), (1, 0, 2), (2, 0, 2), (2, 0, -1), (2, 0, 50)]
+
+
+@pytest.mark.parametrize("code", ["G5.1 Q1", "G05.1 Q1 R5", "G05 P10000", "G8 P1", "G103 P1"])
+def test_modes_that_change_no_path_are_passed_over(code: str) -> None:
+    text = f"G21\n{code}\nG0 X1.\nM30\n"
+    assert ends(read(text, Dialect.FANUC)) == [(1, 0, 0)]
+    assert any("passed over" in warning for warning in warnings(text, Dialect.FANUC))
+
+
+def test_offsets_of_haas() -> None:
+    assert read("G21 G154 P7\nG0 X1.\nM30\n", Dialect.HAAS).states[0].work_offset == "G54.1 P7"
+    assert read("G21 G111\nG0 X1.\nM30\n", Dialect.HAAS).states[0].work_offset == "G54.1 P2"
+
+
+def test_a_macro_gets_its_arguments_by_their_letters() -> None:
+    text = "G21\nG65 P9 A1. B2. X3. I4. L2\nM30\nO9\nG91 G0 X#1 Y#2 Z[#24+#4]\nM99\n"
+    assert ends(read(text, Dialect.FANUC)) == [(1, 2, 7), (2, 4, 14)]
+    assert "there is no subroutine O8" in told("G65 P8\n", Dialect.FANUC)
+
+
+@pytest.mark.parametrize(
+    ("code", "words"), [("G12 I5. F10.", "a circular pocket"), ("G70 I5. L4", "a circle of holes"), ("G150 X1.", "a pocket")]
+)
+def test_cycles_of_the_controls_own_are_refused_by_name(code: str, words: str) -> None:
+    assert f"{words}" in told(f"G21\n{code}\n", Dialect.HAAS)
+
+
+def test_rotary_axes_are_told() -> None:
+    assert any("the axis A is not followed" in text for text in warnings("F100\nG1 X1 A90\nA120\nM2\n"))
+
+
+def test_slashed_blocks_are_told() -> None:
+    assert any("slash" in text for text in warnings("G0 X1\n/G0 X2\nN5 /G0 X3\nM2\n"))
+    assert ends(read("G0 X1\n/G0 X2\nN5 /G0 X3\nM2\n")) == [(1, 0, 0)]
+    assert len(read_program(b"G0 X1\n/G0 X2\nN5 /2 G0 X3\nM2\n", ReadOptions(block_delete=False)).motions) == 3
+
+
+def test_numbers_and_units_that_settings_decide_are_told() -> None:
+    assert any("without a decimal point count in 0.001 mm" in text for text in warnings("G21 G0 X10\nM30\n", Dialect.HAAS))
+    assert not warnings("G21 G0 X10. Y0 Z-.5\nN100 G1 X1. F100 S1000\n(X10)\nM30\n", Dialect.HAAS)
+    assert any("names no units" in text for text in warnings("G0 X1.\nM30\n", Dialect.FANUC))
+
+
+def test_commands_of_grbl_itself_are_passed_over() -> None:
+    assert ends(read("$H\n$32=1\nG0 X1\n", Dialect.GRBL)) == [(1, 0, 0)]
+
+
+def test_plain_lines_that_repeat_cost_little() -> None:
+    body = "".join(f"G1 X{k % 50}.{k % 7}\n" for k in range(2600))
+    assert len(read(f"F100\nM98 P2 L60\nM2\nO2\n{body}M99\n").motions) == 60 * 2600
+
+
+@pytest.mark.parametrize(
+    ("text", "dialect"),
+    [
+        ("(Fixture: Haas 5C vise)\nG21\nG0 X10 Y20\n", Dialect.LINUXCNC),
+        ("(HITOFUDE FOR HAAS, LENGTHS IN MM)\n", Dialect.HAAS),
+        ("(Post: haas vf2)\n", Dialect.HAAS),
+        ("%\nO1001 (PART)\nG5.1 Q1\n", Dialect.FANUC),
+        ("G5.1 X1 Y1 I1 J1\n", Dialect.LINUXCNC),
+        ("G187 P2\n", Dialect.HAAS),
+        ("(G187)\n", Dialect.LINUXCNC),
+    ],
+)
+def test_which_control_a_program_is_for(text: str, dialect: Dialect) -> None:
+    assert guess_dialect(text.encode()) is dialect
+
+
+def test_linuxcnc_wants_a_feed_behind_every_feed_mode() -> None:
+    assert "a feed motion needs a feed rate" in told("F100\nG94\nG1 X1\n")
+    assert "LinuxCNC does not know G187" in told("G187 P1\n")
+
+
+def test_a_program_without_an_end_is_told() -> None:
+    assert any("no end" in text for text in warnings("G0 X1\nG0 X2\n"))
+    assert not warnings("%\nG0 X1\n%\n") + warnings("G0 X1\nM30\n") + warnings("G0 X1\n", Dialect.GRBL)

@@ -1,0 +1,41 @@
+"""Which control a program is taken for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from app.gcode.interpreter.dialect import Dialect
+from app.gcode.interpreter.guess import guess_dialect
+from tests.conftest import ROOT
+
+GOLDEN = sorted((ROOT / "tests" / "nc" / "golden").iterdir())
+
+
+@pytest.mark.parametrize(("text", "dialect"), [
+    ("", Dialect.LINUXCNC),
+    ("G21\nG1 X1 F100\n", Dialect.LINUXCNC),
+    ("; for grbl 1.1\nG21\n", Dialect.GRBL),
+    ("$H\nG21\n", Dialect.GRBL),
+    ("(Mach3 mill)\nO1000\n", Dialect.MACH3),
+    ("O<bore> sub\n", Dialect.LINUXCNC),
+    ("N10 o100 if [#1 GT 2]\n", Dialect.LINUXCNC),
+    ("G64 P0.01\n", Dialect.LINUXCNC),
+    ("%\nO1234 (PLATE)\nG21\n", Dialect.FANUC),
+    ("WHILE [#1 LT 5] DO1\n", Dialect.FANUC),
+    ("O1000\nG54.1 P3\n", Dialect.FANUC),
+    ("O1000\nG187 P3\n", Dialect.HAAS),
+])
+def test_what_only_one_control_says_tells(text: str, dialect: Dialect) -> None:
+    assert guess_dialect(text.encode()) is dialect
+
+
+@pytest.mark.parametrize("name", ["test_pycam.ngc", "tux.ngc", "jsdc.gcode", "rs274ngc_canned_cycles.ngc"])
+def test_programs_that_tell_nothing_are_taken_for_linuxcnc(data: Path, name: str) -> None:
+    assert guess_dialect((data / "nc" / name).read_bytes()) is Dialect.LINUXCNC
+
+
+@pytest.mark.parametrize("path", GOLDEN, ids=lambda path: path.name)
+def test_our_own_programs_are_known(path: Path) -> None:
+    assert guess_dialect(path.read_bytes()).value == path.name.split("_")[0]

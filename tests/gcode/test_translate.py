@@ -1,0 +1,228 @@
+"""Programs in another control's words: every number and mode said as that control takes it, or refused by line and word."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from app.core.errors import InputError
+from app.gcode.interpreter.dialect import Dialect
+from app.gcode.interpreter.guess import guess_dialect
+from app.gcode.interpreter.options import ReadOptions, ToolOffset
+from app.gcode.interpreter.program import EventKind, NcProgram
+from app.gcode.interpreter.reader import read_program
+from app.gcode.posts.posts import load_post
+from app.gcode.translate.program import Translated, translated
+from app.gcode.writer.blocks import Blocks
+from app.model.motion import MotionKind
+from tests.conftest import ROOT
+from tests.examples import examples
+from tests.gcode.interpreter.rs274_motions import assert_same, rs274
+from tests.gcode.rs274_oracle import RS274
+
+GOLDEN = ROOT / "tests" / "nc" / "golden"
+HEAD = "G21 G90 G17\nT1 M6\nS8000 M3\n"
+CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3")
+
+
+def into(control: str, text: str, came: str = "linuxcnc") -> Translated:
+    return translated("a.ngc", text.encode(), ReadOptions(Dialect(came)), load_post(control))
+
+
+def blocks(control: str, text: str, came: str = "linuxcnc") -> list[str]:
+    """What is written between the post's own first and last blocks, comments left out."""
+    lines = [line for line in into(control, text, came).data.decode().splitlines() if not line.startswith("(")]
+    begin = next(k for k, line in enumerate(lines) if line.startswith("G17")) + 1
+    return lines[begin : next(k for k, line in enumerate(lines) if line in ("M30", "M2"))]
+
+
+def told(control: str, text: str, came: str = "linuxcnc") -> str:
+    with pytest.raises(InputError) as error:
+        into(control, text, came)
+    return str(error.value)
+
+
+def test_a_length_without_a_point_gets_one() -> None:
+    """Or it would be a thousandth there: 0.010 mm."""
+    assert blocks("fanuc", "G21 G90\nG0 X10\nG1 Y5 Z-1 F100\nM2\n")[2:] == ["G0 X10.", "G1 Y5. Z-1. F100."]
+    after = into("fanuc", "G21 G90\nG0 X10\nM2\n").program
+    assert after.motions.end.tolist() == [[10, 0, 0]]
+
+
+def test_a_length_of_thousandths_is_written_out() -> None:
+    assert blocks("linuxcnc", "G21 G90\nG0 X10 Y2.5\nM30\n", "fanuc")[3:] == ["G0 X0.0100 Y2.5000"]
+
+
+def test_dwells_count_as_the_control_counts_them() -> None:
+    assert "G4 P1500" in blocks("fanuc", "G4 P1.5\nG0 X1\nM2\n")
+    assert "G4 P1.5" in blocks("grbl", "G4 P1500\nG0 X1.\nM30\n", "fanuc")
+    assert "a.ngc:1:4: P0.0004: Haas counts dwells in 0.001 s" in told("haas", "G4 P0.0004\nG0 X1\nM2\n")
+
+
+def test_pecks_are_moves_where_the_control_has_settings_of_its_own() -> None:
+    hole = "G0 X5 Y6 Z2\nG99 G83 X5 Y6 Z-3 R1 Q2 F80\nG80\nM2\n"
+    made = ["G1 Z-1. F80.", "G0 Z1.", "Z-0.746", "G1 Z-3.", "G0 Z1."]
+    assert blocks("fanuc", hole)[-6:] == ["Z1.", *made]
+
+
+def test_holes_without_pecks_stay_a_cycle() -> None:
+    text = "G0 X5 Y6 Z9\nG98 G81 X5 Y6 Z-3 R1 F80\nX7\nG80\nG0 X0\nM2\n"
+    expected = ["G98 G81 X5. Y6. Z-3. R1. F80.", "G98 G81 X7. Y6. Z-3. R1.", "G80", "G0 X0."]
+    assert blocks("fanuc", text)[-4:] == expected
+    assert not any("G81" in line for line in blocks("grbl", text)), "grbl has no cycles"
+
+
+def test_a_length_stands_with_the_move_that_takes_it_up() -> None:
+    """Alone G43 may move Z by the offset on a Fanuc."""
+    assert blocks("fanuc", HEAD + "G43\nG0 X1\nZ15\nG1 Z-1 F100\nG49\nG0 Z20\nM2\n")[-4:] == [
+        "G0 X1.", "G0 G43 H1 Z15.", "G1 Z-1. F100.", "G0 G49 Z20.",
+    ]  # fmt: skip
+    assert blocks("linuxcnc", "G21 G90\nT3 M6\nG0 G43 H3 Z15.\nM30\n", "fanuc")[-2:] == ["G43 H3", "G0 Z15.0000"]
+
+
+def test_path_modes_are_those_of_the_control() -> None:
+    text = "G64 P0.05\nG0 X1\nG61\nG1 X2 F100\nM2\n"
+    assert blocks("haas", text)[1:] == ["G187 E0.010", "G187 E0.050", "G0 X1.", "G61", "G1 X2. F100."]
+    assert blocks("fanuc", text)[1:] == ["G64", "G0 X1.", "G61", "G1 X2. F100."]
+    assert "G64 P0.0200 Q0" in blocks("linuxcnc", "G21\nG187 E0.02\nG0 X1.\nM30\n", "haas")
+
+
+def test_units_and_what_they_round_to() -> None:
+    assert blocks("fanuc", "G20 G90\nG0 X1\nG21\nG1 X10.12345 F100\nM2\n")[-3:] == ["G0 X1.", "G21", "G1 X10.123 F100."]
+    assert into("fanuc", "G20 G90\nG0 X1\nM2\n").data.decode().splitlines()[3] == "G17 G20 G90 G94 G40 G49 G80"
+
+
+def test_increments_do_not_add_up_their_rounding() -> None:
+    text = "G21 G90 G0 X0 Y0 Z0\nG91\n" + "G1 X0.0004 F100\n" * 1000 + "M2\n"
+    after = into("fanuc", text).program
+    assert after.motions.end[-1, 0] == pytest.approx(0.4, abs=1e-9)
+
+
+def test_arcs_have_their_centre_from_the_start_and_no_full_turn() -> None:
+    assert blocks("fanuc", "G90.1\nG0 X10 Y0\nG3 X-10 Y0 I0 J0 F100\nM2\n")[-1] == "G3 X-10. Y0. I-10. J0. F100."
+    assert blocks("haas", "G0 X10 Y0\nG2 X10 Y0 I-10 F100\nM2\n")[-2:] == ["G2 X-10. Y0. I-10. J0. F100.", "X10. Y0. I10. J0."]
+    assert blocks("linuxcnc", "G0 X10. Y0.\nG18 G3 X12. Z0. R1. F100.\nM30\n", "fanuc")[-1].startswith("G3 X12.0000 Z0.0000 I1.0000 K")
+
+
+def test_comments_are_in_the_controls_signs() -> None:
+    made = into("fanuc", "(slot 1; \"deep\")\nG0 X1 ;go\nM2\n").data.decode()
+    assert "(SLOT 1, ,DEEP,)\n" in made and "(GO)\n" in made
+    text = (GOLDEN / "linuxcnc_mm.ngc").read_text()
+    assert "(Hitofude for LinuxCNC" in text
+    after = into("fanuc", text).data
+    assert b"HITOFUDE FOR LINUXCNC" not in after and guess_dialect(after) is Dialect.FANUC
+
+
+REFUSED = [
+    ("fanuc", "G0 X[#5420+1]\nM2\n", "a.ngc:1:4: X[#5420+1]: an expression is not written for Fanuc"),
+    ("fanuc", "#1=2\nG0 X1\nM2\n", "a.ngc:1: parameters (#)"),
+    ("fanuc", "o1 repeat [2]\nG91 G0 X1\no1 endrepeat\nM2\n", "a.ngc:1: subroutines, loops and jumps"),
+    ("fanuc", "M98 P5\nM2\no5\nG0 X1\nM99\n", "a.ngc:1:1: M98: M98 has no counterpart"),
+    ("fanuc", "/G0 X1\nG0 X2\nM2\n", "a.ngc:1: a block that may be left out (/)"),
+    ("fanuc", "G0 X1\nM2\nG0 X5\n", "a.ngc:3: what stands behind the end"),
+    ("fanuc", "F100\nG41.1 D2\nG1 X5\nG40\nG0 X7\nM2\n", "a.ngc:2:1: G41.1: G41.1 has no counterpart"),
+    ("fanuc", "F100\nG2 X0 I1 P3\nM2\n", "a.ngc:2:10: P3: several turns in one block"),
+    ("haas", "F100\nG5 I1 J1 P1 Q1 X20\nM2\n", "a.ngc:2:1: G5: G5 has no counterpart"),
+    ("haas", "G59.1\nG0 X1\nM2\n", "a.ngc:1:1: G59.1: G59.1 has no counterpart"),
+    ("haas", "G0 X1 A5\nM2\n", "a.ngc:1:7: A5: the axis A is not written for Haas"),
+    ("haas", "M62 P1\nG0 X1\nM2\n", "a.ngc:1:1: M62: M62 has no counterpart"),
+    ("haas", "M101\nG0 X1\nM2\n", "a.ngc:1:1: M101: M101 has no counterpart"),
+    ("haas", "S100.5 M3\nG0 X1\nM2\n", "a.ngc:1:1: S100.5: Haas takes whole speeds only"),
+    ("haas", "S100 M3\nF100\nG0 Z5\nG84 X1 Y1 Z-1 R1 P0.1\nM2\n", "a.ngc:4:1: G84: G84 has no counterpart"),
+    ("haas", "G38.2 Z-5 F100\nM2\n", "a.ngc:1:1: G38.2: G38.2 has no counterpart"),
+    ("haas", "F100\nG53 G1 X5\nM2\n", "a.ngc:2:1: G53: G53 has no counterpart"),
+    ("haas", "G0 @5 ^30\nM2\n", "a.ngc:1:4: @5: polar coordinates are not written"),
+    ("grbl", "T1 M6\nG0 X1\nM2\n", "a.ngc:1:4: M6: grbl changes no tools"),
+    ("grbl", "G43.1 Z5\nG0 X1\nM2\n", "a.ngc:1:1: G43.1: G43.1 has no counterpart"),
+]
+
+
+@pytest.mark.parametrize(("control", "text", "words"), REFUSED)
+def test_what_has_no_counterpart_is_named(control: str, text: str, words: str) -> None:
+    assert words in told(control, text)
+    assert told(control, text).endswith("keep the program for LinuxCNC.")
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("came", CONTROLS)
+@pytest.mark.parametrize("units", ["mm", "inch"])
+def test_our_own_programs_are_the_same_on_every_control(came: str, control: str, units: str) -> None:
+    if came == control:
+        return
+    data = next(GOLDEN.glob(f"{came}_{units}.*")).read_bytes()
+    made = translated("a", data, ReadOptions(Dialect(came)), load_post(control))
+    before = read_program(data, ReadOptions(Dialect(came)))
+    assert_moves_alike(before, made.program, made.off)
+    if control == "linuxcnc" and RS274 is not None:
+        tools = {number: ToolOffset() for number in (1, 2)}
+        printed, complaint = rs274(made.data, tools)
+        assert not complaint
+        assert_same(made.program, printed)
+
+
+def ends_of(program: NcProgram) -> np.ndarray:
+    """Where each motion that moves ends, but for the machine's own places."""
+    motions = program.motions
+    kept = np.any(motions.start != motions.end, axis=1) | (motions.kind > MotionKind.LINE)
+    kept[list(program.homeward)] = False
+    return motions.end[kept]
+
+
+def assert_moves_alike(before: NcProgram, after: NcProgram, off: float) -> None:
+    """The same places in the same order, but for those where arcs are parted; and the same waits."""
+    assert after.error is None
+    old, new = ends_of(before), ends_of(after)
+    at = 0
+    for place in old:
+        while np.abs(new[at] - place).max() > off:
+            at += 1
+        at += 1
+    assert len(new) - len(old) <= 2 * np.sum(before.motions.kind > MotionKind.LINE)
+    waits = [[event.value for event in program.events if event.kind is EventKind.DWELL] for program in (before, after)]
+    assert waits[0] == waits[1]
+
+
+lengths = st.decimals(-40, 40, places=4).map(lambda value: f"{value:.4f}")
+axes = st.lists(st.sampled_from("XYZ"), min_size=1, max_size=3, unique=True).flatmap(
+    lambda letters: st.tuples(*(lengths for _ in letters)).map(lambda values: " ".join(map("".join, zip(letters, values, strict=True))))
+)
+lines = st.one_of(
+    st.builds("G0 {}".format, axes), st.builds("G1 {}".format, axes), axes, st.builds("G91 G1 {}\nG90".format, axes),
+    st.builds("G91 G2 {}\nG90".format, st.sampled_from(["X10.0 I5.0", "Y2.0 R1.0", "I3.0 J1.0", "X1.0 Y1.0 I1.0 Z-1.0"])),
+    st.builds("G0 Z50.0\n{} X{} Y{} Z-5.0 R2.0\nX{}\nG80".format, st.sampled_from(["G98 G81", "G99 G81", "G83 Q2.5", "G82 P0.5"]),
+              lengths, lengths, lengths),
+    st.sampled_from(["G20", "G21", "S900 M3", "M5", "M8", "M9", "G4 P0.5", "M1", "G54", "G55", "G61", "G64", "F55.5", "T2 M6", "(text)"]),
+)  # fmt: skip
+
+
+@settings(max_examples=examples(60), deadline=None)
+@given(st.lists(lines, max_size=10), st.sampled_from(CONTROLS), st.sampled_from(CONTROLS))
+def test_random_programs_move_alike_on_every_control(some: list[str], came: str, control: str) -> None:
+    text = "\n".join(["G21 G90 G17 F100.0", "G0 X1.0 Y2.0 Z3.0", *some, "M30", ""])
+    before = read_program(text.encode(), ReadOptions(Dialect(came)))
+    if came == control or before.error is not None:
+        return
+    assert_moves_alike(before, (made := into(control, text, came)).program, made.off)
+
+
+def test_a_post_that_does_not_say_its_modes_is_refused() -> None:
+    post = load_post("fanuc")
+    silent = replace(post, program=replace(post.program, start=("G54",)))
+    with pytest.raises(InputError, match=r"hangs on modes that another job may have left in force; let the post's program\.start say them"):
+        translated("a.ngc", b"G21 G90\nG0 X1\nM2\n", ReadOptions(), silent)
+
+
+def test_a_writer_that_errs_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever the writer does, what the other control makes of it is held against the program that came."""
+    right = Blocks.block
+    for was, now in (("X10.", "X10.1"), ("F100.", "F1000."), ("M3", "M4"), ("P1500", "P150"), ("G1 ", "G0 "), ("H1", "H2"), ("G55", "G54")):
+        monkeypatch.setattr(Blocks, "block", lambda self, text, was=was, now=now: right(self, text.replace(was, now)))
+        text = HEAD + "G4 P1.5\nG43\nG55\nG10 L2 P2 X5\nG0 Z5\nX3\nG1 X10 F100\nM2\n"
+        with pytest.raises(InputError, match="is not the same there"):
+            pytest.fail(f"{was} went unseen: {into('fanuc', text).data!r}")
+    monkeypatch.setattr(Blocks, "block", right)
+    into("fanuc", text)

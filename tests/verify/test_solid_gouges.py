@@ -1,0 +1,145 @@
+"""Programs against a block with a pocket whose every depth is known: the same verdict however it is wound, and whatever the cells are."""
+
+import json
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.cli.main import main
+from app.model.finding import FindingKind
+from app.model.stock_box import StockBox
+from app.model.tool import Tool
+from app.simulation.field.solid import SolidStock, read_solid
+from app.simulation.field.triangle_tree import TriangleTree
+from app.simulation.field.workpiece import BoxStock
+from app.usecases.cut import CutOptions, CutProgram, CutSetup, cut
+from app.verify.parts import SolidPart
+from app.verify.solid_depth import Columns, DepthInSolid
+from tests.surfaces.solids import FLOOR, WALL, pocketed_block, stl
+from tests.verify.test_judge import program
+
+BLOCK = pocketed_block()
+
+
+def pocketing(gouge: float, one_wall: float, floor: float = -4.0) -> str:
+    """Clears the pocket with a flat tool of 6 mm, too wide by `gouge` all round, and by `one_wall` at X 30."""
+    lines = ["G21 G90 G94 G17", "T1 M6", "S1000 M3", "G0 Z5", "X20 Y15", f"G1 Z{floor} F300"]
+    x0, x1, y0, y1 = 13 - gouge, 27 + one_wall, 10 - gouge, 20 + gouge
+    for share in np.linspace(0.2, 1.0, 5).tolist():
+        (a, b), (c, d) = ([20 + (x - 20) * share for x in (x0, x1)], [15 + (y - 15) * share for y in (y0, y1)])
+        lines += [f"X{a:.4f} Y{c:.4f}", f"X{b:.4f}", f"Y{d:.4f}", f"X{a:.4f}", f"Y{c:.4f}"]
+    return "\n".join([*lines, "G0 Z5", "M2", ""])
+
+
+def judged(text: str, cells: int, leave: float = 0.0) -> CutProgram:
+    stock = BoxStock(StockBox(0, 0, -10, 40, 30, 0))
+    return cut(CutSetup((program(text),), {1: Tool(1, 6.0)}, stock, SolidPart(SolidStock(BLOCK), leave)), CutOptions(cells))
+
+
+def report(tmp_path: Path, triangles: np.ndarray, text: str) -> tuple[int, dict[str, Any]]:
+    (tmp_path / "part.stl").write_bytes(stl(triangles))
+    (tmp_path / "a.ngc").write_text(text)
+    status = main(["cut", str(tmp_path / "a.ngc"), "--tool=1=flat:6", "--stock=0,0,-10,40,30,0", "--against", str(tmp_path / "part.stl"),
+                   "--grid=128", "--report", str(tmp_path / "r.json"), "--quiet"])  # fmt: skip
+    return status, json.loads((tmp_path / "r.json").read_text())
+
+
+def reversed_at(rows: slice) -> np.ndarray:
+    found = BLOCK.copy()
+    found[rows] = found[rows, ::-1]
+    return found
+
+
+@pytest.mark.parametrize(("rows", "words"), [(slice(None), "inside out"), (WALL, "2 of 28 triangles"), (FLOOR, "2 of 28 triangles")])
+def test_the_verdict_is_that_of_the_solid_right_side_out(tmp_path: Path, rows: slice, words: str) -> None:
+    text = pocketing(0.3, 1.0)
+    expected, found = report(tmp_path, BLOCK, text), report(tmp_path, reversed_at(rows), text)
+    assert expected[0] == found[0] == 1
+    for key in ("gouge", "left", "worst", "worst_count", "bands", "certificate"):
+        assert found[1][key] == expected[1][key]
+    assert found[1]["gouge"]["max_mm"] == pytest.approx(1.0, abs=1e-4)
+    assert [said for said in found[1]["assumed"] if words in said] and not [said for said in expected[1]["assumed"] if "triangles" in said]
+    assert report(tmp_path, reversed_at(rows), pocketing(0.0, 0.0))[0] == 0
+
+
+def test_a_solid_that_is_not_closed_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "part.stl").write_bytes(stl(np.delete(BLOCK, 3, axis=0)))
+    (tmp_path / "a.ngc").write_text(pocketing(0.3, 1.0))
+    assert main(["cut", str(tmp_path / "a.ngc"), "--tool=1=flat:6", "--against", str(tmp_path / "part.stl")]) == 2
+    assert "part.stl: the solid's surface is not closed at (" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("cells", [64, 256, 512, pytest.param(1024, marks=pytest.mark.exhaustive)])
+@pytest.mark.parametrize(("floor", "deep"), [(-4.0, 1.0), (-4.3, 1.09**0.5)])
+def test_the_depth_is_the_same_at_every_grid(cells: int, floor: float, deep: float) -> None:
+    done = judged(pocketing(0.3, 1.0, floor), cells)
+    assert done.judgement is not None and done.judgement.certificate is not None
+    gouge, pitch = done.judgement.gouge, done.cut.before.grid.pitch
+    assert gouge.max_mm == pytest.approx(deep, abs=1e-4)
+    assert (gouge.x, gouge.z) == (pytest.approx(31.0, abs=1e-3), pytest.approx(floor, abs=1e-6))
+    assert deep <= done.judgement.certificate.gouge_mm <= deep + 2.5 * pitch
+
+
+@pytest.mark.parametrize("deep", [2.5, 8.0])
+def test_a_gouge_far_deeper_than_any_number_of_cells_is_told_as_it_is(deep: float) -> None:
+    """From 4 mm on the way up to the block's top is the nearest."""
+    gouge = judged(pocketing(0.0, deep), 600).judgement
+    assert gouge is not None and gouge.gouge.max_mm == pytest.approx(min(deep, 4.0), abs=1e-3)
+
+
+@pytest.mark.parametrize("cells", [256, pytest.param(1024, marks=pytest.mark.exhaustive)])
+def test_a_floor_that_is_too_deep_is_told_in_seconds(cells: int) -> None:
+    begin = time.perf_counter()
+    done = judged(pocketing(0.0, 0.0, -4.3), cells)
+    assert time.perf_counter() - begin < 20.0  # some 2 s; 97 s before
+    assert done.judgement is not None and done.judgement.gouge.max_mm == pytest.approx(0.3, abs=1e-5)
+    assert done.judgement.gouge.count == 1
+
+
+def test_stock_to_leave_counts_to_the_depth() -> None:
+    done = judged(pocketing(-0.2, 0.4, -3.7), 512, leave=0.3)
+    assert done.judgement is not None and done.judgement.gouge.max_mm == pytest.approx(0.7, abs=1e-3)
+
+
+def test_walls_that_are_asked_too_far_apart_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    from app.verify import wall_probe
+
+    monkeypatch.setattr(wall_probe, "MOST_POINTS", 100)
+    said = [finding for finding in judged(pocketing(0.0, 0.0), 256).findings if finding.kind is FindingKind.TOLERANCE]
+    assert len(said) == 1 and not said[0].counts and said[0].amount == pytest.approx(4 * (40 + 30 + 20 + 16) / 100)
+    monkeypatch.undo()
+    assert not [finding for finding in judged(pocketing(0.0, 0.0), 64).findings if finding.kind is FindingKind.TOLERANCE]
+
+
+def test_distances_are_those_of_every_triangle_asked_in_turn() -> None:
+    from trimesh.triangles import closest_point
+
+    rng = np.random.default_rng(1)
+    triangles = rng.random((200, 3, 3)) * rng.choice([0.01, 1.0], (200, 1, 1)) + 3 * rng.random((200, 1, 3))
+    places, tree = 5 * rng.random((60, 3)) - 1, TriangleTree.of(triangles)
+    plain = [np.linalg.norm(closest_point(triangles, np.broadcast_to(place, (200, 3))) - place, axis=1).min() for place in places]
+    assert tree.distances(places) == pytest.approx(plain, abs=1e-12)
+    segments = np.column_stack([places, places[:, 2] + 2 * rng.random(60)])
+    along = np.linspace(0, 1, 400)
+    dense = [tree.distances(np.column_stack([np.full((400, 2), (x, y)), low + along * (high - low)])).max() for x, y, low, high in segments]
+    deepest = tree.deepest(segments, np.zeros(60), 1e-6)
+    assert np.all(deepest >= np.array(dense) - 1e-6) and np.all(deepest <= np.array(dense) + 2 / 399 / 2)
+
+
+def test_columns_through_edges_and_corners_and_hollows_are_in_metal_where_it_is() -> None:
+    depth_in = DepthInSolid(SolidStock(BLOCK))
+    places = np.array([[20.0, 15.0], [5.0, 15.0], [10.0, 7.0], [0.0, 0.0], [-1.0, 5.0], [34.0, 15.0]])
+    columns = Columns(places, np.array([-20.0, -7.0, -20.0, -20.0, -20.0, -1.5]), np.full(6, 5.0))
+    assert depth_in.of(columns).tolist() == pytest.approx([3.0, 5.0, 3.0, 0.0, 0.0, 1.5], abs=1e-4)
+
+
+def test_faces_within_an_overlapping_body_are_no_surface(tmp_path: Path) -> None:
+    from tests.simulation.test_target import box
+
+    both = read_solid("a.stl", stl(np.concatenate([box((0, 0, 0), (20, 20, 20)), box((5, 5, 5), (35, 15, 15))])))
+    inner = Columns(np.array([[18.0, 10.0]]), np.array([10.0]), np.array([10.5]))
+    assert both.shells == 2
+    assert DepthInSolid(both).of(inner)[0] == pytest.approx(5.0, abs=0.6)
