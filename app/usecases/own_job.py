@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import PurePath
 
-from ..formats.drawing import PROJECTS
+from ..formats.readers import PROJECTS
 from .options import MakeOptions
 
 

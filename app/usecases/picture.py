@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..formats.plot.plot import CONTOUR, LINK, POCKET, RAPID, Picture, Points, Style
+from ..formats.plot.picture import CONTOUR, LINK, POCKET, RAPID, Picture, Points, Style
 from ..geometry.primitives import contour_rows
 from ..model.moves import MoveKind, Moves, Program, Purpose
 from ..toolpath.coverage.coverage import Coverage

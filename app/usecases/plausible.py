@@ -10,8 +10,9 @@ from dataclasses import replace
 from pathlib import PurePath
 
 from ..core.errors import InputError
-from ..formats.drawing import Drawing, read_drawing
+from ..formats.drawing import Drawing
 from ..formats.drawing_account import size_of
+from ..formats.readers import read_drawing
 from ..formats.reading_question import UNIT_WORDS, Choice, Question, Size, UndecidedError, about_size, size_words
 from ..model.job import Job
 from ..model.part import Part, Units

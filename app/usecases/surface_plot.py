@@ -14,8 +14,8 @@ from ..core.errors import InputError
 from ..formats.plot.hpgl import hpgl_bytes
 from ..formats.plot.layout import PlotOptions, lay_out
 from ..formats.plot.page_pdf import pages_pdf
+from ..formats.plot.page_svg import page_svg
 from ..formats.plot.surface_plot import VIEWS, BySurface, Kind, Look, Piece, View
-from ..formats.plot.svg import page_svg
 from ..model.moves import Purpose
 from ..model.scene import Passes
 from ..model.tool import Tool

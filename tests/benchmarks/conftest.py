@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.model.job import Job
 from app.model.part import Region
 from app.operations.compute import regions_of

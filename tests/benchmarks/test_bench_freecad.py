@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.gcode.interpreter.reader import read_program
 from app.model.curves import Circle, Line, Primitive
 from app.model.job import Job

@@ -17,7 +17,7 @@ from app.drafting.curves.shapes import curve_length
 from app.drafting.document import Document
 from app.drafting.language.language import COMMANDS
 from app.drafting.language.write import draw_text
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line
 from app.model.part import Part
 from tests.drafting.test_write import numbers

@@ -7,7 +7,7 @@ import pytest
 from app.core.errors import InputError
 from app.core.resources import resource
 from app.drafting.language.write import draw_text
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.geometry.chaining.chain import chain
 from app.model.curves import Arc, Circle, Line
 from app.model.part import Units

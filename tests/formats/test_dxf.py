@@ -9,8 +9,9 @@ import ezdxf
 import pytest
 
 from app.core.errors import InputError
-from app.formats.drawing import Drawing, read_drawing
+from app.formats.drawing import Drawing
 from app.formats.dxf.dxf import read_dxf
+from app.formats.readers import read_drawing
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from app.model.finding import FindingKind
 from app.model.part import Units

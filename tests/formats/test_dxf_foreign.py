@@ -7,8 +7,9 @@ import ezdxf
 import pytest
 
 from app.core.errors import InputError
-from app.formats.drawing import Drawing, read_drawing
+from app.formats.drawing import Drawing
 from app.formats.drawing_account import size_of
+from app.formats.readers import read_drawing
 from app.formats.reading_question import UndecidedError, size_words
 from app.model.curves import Circle, Line
 from app.model.finding import Finding, FindingKind

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from app.formats.drawing import Drawing, read_drawing
+from app.formats.drawing import Drawing
+from app.formats.readers import read_drawing
 from app.geometry.chaining.chain import Chaining, chain
 from app.geometry.primitives import contour_rows, lengths, signed_area
 from app.model.finding import FindingKind

@@ -11,7 +11,8 @@ from ezdxf.enums import TextEntityAlignment as Align
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.formats.drawing import Drawing, read_drawing
+from app.formats.drawing import Drawing
+from app.formats.readers import read_drawing
 from app.geometry import typeface
 from app.geometry.affine import Affine
 from app.geometry.lettering import engraving

@@ -9,7 +9,7 @@ from tests.conftest import ROOT
 
 _ASK = """
 import sys
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 read_drawing("fig2.dxf", open("resources/samples/fig2.dxf", "rb").read())
 assert "pyparsing" not in sys.modules
 import ezdxf

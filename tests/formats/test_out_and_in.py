@@ -2,9 +2,9 @@
 
 import pytest
 
-from app.formats.drawing import read_drawing
 from app.formats.dxf.dxf import read_dxf
 from app.formats.dxf.write import DxfVersion, dxf_bytes
+from app.formats.readers import read_drawing
 from app.formats.svg.svg import read_svg
 from app.formats.svg.write import svg_bytes
 from app.geometry.chaining.chain import chain

@@ -9,7 +9,9 @@ from xml.etree import ElementTree
 import cv2
 import numpy as np
 
-from app.formats.plot.plot import CONTOUR, LINK, POCKET, RAPID, Picture, layout, path_data, plot, svg
+from app.formats.plot.picture import CONTOUR, LINK, POCKET, RAPID, Picture, layout
+from app.formats.plot.picture_svg import path_data, svg
+from app.formats.plot.plot import plot
 from app.geometry.primitives import contour_rows
 from app.model.curves import Arc, Circle, Line
 from app.model.part import Contour

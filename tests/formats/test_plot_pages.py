@@ -16,7 +16,7 @@ from app.formats.plot.content import Shown
 from app.formats.plot.hpgl import hpgl_bytes
 from app.formats.plot.layout import MARGIN, OVERLAP, PlotOptions, lay_out, scale_words
 from app.formats.plot.page import Paper, segments
-from app.formats.plot.svg import page_svg
+from app.formats.plot.page_svg import page_svg
 from app.model.curves import Arc, Circle, Ellipse, Line, Spline
 from app.model.moves import MoveKind, Moves, Purpose
 from app.model.notes import Dimension, Guide, Mark, Measure

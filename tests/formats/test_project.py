@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 from app.core.errors import InputError
 from app.drafting.document import Document
 from app.drafting.history import State
-from app.formats.drawing import read_drawing
 from app.formats.job.toml import read_job
 from app.formats.job.write import empty_lists, job_lines
 from app.formats.project.beside import MOST_TEXT, Beside
 from app.formats.project.project import MOST_HEAD, Look, Project, read_project, write_project
+from app.formats.readers import read_drawing
 from app.model.curves import Circle
 from app.model.job import Job
 from app.model.part import Part

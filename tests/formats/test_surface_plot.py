@@ -18,9 +18,9 @@ from app.formats.plot.layout import PlotOptions, lay_out
 from app.formats.plot.page import Page
 from app.formats.plot.page_pdf import pages_pdf
 from app.formats.plot.page_png import page_png
+from app.formats.plot.page_svg import page_svg
 from app.formats.plot.surface_labels import free_places
 from app.formats.plot.surface_plot import DASHES, VIEWS, BySurface, Kind, Look, Piece, View, colour_of, line_of
-from app.formats.plot.svg import page_svg
 from app.model.scene import LineType
 from tests.formats.hpgl_player import Plotter
 

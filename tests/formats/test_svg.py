@@ -5,7 +5,8 @@ import math
 import pytest
 
 from app.core.errors import InputError
-from app.formats.drawing import Drawing, read_drawing
+from app.formats.drawing import Drawing
+from app.formats.readers import read_drawing
 from app.formats.svg.svg import read_svg
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from app.model.finding import FindingKind

@@ -10,7 +10,8 @@ from PySide6.QtGui import QImage, QPainter
 from PySide6.QtSvg import QSvgRenderer
 
 from app.core.errors import GeometryError
-from app.formats.drawing import Drawing, read_drawing
+from app.formats.drawing import Drawing
+from app.formats.readers import read_drawing
 from app.formats.svg.write import svg_bytes
 from app.geometry.arcs.arcs import lines_and_arcs
 from app.geometry.chaining.chain import chain

@@ -14,11 +14,11 @@ import numpy as np
 
 from app.core.settings import load_settings, state_folder
 from app.drafting.document import drawn
-from app.formats.drawing import read_drawing
 from app.formats.job.toml import read_job
 from app.formats.machine_toml import read_machine
 from app.formats.project.project import read_project
 from app.formats.project.recovery import recoveries
+from app.formats.readers import read_drawing
 from app.formats.scene.edit import with_table, with_value
 from app.formats.scene.toml import read_scene
 from app.formats.tools.files import read_rows, read_tools

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.core.errors import HitofudeError
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.gcode.interpreter.reader import read_program
 from app.model.curves import Circle, Curve
 from app.model.finding import FindingKind

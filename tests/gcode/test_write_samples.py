@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.gcode.checks.check import Meant, check
 from app.gcode.posts.posts import load_post, post_names
 from app.gcode.writer.write import write_files, write_program

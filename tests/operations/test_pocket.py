@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.core.errors import ParameterError
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import Level, offset_levels
 from app.geometry.primitives import lengths, pack

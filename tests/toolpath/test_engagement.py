@@ -14,7 +14,7 @@ from scipy.spatial import cKDTree
 
 from app.core.errors import Cancelled
 from app.core.progress import Progress
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.geometry.primitives import lengths, points_at
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Program

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from app.core.errors import Cancelled
 from app.core.progress import Progress
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Moves, Program
 from app.model.operation import ContourOperation, Cut, DrillOperation, PocketOperation

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core import tolerances
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import offset_levels
 from app.geometry.overlay.overlay import without_crossings

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from app.core.errors import Cancelled, ParameterError
 from app.core.progress import Progress
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import offset_levels
 from app.geometry.primitives import lengths, pack

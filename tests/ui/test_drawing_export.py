@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.model.curves import Circle
 from app.model.notes import Mark
 from app.ui.shell.drawing_export import FORMATS

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from app.core.errors import ParameterError
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.geometry.primitives import points_at
 from app.model.job import Job
 from app.model.moves import MoveKind

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.formats.plot.plot import CONTOUR, LINK, POCKET, RAPID
+from app.formats.plot.picture import CONTOUR, LINK, POCKET, RAPID
 from app.geometry.primitives import lengths
 from app.model.moves import Moves, Program, Purpose
 from app.toolpath.coverage.coverage import Coverage, Place

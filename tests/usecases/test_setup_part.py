@@ -9,7 +9,7 @@ import pytest
 import shapely
 from ezdxf.document import Drawing
 
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.gcode.posts.posts import load_post
 from app.gcode.writer.write import write_files
 from app.model.entry import Lead, LeadKind

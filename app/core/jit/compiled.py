@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable
 from functools import cached_property, update_wrapper
 from types import FunctionType
-from typing import Any
+from typing import Any, ClassVar
 
 from ..errors import HitofudeError
 from . import numba_door
@@ -31,7 +31,10 @@ class Kernel:
     Attributes:
         signature: in numba's words.
         counts: whether it counts who holds an array.
+        compile_missing: has a kernel compiled that is not in the store; set by the package, for what compiles knows kernels.
     """
+
+    compile_missing: ClassVar[Callable[[Kernel], None]]
 
     def __init__(self, function: FunctionType, signature: str, counts: bool) -> None:
         update_wrapper(self, function)
@@ -124,14 +127,10 @@ class Kernel:
         return numba_door.dispatcher(self.function, self.counts, called_from_python=not self.inner)
 
     def _first_call(self, *arguments: Any) -> Any:
-        from .compilers import compilers
-
         if self.inner:
             raise TypeError(f"{self.name} is called by kernels alone; name it without underscore to call it from Python")
         if not _store().has(self.entry) and self._for_callers is None:
-            compilers().demand(self)
-            if why := compilers().why(self):
-                raise HitofudeError(why)
+            Kernel.compile_missing(self)
         self._call = self._ready()
         return self._call(*arguments)
 

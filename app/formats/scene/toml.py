@@ -15,10 +15,10 @@ from ...model.job import Job, OriginZ
 from ...model.part import Part
 from ...model.scene import Passes, Scene, SceneStock, Surface
 from ...model.scene_curves import Sources
-from ..drawing import read_drawing
 from ..job.tables import JobText
 from ..job.toml import ORIGIN_XY, ORIGIN_Z, OUT_UNITS, job_tree, read_job_tables
 from ..job.write import tool_lines, word_of
+from ..readers import read_drawing
 
 JOB_TABLES = ("tool", "heights", "origin", "output")
 """Tables that are those of job files."""

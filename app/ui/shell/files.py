@@ -11,8 +11,8 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
 from ...drafting.document import Change
-from ...formats.drawing import SUFFIXES
 from ...formats.project.project import Look, Project
+from ...formats.readers import SUFFIXES
 from ...model.part import Part
 from ...model.reading import AS_THE_FILE_SAYS, Reading
 from ...usecases.bitmap_options import PICTURES, is_picture

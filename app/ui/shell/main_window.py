@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QLayout, QMainW
 
 from ...core.settings import Settings, ThemeChoice
 from ...drafting.document import Document
-from ...formats.drawing import SUFFIXES
+from ...formats.readers import SUFFIXES
 from ...usecases.bitmap_options import PICTURES
 from ..framework import style
 from ..framework.arrow import arrow_picture

@@ -108,7 +108,7 @@ def _shown(part: Part, layers: tuple[str, ...]) -> Part:
 
 
 def _read(path: Path, reading: Reading, before: Job, progress: Progress) -> Opened | Asked:
-    from ...formats.drawing import PROJECTS
+    from ...formats.readers import PROJECTS
 
     if path.suffix.lower() in PROJECTS:
         progress.step(0.05, f"Reading {path.name}")

@@ -178,7 +178,7 @@ def _looked_at(source: Source, progress: Progress) -> _Looked:
     Raises:
         InputError: it cannot be read any more.
     """
-    from ...formats.drawing import read_drawing  # imports the DXF reader: never on the window's thread
+    from ...formats.readers import read_drawing  # imports the DXF reader: never on the window's thread
 
     path, reading = Path(source.path), source.reading
     try:

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from app.drafting.language.write import curve_text
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.model.curves import Circle, Curve

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.core.resources import resource
 from app.drafting.document import Document
-from app.formats.drawing import read_drawing
+from app.formats.readers import read_drawing
 from app.geometry.offset.offset import offset_levels
 from app.geometry.primitives import pack
 from app.model.job import Job

@@ -11,7 +11,7 @@ from PySide6.QtGui import QImage, QImageWriter, QPagedPaintDevice, QPageLayout, 
 from .... import __version__
 from ....core.errors import InputError
 from ....formats.plot.hpgl import hpgl_bytes
-from ....formats.plot.svg import page_svg
+from ....formats.plot.page_svg import page_svg
 from .painting import Sheet, paint
 
 FORMATS = {".pdf": "PDF", ".svg": "SVG", ".png": "PNG", ".plt": "HP-GL/2 for plotters"}

@@ -95,7 +95,7 @@ class Paths:
 
 def sample_job(before: Job, progress: Progress = NO_PROGRESS) -> Job:
     """Return a job with the drawing of figure 2 and the tools of another."""
-    from ....formats.drawing import read_drawing
+    from ....formats.readers import read_drawing
 
     path = sample_path()
     progress.step(0.1, "Reading the sample")

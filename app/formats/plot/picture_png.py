@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...geometry.primitives import Rows, sample
 from .flat import dashes
-from .plot import (  # fmt: skip
+from .picture import (
     AREA,
     INK,
     LEFT,

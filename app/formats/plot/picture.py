@@ -1,0 +1,96 @@
+"""A picture of part and paths: what is drawn, how it looks, and where it comes to lie."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...geometry.primitives import Rows, boxes
+
+Points = NDArray[np.float64]
+
+WIDTH = 1600
+"""Pixels across a whole picture."""
+
+LEGEND = 220
+MARGIN = 40
+PAPER, INK, AREA, MUTED = "#FAFAF8", "#1E2227", "#F1F2EE", "#5C626A"
+LEFT, UNREACHABLE, PLUNGE = "#2979FF", "#B0A8C8", "#D55E00"
+
+
+@dataclass(frozen=True)
+class Style:
+    """How a kind of path is drawn: colour, width in pixels, dash and gap in pixels (none: solid)."""
+
+    name: str
+    colour: str
+    width: float
+    dash: tuple[float, ...] = ()
+
+
+PART = Style("Part", INK, 1.6)
+RAPID = Style("Rapid", "#8A8F98", 1.0, (1.5, 4.5))
+LINK = Style("Link", "#66C5AB", 1.0)
+POCKET = Style("Pocket", "#009E73", 1.6)
+CONTOUR = Style("Contour", "#E69F00", 1.8, (9.0, 5.0))
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What is drawn, in part coordinates, mm, y up.
+
+    Attributes:
+        title: shown above the legend.
+        contours: rows (n, 8) of each contour of the part.
+        paths: style and connected rows, drawn in this order.
+        plunges: (n, 2) where tools go down.
+        left, unreachable: outlines (n, 2), holes among them, of floor that is left within and out of reach.
+    """
+
+    title: str
+    contours: tuple[Rows, ...]
+    paths: tuple[tuple[Style, Rows], ...]
+    plunges: Points
+    left: tuple[Points, ...] = ()
+    unreachable: tuple[Points, ...] = ()
+
+    def styles(self) -> tuple[Style, ...]:
+        """Return the styles that occur, the part first."""
+        return (PART, *dict.fromkeys(style for style, _ in self.paths))
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where part coordinates come to lie: pixel = (left + scale x, top - scale y)."""
+
+    scale: float
+    left: float
+    top: float
+    height: int
+
+    def pixels(self, points: Points) -> Points:
+        """Return pixel positions (n, 2), y down, of points (n, 2) in mm, y up."""
+        return np.stack([self.left + self.scale * points[:, 0], self.top - self.scale * points[:, 1]], axis=1)
+
+
+def layout(picture: Picture) -> Layout:
+    """Return the layout that shows everything, as large as the width allows, no higher than 1.5 times as wide."""
+    around = [boxes(rows) for rows in (*picture.contours, *(rows for _, rows in picture.paths)) if len(rows)]
+    box = np.concatenate(around) if around else np.array([[0.0, 0.0, 1.0, 1.0]])
+    (x0, y0), (x1, y1) = box[:, :2].min(axis=0), box[:, 2:].max(axis=0)
+    room = WIDTH - LEGEND - 2 * MARGIN
+    scale = float(min(room / max(x1 - x0, 1e-6), 1.5 * WIDTH / max(y1 - y0, 1e-6)))
+    height = max(round(scale * (y1 - y0)) + 2 * MARGIN, 320)
+    across = MARGIN + (room - scale * (x1 - x0)) / 2
+    return Layout(scale, float(across - scale * x0), float(MARGIN + scale * y1), height)
+
+
+def legend_rows(picture: Picture) -> list[tuple[str, str, Style | None]]:
+    """Return (label, colour, line style or None for a patch) of each entry of the legend."""
+    rows: list[tuple[str, str, Style | None]] = [(style.name, style.colour, style) for style in picture.styles()]
+    rows += [("Plunge", PLUNGE, None)] if len(picture.plunges) else []
+    rows += [("Left, within reach", LEFT, None)] if picture.left else []
+    rows += [("Out of reach", UNREACHABLE, None)] if picture.unreachable else []
+    return rows
