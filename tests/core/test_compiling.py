@@ -41,11 +41,12 @@ SHORT = "from app.room.outer_kernels import outer; print(outer(1.0))"
 def program(tmp_path: Path) -> Path:
     """Three kernels that call one another, and what they need of the program."""
     (tmp_path / "app" / "room").mkdir(parents=True)
-    for package in ("app", "app/room"):  # whole packages: one without this file gives way to the program that is installed
+    (tmp_path / "app" / "core").mkdir()
+    for package in ("app", "app/core", "app/room"):  # whole packages: one without this file gives way to the program that is installed
         (tmp_path / package / "__init__.py").touch()
-    for name in ("errors.py", "kernels.py", "progress.py"):
-        shutil.copy(ROOT / "app" / name, tmp_path / "app" / name)
-    shutil.copytree(ROOT / "app" / "jit", tmp_path / "app" / "jit", ignore=shutil.ignore_patterns("__pycache__"))
+    for name in ("errors.py", "progress.py"):
+        shutil.copy(ROOT / "app" / "core" / name, tmp_path / "app" / "core" / name)
+    shutil.copytree(ROOT / "app" / "core" / "jit", tmp_path / "app" / "core" / "jit", ignore=shutil.ignore_patterns("__pycache__"))
     (tmp_path / "app" / "room" / "inner_kernels.py").write_text(INNER)
     (tmp_path / "app" / "room" / "outer_kernels.py").write_text(OUTER)
     return tmp_path

@@ -30,7 +30,7 @@ from tests.conftest import ROOT
 from tests.formats.test_svg_damage import RICH
 from tests.gcode.interpreter.rs274_programs import PROGRAMS
 
-DATA, RESOURCES, GOLDEN = ROOT / "tests" / "data", ROOT / "resources", ROOT / "tests" / "nc" / "golden"
+DATA, RESOURCES, GOLDEN = ROOT / "tests" / "data", ROOT / "resources", ROOT / "tests" / "gcode" / "golden"
 WHERE = b'{"x0": -1.5, "y0": 2, "pitch": 0.5, "floor": -3.0}\n'
 
 

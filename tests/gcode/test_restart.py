@@ -215,7 +215,7 @@ def test_the_text_behind_is_the_files_own_byte_for_byte(data):
 
 @pytest.mark.parametrize("name", ["fanuc_mm.nc", "grbl_inch_2_T2.nc", "haas_inch.nc", "linuxcnc_inch.ngc", "mach3_mm.tap"])
 def test_what_the_posts_write_can_be_begun_from_nearly_every_line_and_never_across_below_clearance(root, name):
-    data = (root / "tests" / "nc" / "golden" / name).read_bytes()
+    data = (root / "tests" / "gcode" / "golden" / name).read_bytes()
     options = RestartOptions(ReadOptions(Dialect(name.split("_")[0].split(".")[0])))
     original = read_program(data, options.read)
     refused = 0

@@ -24,7 +24,7 @@ from tests.examples import examples
 from tests.gcode.interpreter.rs274_motions import assert_same, rs274
 from tests.gcode.rs274_oracle import RS274
 
-GOLDEN = ROOT / "tests" / "nc" / "golden"
+GOLDEN = ROOT / "tests" / "gcode" / "golden"
 HEAD = "G21 G90 G17\nT1 M6\nS8000 M3\n"
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3")
 

@@ -10,7 +10,7 @@ from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.guess import guess_dialect
 from tests.conftest import ROOT
 
-GOLDEN = sorted((ROOT / "tests" / "nc" / "golden").iterdir())
+GOLDEN = sorted((ROOT / "tests" / "gcode" / "golden").iterdir())
 
 
 @pytest.mark.parametrize(("text", "dialect"), [

@@ -11,7 +11,7 @@ from tests.gcode.interpreter.rs274_motions import OPTIONS, assert_as_rs274, rs27
 from tests.gcode.interpreter.rs274_programs import PROGRAMS
 
 OWN = ROOT / "tests" / "data" / "nc"
-GOLDEN = ROOT / "tests" / "nc" / "golden"
+GOLDEN = ROOT / "tests" / "gcode" / "golden"
 OUTSIDE = ROOT.parent / "shared" / "data" / "nc"
 
 
