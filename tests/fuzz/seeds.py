@@ -16,7 +16,7 @@ import numpy as np
 import trimesh
 from fontTools.fontBuilder import FontBuilder
 from fontTools.pens.ttGlyphPen import TTGlyphPen
-from tests.mesh import solids
+from tests.surfaces import solids
 
 from app.core.settings import Settings
 from app.drafting.document import drawn
