@@ -77,11 +77,6 @@ def _tool_options(group: argparse._ArgumentGroup) -> None:
                        help="distance between rings, 1%% to 100%% of the diameter or from 0.001 mm; everything is cleared at any "
                             "(default: the one with the shortest path)")
     group.add_argument("--overlap", metavar="MM", type=number("overlap"), help="the same as diameter - stepover")
-    group.add_argument("--depth", metavar="Z", type=number("depth", least=LEAST_LENGTH),
-                       help="depth of the floor, 0.001 mm or more (default 2)")
-    group.add_argument("--stepdown", metavar="MM", type=number("stepdown", least=LEAST_LENGTH),
-                       help="largest depth of one pass, 0.001 mm or more (default 2)")
-    group.add_argument("--stock-to-leave", metavar="MM", type=number("stock to leave", least=0.0), help="metal left on walls (default 0)")
     group.add_argument("--safe-z", metavar="MM", type=number("clearance height", least=LEAST_LENGTH),
                        help="clearance height above the stock, 0.001 mm or more (default 5)")
     group.add_argument("--feed", metavar="F", type=number("feed rate", least=LEAST_RATE, unit="mm/min"),
@@ -130,9 +125,8 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
     return MakeOptions(
         contour_diameter=arguments.contour_tool, pocket_diameter=arguments.pocket_tool,
         stepover=arguments.stepover, overlap=arguments.overlap,
-        depth=arguments.depth, stepdown=arguments.stepdown, stock_to_leave=arguments.stock_to_leave,
         safe_z=arguments.safe_z, feed=arguments.feed, plunge=arguments.plunge, speed=arguments.speed,
-        direction=arguments.direction, order=Order(arguments.order) if arguments.order else None,
+        order=Order(arguments.order) if arguments.order else None,
         post=arguments.post, machine=arguments.machine, out_units=arguments.out_units, units=arguments.units,
         origin_xy=origin_xy, origin_z=origin_z, layers=tuple(arguments.layer),
         join_tolerance=arguments.join_tolerance, exact_path=arguments.exact_path,

@@ -11,7 +11,6 @@ import numpy as np
 from ..fitting.corner_smoothing.smoothed import PieceKind
 from ..geometry.primitives import Rows
 from ..model.job import Job
-from ..model.operation import ContourOperation
 from ..raster.border import borders_of, mark
 from ..raster.codes import PixelCode, Plane
 from ..raster.fill import fill
@@ -54,8 +53,8 @@ def stages(job: Job, part: BitmapPart, paths: Sequence[OperationPaths], variant:
         variant: of the fill; the paths are those of the settled one.
     """
     scene = _Scene(part, variant)
-    contour = next((each for each in paths if isinstance(job.operations[each.index], ContourOperation)), None)
-    pocket = next((each for each in paths if each is not contour and not isinstance(job.operations[each.index], ContourOperation)), None)
+    contour = next((each for each in paths if job.operations[each.index].FOLLOWS_WALLS), None)
+    pocket = next((each for each in paths if each is not contour and not job.operations[each.index].FOLLOWS_WALLS), None)
     yield Stage(110, (part.drawn != PixelCode.EMPTY).astype(np.uint8))
     shown = contour or pocket
     if shown is None:

@@ -8,6 +8,10 @@ from enum import Enum
 
 from ..core.errors import ParameterError
 from .curves import Point
+from .fields import Condition, Unit, check_ranges, parameter
+
+SHALLOWEST = 1e-3
+"""Radians; a ramp that hardly goes down would never arrive."""
 
 STEEPEST = math.radians(45)
 """Radians; a steeper ramp is a plunge by another name."""
@@ -28,21 +32,28 @@ class EntryKind(Enum):
     PREDRILLED = "predrilled"
 
 
+_SLOPED = Condition(lambda operation: operation.cut.entry.sloped, "a slope", 'write entry = "helix" or "ramp"')
+_LED = Condition(lambda operation: operation.lead.wanted, "a lead", 'write lead = "arc" or "line"')
+_HELD = Condition(lambda operation: operation.tabs.wanted, "tabs", "add tabs = 4 or tab_places", "--tabs N makes some")
+
+
 @dataclass(frozen=True, slots=True)
 class Entry:
     """The way down into metal. Where a helix does not fit a ramp along the path is taken, and where none fits a plunge; each is told.
 
-    Attributes:
-        kind: what is tried first; PREDRILLED = straight down into holes that operations before it have drilled, or that are there.
-        angle: of helix and ramp against the plane, radians, in [0.001, pi / 4].
+    PREDRILLED is straight down into holes that operations before it have drilled, or that are there.
     """
 
-    kind: EntryKind = EntryKind.HELIX
-    angle: float = math.radians(3)
+    kind: EntryKind = parameter(
+        EntryKind.HELIX, "entry", "Entry", "into the metal; what does not fit falls back to a ramp, then a plunge", Unit.CHOICE,
+        option=True, group="Entry", short="Way down", on_pixels=True,
+        choices=("Helix, else ramp", "Ramp along the path", "Straight down", "Into drilled holes"))
+    angle: float = parameter(
+        math.radians(3), "entry_angle", "Entry angle", "of helix and ramp against the plane", Unit.ANGLE, low=SHALLOWEST, high=STEEPEST,
+        option="ramp-angle", group="Entry", short="Angle", needs=_SLOPED, on_pixels=True)
 
     def __post_init__(self) -> None:
-        if not 1e-3 <= self.angle <= STEEPEST + 1e-9:
-            raise ParameterError(f"Entry angle is {math.degrees(self.angle):g} degrees; use 0.06 to 45 degrees.")
+        check_ranges(self)
 
     @property
     def sloped(self) -> bool:
@@ -62,21 +73,21 @@ class LeadKind(Enum):
 class Lead:
     """The way to a wall and away from it, over ground where no wall is near. What does not fit is made smaller, then left out, and told.
 
-    Attributes:
-        kind: a quarter turn that is tangent to the path, a straight way at a right angle to it, or nothing.
-        radius: of the arc, or length of the line, mm, in (0, 1000]; None = half the tool's diameter.
-        overlap: how far the path goes on over its beginning before it leaves, mm, in [0, 50].
+    An arc is a quarter turn that is tangent to the path, a line a straight way at a right angle to it.
     """
 
-    kind: LeadKind = LeadKind.ARC
-    radius: float | None = None
-    overlap: float = 0.5
+    kind: LeadKind = parameter(
+        LeadKind.ARC, "lead", "Lead", "to a wall and away from it", Unit.CHOICE, option=True, group="Lead in and out",
+        choices=("Arc", "Line", "None"))
+    radius: float | None = parameter(
+        None, "lead_radius", "Lead radius", "of the arc, or length of the line", Unit.LENGTH, low=1e-3, high=LONGEST_LEAD,
+        option=True, auto="half the tool's diameter", group="Lead in and out", short="Radius", needs=_LED)
+    overlap: float = parameter(
+        0.5, "lead_overlap", "Lead overlap", "how far a contour goes on over its beginning before it leaves", Unit.LENGTH,
+        high=MOST_OVERLAP, option=True, group="Lead in and out", short="Overlap", needs=_LED)
 
     def __post_init__(self) -> None:
-        if self.radius is not None and not 1e-3 <= self.radius <= LONGEST_LEAD:
-            raise ParameterError(f"Lead radius is {self.radius:g} mm; use 0.001 to {LONGEST_LEAD:g} mm.")
-        if not 0 <= self.overlap <= MOST_OVERLAP:
-            raise ParameterError(f"Lead overlap is {self.overlap:g} mm; use 0 to {MOST_OVERLAP:g} mm.")
+        check_ranges(self)
 
     @property
     def wanted(self) -> bool:
@@ -86,27 +97,23 @@ class Lead:
 
 @dataclass(frozen=True, slots=True)
 class Tabs:
-    """Bridges of metal that hold a part that is cut out.
+    """Bridges of metal that hold a part that is cut out, away from corners; none is higher than the stock's top."""
 
-    Attributes:
-        count: spread evenly along each contour, away from corners; 0 = none but those by hand. At most 100.
-        width: of the metal that stands, mm, in [0.1, 1000].
-        height: above the floor, mm, in [0.01, 1000]; no tab is higher than the stock's top.
-        places: points near which a tab is put by hand, mm; each goes to the nearest contour.
-    """
-
-    count: int = 0
-    width: float = 5.0
-    height: float = 1.0
-    places: tuple[Point, ...] = ()
+    count: int = parameter(
+        0, "tabs", "Tabs", "bridges of metal that hold what is cut out, spread evenly along each contour", Unit.COUNT, high=100,
+        option=True, group="Tabs", short="Each contour")
+    width: float = parameter(
+        5.0, "tab_width", "Tab width", "of the metal that stands", Unit.LENGTH, low=0.1, high=1000, option=True, group="Tabs",
+        short="Width", needs=_HELD)
+    height: float = parameter(
+        1.0, "tab_height", "Tab height", "of the metal that stands, above the floor", Unit.LENGTH, low=0.01, high=1000, option=True,
+        group="Tabs", short="Height", needs=_HELD)
+    places: tuple[Point, ...] = parameter(
+        (), "tab_places", "Tab places", "points near which a tab is put by hand; each goes to the nearest contour", Unit.POINTS,
+        group="Tabs")
 
     def __post_init__(self) -> None:
-        if not 0 <= self.count <= 100:
-            raise ParameterError(f"{self.count} tabs a contour are asked for; use 0 to 100.")
-        if not 0.1 <= self.width <= 1000:
-            raise ParameterError(f"Tab width is {self.width:g} mm; use 0.1 to 1000 mm.")
-        if not 0.01 <= self.height <= 1000:
-            raise ParameterError(f"Tab height is {self.height:g} mm; use 0.01 to 1000 mm.")
+        check_ranges(self)
         if not all(math.isfinite(value) and abs(value) < 1e6 for place in self.places for value in place):
             raise ParameterError("A tab's place is no point of the plane; give X and Y in mm.")
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from ..core.errors import ParameterError
-from .operation import LEAST_LENGTH, ContourOperation, Cut, DrillOperation, Operation, Order, PocketOperation, RestOperation, kind_word
+from .operation import LEAST_LENGTH, ContourOperation, Cut, Operation, Order, PocketOperation, RestOperation
 from .part import Part, Units
 from .tool import Tool, ToolKind
 
@@ -144,8 +144,8 @@ class Job:
             ParameterError: the job has no such tool, or it is a drill and the operation mills.
         """
         tool = self.tool(operation.cut.tool)
-        if tool.kind is ToolKind.DRILL and not isinstance(operation, DrillOperation):
-            raise ParameterError(f"T{tool.number} is a drill, which cannot cut sideways; a {kind_word(operation)} operation needs a mill: "
+        if tool.kind is ToolKind.DRILL and not operation.DRILLS:
+            raise ParameterError(f"T{tool.number} is a drill, which cannot cut sideways; a {operation.WORD} operation needs a mill: "
                                  "choose another tool, or make it a drill operation.")
         return tool
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import Enum
+from typing import ClassVar
 
 from ..core.errors import ParameterError
 from .entry import Entry, Lead, Tabs
+from .fields import Condition, Placed, Unit, check_ranges, declared_of, parameter, parameters_of, part, required, required_part
 
 LEAST_LENGTH = 1e-3
 """mm; a smaller depth, step or height would vanish in the digits of an NC program."""
@@ -44,43 +46,37 @@ class Order(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Cut:
-    """Parameters that every operation has.
+    """Parameters that every operation has. Depths go down from Z 0 = top of stock, in at most 1,000 passes."""
 
-    Attributes:
-        tool: T number of a tool of the job.
-        depth: down from Z 0 = top of stock to the floor, mm, in [0.001, 1e5).
-        stepdown: largest depth of one pass, mm, in [0.001, 1e5); passes are made equal, at most 1,000 of them.
-        stock_to_leave: metal left on walls on purpose, mm, in [0, 1e4).
-        direction: climb or conventional.
-        enabled: switched-off operations stay in the list and make no moves.
-        finish_depth: thickness of a last pass that finishes the floor, mm, in [0, depth); 0 = none.
-        floor_to_leave: metal left on the floor on purpose, mm, in [0, depth).
-        entry: the way down into metal.
-        layers: that it machines; empty = all that the job does.
-    """
-
-    tool: int
-    depth: float = 2.0
-    stepdown: float = 2.0
-    stock_to_leave: float = 0.0
-    direction: Direction = Direction.CLIMB
-    enabled: bool = True
-    finish_depth: float = 0.0
-    floor_to_leave: float = 0.0
-    entry: Entry = Entry()
-    layers: tuple[str, ...] = ()
+    tool: int = required("tool", "Tool", "T number of a tool of the job", Unit.COUNT, high=1e9)
+    depth: float = parameter(
+        2.0, "depth", "Depth", "from the stock's top down to the floor", Unit.LENGTH, low=LEAST_LENGTH, option=True)
+    stepdown: float = parameter(
+        2.0, "stepdown", "Stepdown", "largest depth of one pass; passes are made equal", Unit.LENGTH, low=LEAST_LENGTH, option=True,
+        short="Step down")
+    stock_to_leave: float = parameter(
+        0.0, "stock_to_leave", "Stock to leave", "metal left on the walls on purpose", Unit.LENGTH, high=9_999.0, option=True,
+        group="Walls")
+    direction: Direction = parameter(
+        Direction.CLIMB, "direction", "Direction", "side of the standing metal: climb = right of travel", Unit.CHOICE,
+        choices=("Climb", "Conventional"))
+    enabled: bool = parameter(True, "enabled", "Enabled", "off: the operation stays in the list and makes no moves", Unit.FLAG)
+    finish_depth: float = parameter(
+        0.0, "finish_depth", "Finish pass", "thickness of a last pass on the floor; 0: none", Unit.LENGTH, high=1000.0, option=True,
+        group="Floor", on_pixels=True)
+    floor_to_leave: float = parameter(
+        0.0, "floor_to_leave", "Floor to leave", "metal left on the floor on purpose", Unit.LENGTH, high=1000.0, option=True,
+        group="Floor", on_pixels=True)
+    entry: Entry = part(Entry)
+    layers: tuple[str, ...] = parameter(
+        (), "layers", "Layers", "that it machines; none named: all that the job does", Unit.NAMES, group="Feed and layers")
 
     def __post_init__(self) -> None:
-        for name in ("depth", "stepdown"):
-            if not LEAST_LENGTH <= getattr(self, name) < 1e5:
-                raise ParameterError(f"{name.capitalize()} is {getattr(self, name):g} mm; "
-                                     f"it must be {LEAST_LENGTH:g} mm or more and less than 100000 mm.")
+        check_ranges(self)
         passes = math.ceil(self.depth / self.stepdown - 1e-9)
         if passes > MOST_PASSES:
             raise ParameterError(f"Depth {self.depth:g} mm in steps of {self.stepdown:g} mm makes {passes} passes; "
                                  f"{MOST_PASSES} are the most, so take a larger stepdown.")
-        if not 0 <= self.stock_to_leave < 1e4:
-            raise ParameterError(f"Stock to leave is {self.stock_to_leave:g} mm; it must be 0 or more.")
         if not 0 <= self.floor_to_leave <= self.depth - LEAST_LENGTH:
             raise ParameterError(f"Floor to leave is {self.floor_to_leave:g} mm; it must be 0 or more and less than the depth, "
                                  f"{self.depth:g} mm.")
@@ -94,133 +90,207 @@ class Cut:
         return self.depth - self.floor_to_leave
 
 
+_FINISHED = Condition(lambda operation: operation.finish_width > 0, "a finish pass", "add finish_width = 0.2")
+_ENGAGED = ("most_engaged", "Limit of engagement", "of the diameter: where the cutter is engaged over more, the feed is slowed; "
+            "100 %: never", Unit.SHARE)
+_STEPOVER = ("stepover", "Stepover", "distance between rings: a length, or per cent of the diameter; every stepover clears everything",
+             Unit.LENGTH)
+
+
 @dataclass(frozen=True, slots=True)
-class ContourOperation:
-    """Follow the walls with the contour tool (step 120).
+class Operation:
+    """What is to be done with one tool. A kind of operation is a subclass with parameters of its own, which `register` makes known.
 
     Attributes:
-        side: where the path runs; ON also follows open lines (engraving, slots).
-        lead: the way to the wall and away from it.
-        tabs: bridges of metal that hold what is cut out.
-        spring_passes: times the last pass is run again, in [0, 10].
-        dog_bones: True: at inner corners the cutter goes on into the corner, and so into the walls, for a sharp counterpart to fit.
-        finish_width: metal that passes leave on the wall for a finish pass, mm, in [0, 100]; 0 = no finish pass.
-        finish_each_pass: True: the finish pass is run at every depth before going deeper; False: once, after all, at the floor.
-        most_engaged: share of the diameter in (0, 1] beyond which the feed is slowed; 1 = never.
+        WORD: the kind in job files, reports, NC headers, and in words.
+        UNUSED: keys of parameters of the parts that have no effect on this kind.
+        DRILLS: whether its tool goes straight down and never sideways, so that it may be a drill.
+        CLEARS: whether it clears the whole floor of its area, in rings.
+        COARSE: whether its tool is the wide one, that goes over the area before others follow.
+        FOLLOWS_WALLS: whether its path runs along the walls, or on the lines, and not over an area.
     """
 
-    cut: Cut
-    side: Side = Side.INSIDE
-    lead: Lead = Lead()
-    tabs: Tabs = Tabs()
-    spring_passes: int = 0
-    dog_bones: bool = False
-    finish_width: float = 0.0
-    finish_each_pass: bool = False
-    most_engaged: float = 1.0
+    cut: Cut = required_part(Cut)
+
+    WORD: ClassVar[str]
+    UNUSED: ClassVar[frozenset[str]] = frozenset()
+    DRILLS: ClassVar[bool] = False
+    CLEARS: ClassVar[bool] = False
+    COARSE: ClassVar[bool] = False
+    FOLLOWS_WALLS: ClassVar[bool] = False
+
+    @property
+    def wall_side(self) -> Side | None:
+        """On which side of the drawn lines its cutter is; None where these are no walls to it."""
+        return Side.INSIDE
+
+    @property
+    def follows_lines(self) -> bool:
+        """Whether it has its tool's centre on the lines, or drills, so that it bounds no area."""
+        return self.wall_side in (None, Side.ON)
+
+    @property
+    def beyond(self) -> float:
+        """How far below its floor its tool goes on purpose, mm."""
+        return 0.0
+
+    @property
+    def engagement_limit(self) -> float:
+        """Share of the diameter in (0, 1] beyond which the feed is slowed; 1 = never."""
+        return 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class ContourOperation(Operation):
+    """Follow the walls with the contour tool (step 120); on the line it also follows open lines (engraving, slots)."""
+
+    side: Side = parameter(
+        Side.INSIDE, "side", "Side", "where the contour tool runs: inside the areas, outside, or on the lines", Unit.CHOICE, option=True,
+        choices=("Inside", "Outside", "On line"))
+    lead: Lead = part(Lead)
+    tabs: Tabs = part(Tabs)
+    spring_passes: int = parameter(
+        0, "spring_passes", "Spring passes", "times the last pass is run again, so that a bent cutter straightens", Unit.COUNT,
+        high=MOST_SPRING_PASSES, option=True, group="Walls")
+    dog_bones: bool = parameter(
+        False, "dog_bones", "Dog-bones", "cut on into inner corners, and so into the walls, for a sharp counterpart to fit", Unit.FLAG,
+        option=True, group="Walls")
+    finish_width: float = parameter(
+        0.0, "finish_width", "Finish width", "metal that the passes leave on walls for a finish pass; 0: none", Unit.LENGTH, high=100.0,
+        option=True, group="Walls")
+    finish_each_pass: bool = parameter(
+        False, "finish_each_pass", "Finish each pass", "the finish pass is run at every depth before going deeper; else once, at the floor",
+        Unit.FLAG, option=True, group="Walls", short="Finish", needs=_FINISHED, choices=("Once", "Each depth"))
+    most_engaged: float = parameter(1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond")
+
+    WORD = "contour"
+    FOLLOWS_WALLS = True
 
     def __post_init__(self) -> None:
-        if not 0 <= self.spring_passes <= MOST_SPRING_PASSES:
-            raise ParameterError(f"{self.spring_passes} spring passes are asked for; use 0 to {MOST_SPRING_PASSES}.")
-        if not 0 <= self.finish_width <= 100:
-            raise ParameterError(f"Finish width is {self.finish_width:g} mm; use 0 (no finish pass) to 100 mm.")
-        _check_engaged(self.most_engaged)
+        check_ranges(self)
         if self.side is Side.ON and (self.dog_bones or self.finish_width or self.cut.stock_to_leave):
             raise ParameterError("A path on the line has no wall: dog-bones, finish width and stock to leave do not go with it; "
                                  "take them out.")
 
+    @property
+    def wall_side(self) -> Side | None:
+        """On which side of the drawn lines its cutter is."""
+        return self.side
 
-@dataclass(frozen=True, slots=True)
-class PocketOperation:
-    """Clear the area inside with the pocket tool (steps 141-148).
-
-    Attributes:
-        stepover: distance between rings, mm, in [0.001, tool diameter]; None = the one with the least path. All of them clear
-            everything; above half the diameter by runs between the rings. Overlap (the 1986 text's parameter) = diameter - stepover.
-        outside_in: True: begin at the walls (141-148); False: begin inside and go outwards, so that only the beginning is a slot.
-        most_engaged: share of the diameter in (0, 1] beyond which the feed is slowed; 1 = never.
-    """
-
-    cut: Cut
-    stepover: float | None = None
-    outside_in: bool = False
-    most_engaged: float = 1.0
-
-    def __post_init__(self) -> None:
-        _check_stepover(self.stepover)
-        _check_engaged(self.most_engaged)
+    @property
+    def engagement_limit(self) -> float:
+        """Share of the diameter beyond which the feed is slowed."""
+        return self.most_engaged
 
 
 @dataclass(frozen=True, slots=True)
-class RestOperation:
-    """Clear what the operations before it in the list have left within reach of its tool.
+class PocketOperation(Operation):
+    """Clear the area inside with the pocket tool (steps 141-148). Overlap (the 1986 text's parameter) = diameter - stepover."""
 
-    Attributes:
-        stepover: distance between its runs, mm, in [0.001, tool diameter]; None = as far apart as still clears everything.
-        most_engaged: share of the diameter in (0, 1] beyond which the feed is slowed; 1 = never.
-    """
+    stepover: float | None = parameter(None, *_STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
+    outside_in: bool = parameter(
+        False, "outside_in", "Beginning", "begin at the walls (steps 141-148), and not inside, so that more of the path is a slot",
+        Unit.FLAG, option=True, choices=("Inside", "At the walls"), short="Begin")
+    most_engaged: float = parameter(1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond")
 
-    cut: Cut
-    stepover: float | None = None
-    most_engaged: float = 1.0
+    WORD = "pocket"
+    CLEARS = True
+    COARSE = True
 
     def __post_init__(self) -> None:
-        _check_stepover(self.stepover)
-        _check_engaged(self.most_engaged)
+        check_ranges(self)
+
+    @property
+    def engagement_limit(self) -> float:
+        """Share of the diameter beyond which the feed is slowed."""
+        return self.most_engaged
 
 
 @dataclass(frozen=True, slots=True)
-class DrillOperation:
-    """Drill the circles of the drawing at their centres.
+class RestOperation(Operation):
+    """Clear what the operations before it in the list have left within reach of its tool."""
 
-    Attributes:
-        peck: depth of one stroke before the drill comes out of the hole, mm, in [0.001, 1e5); None = in one go.
-        least, most: diameters of the circles that are drilled, mm, 0 < least <= most; None = those as wide as the tool, within 0.1 mm.
-        through: how far the drill goes on below the depth, mm, in [0, 1000], so that its full width comes through.
-    """
+    stepover: float | None = parameter(None, *_STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
+    most_engaged: float = parameter(1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond")
 
-    cut: Cut
-    peck: float | None = None
-    least: float | None = None
-    most: float | None = None
-    through: float = 0.0
+    WORD = "rest"
+    CLEARS = True
 
     def __post_init__(self) -> None:
-        if self.peck is not None and not LEAST_LENGTH <= self.peck < 1e5:
-            raise ParameterError(f"Peck is {self.peck:g} mm; it must be {LEAST_LENGTH:g} mm or more.")
-        if (self.least is not None and not self.least > 0) or (self.most is not None and not self.most > 0):
-            raise ParameterError("Diameters of holes to drill must be greater than 0 mm.")
+        check_ranges(self)
+
+    @property
+    def engagement_limit(self) -> float:
+        """Share of the diameter beyond which the feed is slowed."""
+        return self.most_engaged
+
+
+@dataclass(frozen=True, slots=True)
+class DrillOperation(Operation):
+    """Drill the circles of the drawing at their centres."""
+
+    peck: float | None = parameter(
+        None, "peck", "Peck", "depth of one stroke before the drill comes out of the hole", Unit.LENGTH, low=LEAST_LENGTH, option=True,
+        auto="in one go")
+    least: float | None = parameter(
+        None, "least", "Holes from", "least diameter of the circles that are drilled", Unit.LENGTH, low=LEAST_LENGTH,
+        auto="the drill's own, within 0.1 mm")
+    most: float | None = parameter(
+        None, "most", "Holes to", "largest diameter of the circles that are drilled", Unit.LENGTH, low=LEAST_LENGTH,
+        auto="the drill's own, within 0.1 mm")
+    through: float = parameter(
+        0.0, "through", "Through", "how far the drill goes on below the depth, so that its full width comes through", Unit.LENGTH,
+        high=1000.0, option=True)
+
+    WORD = "drill"
+    DRILLS = True
+    UNUSED = frozenset({"stepdown", "stock_to_leave", "direction", "finish_depth", "floor_to_leave", "entry", "entry_angle"})
+
+    def __post_init__(self) -> None:
+        check_ranges(self)
         if self.least is not None and self.most is not None and self.least > self.most:
             raise ParameterError(f"Holes from {self.least:g} to {self.most:g} mm are asked for; "
                                  "the least diameter must not be more than the most.")
-        if not 0 <= self.through <= 1000:
-            raise ParameterError(f"Going through by {self.through:g} mm is asked for; use 0 to 1000 mm.")
+
+    @property
+    def wall_side(self) -> Side | None:
+        """None: a drill knows no walls."""
+        return None
+
+    @property
+    def beyond(self) -> float:
+        """How far the drill goes on below the depth, mm."""
+        return self.through
 
 
-def _check_stepover(stepover: float | None) -> None:
-    if stepover is not None and not LEAST_LENGTH <= stepover < 1e4:
-        raise ParameterError(f"Stepover is {stepover:g} mm; it must be {LEAST_LENGTH:g} mm or more and less than 10000 mm.")
+OPERATION_KINDS: dict[str, type[Operation]] = {}
+"""By the words of job files, reports and NC headers; `register` adds to it."""
 
 
-def _check_engaged(share: float) -> None:
-    if not LEAST_ENGAGED <= share <= 1:
-        raise ParameterError(f"The limit of engagement is {100 * share:g} % of the diameter; "
-                             f"use {100 * LEAST_ENGAGED:g} to 100 % (100 = never slowed).")
+def register(kind: type[Operation]) -> None:
+    """Make a kind of operation known to job files, options, forms, headers and reports.
+
+    Raises:
+        ValueError: another kind has its word.
+    """
+    if OPERATION_KINDS.setdefault(kind.WORD, kind) is not kind:
+        raise ValueError(f"two kinds of operation are called {kind.WORD}")
 
 
-Operation = ContourOperation | PocketOperation | RestOperation | DrillOperation
-
-OPERATION_KINDS: dict[str, type[Operation]] = {
-    "pocket": PocketOperation, "rest": RestOperation, "contour": ContourOperation, "drill": DrillOperation,
-}
-"""By the words of job files, reports and NC headers."""
+for _kind in (PocketOperation, RestOperation, ContourOperation, DrillOperation):
+    register(_kind)
 
 
-def kind_word(operation: Operation) -> str:
-    """Return the word for an operation's kind: pocket, rest, contour, drill."""
-    return next(word for word, kind in OPERATION_KINDS.items() if isinstance(operation, kind))
+def declared() -> dict[str, Placed]:
+    """Return every parameter of every kind by key."""
+    return {key: placed for kind in OPERATION_KINDS.values() for key, placed in declared_of(kind).items()}
 
 
-def follows_lines(operation: Operation) -> bool:
-    """Tell whether an operation has its tool's centre on the lines, or drills, so that it bounds no area."""
-    return isinstance(operation, DrillOperation) or (isinstance(operation, ContourOperation) and operation.side is Side.ON)
+def parameters() -> dict[str, tuple[Placed, tuple[type[Operation], ...]]]:
+    """Return every parameter of every kind by key, and the kinds that it has an effect on."""
+    found: dict[str, tuple[Placed, tuple[type[Operation], ...]]] = {}
+    for kind in OPERATION_KINDS.values():
+        for key, placed in parameters_of(kind).items():
+            first, kinds = found.get(key, (placed, ()))
+            found[key] = (first, (*kinds, kind))
+    return found

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import shapely
@@ -13,7 +13,7 @@ from ..geometry.region import nested
 from ..model.finding import Finding, FindingKind, worst_first
 from ..model.job import Job
 from ..model.moves import Program
-from ..model.operation import ContourOperation, DrillOperation, Operation, Order, PocketOperation, RestOperation, Side, follows_lines
+from ..model.operation import Order, Side
 from ..model.part import Contour, Region
 from ..raster.fill import Observer
 from ..toolpath.bitmap_check import BitmapCheck
@@ -24,14 +24,8 @@ from ..toolpath.drill_holes import across_holes
 from ..toolpath.setting import Setting
 from ..toolpath.sheets import Sheets
 from ..toolpath.witness import about_regions
-from .contour.contour import contour
-from .drill.drill import drill
-from .pocket.pocket import pocket
-from .rest.rest import rest
-
-_WAYS: dict[type[Operation], Callable[[Setting, int, Progress], None]] = {
-    PocketOperation: pocket, RestOperation: rest, ContourOperation: contour, DrillOperation: drill,
-}
+from . import known  # noqa: F401 (registers the kinds)
+from .registry import way_of
 
 
 def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | None = None) -> Program:
@@ -55,8 +49,8 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
     setting.findings.extend(under_clamps(job, parts, setting.regions))
     operations = in_order(job)
     for k, index in enumerate(operations):
-        operation = job.operations[index]
-        _WAYS[type(operation)](setting, index, progress.part(0.05 + 0.95 * k / len(operations), 0.05 + 0.95 * (k + 1) / len(operations)))
+        begins, ends = (0.05 + 0.95 * at / len(operations) for at in (k, k + 1))
+        way_of(job.operations[index]).paths(setting, index, progress.part(begins, ends))
     if job.order is Order.PATENT_1986:
         setting.findings.extend(slotting(job))
     areas = setting.sheets.areas()
@@ -94,7 +88,7 @@ def regions_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
 
 def followed_lines(job: Job, parts: Drawn) -> tuple[Contour, ...]:
     """Return the open lines that some operation follows."""
-    cuts = [each.cut for each in job.operations if isinstance(each, ContourOperation) and each.side is Side.ON and each.cut.enabled]
+    cuts = [each.cut for each in job.operations if each.wall_side is Side.ON and each.cut.enabled]
     return tuple(line for line in parts.open if any(not cut.layers or line.layer in cut.layers for cut in cuts))
 
 
@@ -103,14 +97,14 @@ def about_drawing(job: Job, parts: Drawn, lines: Sequence[Contour]) -> list[Find
     followed = {number for line in lines for number in line.entity_ids}
     kept = [each for each in across_holes(parts.findings, job, parts)
             if each.kind is not FindingKind.OPEN_CONTOUR or not (each.entity_ids and followed.issuperset(each.entity_ids))]  # fmt: skip
-    if any(operation.cut.enabled and not follows_lines(operation) for operation in job.operations):
+    if any(operation.cut.enabled and not operation.follows_lines for operation in job.operations):
         return kept
     return [replace(each, counts=False) if each.kind is FindingKind.SELF_INTERSECTION else each for each in kept]
 
 
 def under_clamps(job: Job, parts: Drawn, regions: Sequence[Region]) -> list[Finding]:
     """Return how much of what pockets are to clear lies under clamps."""
-    if not parts.clamps or not any(isinstance(each, PocketOperation) and each.cut.enabled for each in job.operations):
+    if not parts.clamps or not any(each.COARSE and each.cut.enabled for each in job.operations):
         return []
     held = shapely.union_all(region_shapes(parts.clamps, CHORD))
     lost = shapely.intersection(held, shapely.union_all(region_shapes(regions, CHORD)))
@@ -125,13 +119,12 @@ def under_clamps(job: Job, parts: Drawn, regions: Sequence[Region]) -> list[Find
 def in_order(job: Job) -> list[int]:
     """Return indices of the enabled operations in the order of cutting: the list's, or all contours first (1986)."""
     enabled = [k for k, operation in enumerate(job.operations) if operation.cut.enabled]
-    first = ContourOperation if job.order is Order.PATENT_1986 else object
-    return sorted(enabled, key=lambda k: not isinstance(job.operations[k], first))
+    return sorted(enabled, key=lambda k: job.order is Order.PATENT_1986 and not job.operations[k].FOLLOWS_WALLS)
 
 
 def slotting(job: Job) -> list[Finding]:
     """Return the warning that the 1986 order deserves."""
-    tools = [job.tool(op.cut.tool) for op in job.operations if isinstance(op, ContourOperation) and op.cut.enabled]
+    tools = [job.tool(op.cut.tool) for op in job.operations if op.FOLLOWS_WALLS and op.cut.enabled]
     return [Finding(FindingKind.ENGAGEMENT, f"Order 1986: T{tool.number} {tool.label} cuts first and slots full stock, engaged over 100 % "
                     "of its diameter. Reduce the stepdown, or let the pocket tool cut first.", counts=False, amount=tool.diameter)
             for tool in tools]

@@ -14,7 +14,7 @@ from ..geometry.offset.offset import Level, Ring, offset_levels
 from ..geometry.primitives import Primitives, contour_rows, sample
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
-from ..model.operation import ContourOperation, DrillOperation, Operation, Side
+from ..model.operation import Operation
 from ..model.part import Region
 from ..model.tool import Tool
 from .linking.bridge import level_bridges
@@ -61,10 +61,7 @@ class Need:
 def finest(job: Job, operation: Operation) -> float:
     """Return the least width, mm, of a region that some operation of the job machines in the layers of this one, as deep, on its side."""
 
-    def side(each: Operation) -> Side | None:
-        return each.side if isinstance(each, ContourOperation) else None if isinstance(each, DrillOperation) else Side.INSIDE
-
-    alike = [each.cut for each in job.operations if each.cut.enabled and side(each) is side(operation)
+    alike = [each.cut for each in job.operations if each.cut.enabled and each.wall_side is operation.wall_side
              and each.cut.layers == operation.cut.layers and each.cut.floor >= operation.cut.floor]  # fmt: skip
     return min(2 * (job.tool(cut.tool).radius + cut.stock_to_leave) for cut in alike)
 

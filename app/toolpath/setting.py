@@ -16,7 +16,7 @@ from ..model.entry import EntryKind
 from ..model.finding import Finding
 from ..model.job import Job
 from ..model.moves import DogBone, Tab
-from ..model.operation import ContourOperation, Cut, Side
+from ..model.operation import Cut, Side
 from ..model.part import Region
 from ..raster.fill import Observer
 from .bitmap_check import BitmapCheck
@@ -82,7 +82,7 @@ def emit(setting: Setting, index: int, sheet: Sheet, strokes: Sequence[Stroke], 
         return
     tool = job.tool(cut.tool)
     operation = job.operations[index]
-    beside = not (isinstance(operation, ContourOperation) and operation.side is Side.ON)
+    beside = operation.wall_side is not Side.ON
     keep = tool.radius + cut.stock_to_leave
     ground = Ground(tool, cut.entry, sheet.distances, keep, beside, cut.direction, setting.cleared, setting.tabs)
     label = Label(index, tool.number, tool.feed_rate, tool.plunge_rate)

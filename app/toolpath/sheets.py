@@ -16,7 +16,7 @@ from ..geometry.region import nested, polygon_contour
 from ..model.finding import Finding
 from ..model.job import Job
 from ..model.moves import Area
-from ..model.operation import ContourOperation, DrillOperation, Operation, PocketOperation, RestOperation, Side
+from ..model.operation import ContourOperation, DrillOperation, Operation, Side
 from ..model.part import Contour, Region
 from ..model.stock_box import extent
 from .drawn import Drawn
@@ -77,7 +77,7 @@ class Sheets:
 
     def of(self, operation: Operation) -> Sheet | None:
         """Return the sheet of an operation; None where it has nothing to machine."""
-        side = operation.side if isinstance(operation, ContourOperation) else Side.INSIDE
+        side = operation.wall_side or Side.INSIDE
         key = frozenset(operation.cut.layers), side
         if key not in self._made:
             self._made[key] = self._sheet(*key)
@@ -93,7 +93,7 @@ class Sheets:
         sheet = self.of(operation) if operation.cut.enabled else None
         if sheet is None:
             return Area()
-        return Area(sheet.regions, sheet.lines, isinstance(operation, (PocketOperation, RestOperation)), sheet.outlines)
+        return Area(sheet.regions, sheet.lines, operation.CLEARS, sheet.outlines)
 
     def _sheet(self, layers: frozenset[str], side: Side) -> Sheet | None:
         closed, lines = ([c for c in contours if not layers or c.layer in layers] for contours in (self.drawn.closed, self.drawn.open))

@@ -22,11 +22,11 @@ from ..geometry.primitives import Rows, lengths, pack, points_at, signed_area, w
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.moves import Program
-from ..model.operation import ContourOperation, Cut, Operation, Order, PocketOperation, RestOperation, Side, kind_word
+from ..model.operation import ContourOperation, Cut, Operation, Order, PocketOperation, Side
 from ..model.tool import Tool
 from ..operations.compute import in_order, slotting
-from ..operations.contour.contour import contour_strokes
-from ..operations.pocket.pocket import stepover_of, wall_distance
+from ..operations.contour.paths import contour_strokes
+from ..operations.pocket.paths import stepover_of, wall_distance
 from ..raster.border import Border, Index, borders_of
 from ..raster.levels import SAFE_PX, RingSteps, offset_area, ring_index
 from ..raster.trace import Chain
@@ -157,14 +157,14 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
 
 def on_pixels(operation: Operation) -> bool:
     """Tell whether the way of 1986 knows an operation: pockets, and contours inside the walls."""
-    return isinstance(operation, PocketOperation) or (isinstance(operation, ContourOperation) and operation.side is Side.INSIDE)
+    return operation.COARSE or (operation.FOLLOWS_WALLS and operation.wall_side is Side.INSIDE)
 
 
 def _left_out(job: Job) -> list[Finding]:
     """Return which operations make no moves on pixels."""
     left = [operation for operation in job.operations if operation.cut.enabled and not on_pixels(operation)]
-    return [Finding(FindingKind.LEFT_OUT, f"The {kind_word(operation)} operation with T{operation.cut.tool} makes no moves: "
-                    "on pixels only pockets, and contours inside the walls, are cut.", counts=not isinstance(operation, RestOperation))
+    return [Finding(FindingKind.LEFT_OUT, f"The {operation.WORD} operation with T{operation.cut.tool} makes no moves: "
+                    "on pixels only pockets, and contours inside the walls, are cut.", counts=operation.COARSE or not operation.CLEARS)
             for operation in left]  # fmt: skip
 
 
@@ -180,7 +180,7 @@ def operation_paths(job: Job, index: int, part: BitmapPart, progress: Progress =
         raise ParameterError(f"T{tool.number} of {tool.diameter:g} mm is not wider than two pixels of {pitch:.3g} mm; "
                              "use a larger bitmap or a smaller pitch.")
     progress.step(0.0, "Shrink on pixels")
-    if isinstance(operation, ContourOperation):
+    if operation.FOLLOWS_WALLS:
         return _contour_paths(part, index, (tool, operation.cut), progress)
     return _pocket_paths(job, part, index, progress)
 
@@ -293,7 +293,7 @@ def _without_path(part: BitmapPart, paths: Sequence[OperationPaths], job: Job) -
     missed: dict[tuple[int, int], bool] = {}
     for each in paths:
         reached = {int(part.label[path.chain.start]) for level in each.levels for path in level}
-        alone = isinstance(job.operations[each.index], ContourOperation) or each.wall == 0
+        alone = job.operations[each.index].FOLLOWS_WALLS or each.wall == 0
         for region in part.regions:
             if region.number not in reached:
                 key = (region.number, job.operations[each.index].cut.tool)

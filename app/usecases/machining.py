@@ -1,115 +1,57 @@
-"""How a job is to be machined beyond tools, depths and stepover: what was asked for, put into its operations."""
+"""How a job is to be machined beyond tools and stepover: what was asked for, put into its operations."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from ..core.errors import ParameterError
-from ..model.entry import EntryKind, LeadKind
+from ..model.fields import Placed, parameters_of, with_values
 from ..model.job import Copies, Job
-from ..model.operation import ContourOperation, Cut, DrillOperation, Operation, Order, PocketOperation, Side
+from ..model.operation import OPERATION_KINDS, Cut, DrillOperation, Operation, Order, parameters
 from ..model.tool import Tool, ToolKind
 
 
 @dataclass(frozen=True)
 class Machining:
-    """What was asked for; None, False and nothing mean "as the job or the default says". Lengths in mm.
+    """What was asked for; nothing means "as the job or the default says". Lengths in mm.
 
     Attributes:
-        side, lead, lead_radius, lead_overlap, tabs, tab_width, tab_height, dog_bones, finish_width, spring_passes: of contours.
-        outside_in: of pockets.
-        entry, ramp_angle (radians), finish_depth, floor_to_leave, most_engaged: of all that mills.
+        values: of operations' parameters, by key; each goes into all operations that it has an effect on.
         drills: diameters of drills, each of which drills the circles as wide as it before anything is milled.
-        peck, through: of drilling.
         copies: the part in a grid.
         keep_out, keep_out_height: layers of clamps, and how far these stand above the stock.
     """
 
-    side: Side | None = None
-    lead: LeadKind | None = None
-    lead_radius: float | None = None
-    lead_overlap: float | None = None
-    tabs: int | None = None
-    tab_width: float | None = None
-    tab_height: float | None = None
-    dog_bones: bool = False
-    finish_width: float | None = None
-    spring_passes: int | None = None
-    outside_in: bool = False
-    entry: EntryKind | None = None
-    ramp_angle: float | None = None
-    finish_depth: float | None = None
-    floor_to_leave: float | None = None
-    most_engaged: float | None = None
+    values: Mapping[str, Any] = field(default_factory=dict)
     drills: tuple[float, ...] = ()
-    peck: float | None = None
-    through: float | None = None
     copies: Copies | None = None
     keep_out: tuple[str, ...] = ()
     keep_out_height: float | None = None
 
+    @staticmethod
+    def of(**asked: Any) -> Machining:
+        """Return what is asked for by names of attributes and keys of parameters."""
+        own = {each.name for each in fields(Machining)}
+        return Machining({name: value for name, value in asked.items() if name not in own},
+                         **{name: value for name, value in asked.items() if name in own})
+
     @property
     def asked(self) -> tuple[str, ...]:
-        """Names of what was asked for."""
-        return tuple(name for name in self.__dataclass_fields__ if getattr(self, name) not in (None, False, ()))
+        """Options, without their dashes, of what was asked for."""
+        others = {"drill": self.drills, "copies": self.copies, "keep-out": self.keep_out, "keep-out-height": self.keep_out_height}
+        return (*map(option_of, self.values), *(option for option, value in others.items() if value not in (None, ())))
 
 
-def _contours(operation: Operation) -> bool:
-    return isinstance(operation, ContourOperation)
-
-
-def _mills(operation: Operation) -> bool:
-    return not isinstance(operation, DrillOperation)
-
-
-def _drills(operation: Operation) -> bool:
-    return isinstance(operation, DrillOperation)
-
-
-def _pockets(operation: Operation) -> bool:
-    return isinstance(operation, PocketOperation)
-
-
-def _slopes(operation: Operation) -> bool:
-    return _mills(operation) and operation.cut.entry.sloped
-
-
-def _leads(operation: Operation) -> bool:
-    return isinstance(operation, ContourOperation) and operation.lead.wanted
-
-
-def _has_tabs(operation: Operation) -> bool:
-    return isinstance(operation, ContourOperation) and operation.tabs.wanted
-
-
-_OPTIONS: tuple[tuple[str, Callable[[Operation], bool], str, str], ...] = (
-    ("side", _contours, "side", "no contour operation"),
-    ("lead", _contours, "lead.kind", "no contour operation"),
-    ("lead_radius", _leads, "lead.radius", "no contour operation with a lead"),
-    ("lead_overlap", _leads, "lead.overlap", "no contour operation with a lead"),
-    ("tabs", _contours, "tabs.count", "no contour operation"),
-    ("tab_width", _has_tabs, "tabs.width", "no contour operation with tabs; --tabs N makes some"),
-    ("tab_height", _has_tabs, "tabs.height", "no contour operation with tabs; --tabs N makes some"),
-    ("dog_bones", _contours, "dog_bones", "no contour operation"),
-    ("finish_width", _contours, "finish_width", "no contour operation"),
-    ("spring_passes", _contours, "spring_passes", "no contour operation"),
-    ("outside_in", _pockets, "outside_in", "no pocket operation"),
-    ("entry", _mills, "cut.entry.kind", "no operation that mills"),
-    ("ramp_angle", _slopes, "cut.entry.angle", "no operation that goes down by a helix or a ramp"),
-    ("floor_to_leave", _mills, "cut.floor_to_leave", "no operation that mills"),
-    ("finish_depth", _mills, "cut.finish_depth", "no operation that mills"),
-    ("most_engaged", _mills, "most_engaged", "no operation that mills"),
-    ("peck", _drills, "peck", "no drill operation; --drill D adds one"),
-    ("through", _drills, "through", "no drill operation; --drill D adds one"),
-)
-"""By name of what was asked for: the operations that it has an effect on, the field, and what a job lacks that has none of them."""
+def option_of(key: str) -> str:
+    """Return the option that asks for a parameter, without its dashes."""
+    return parameters()[key][0].parameter.option or key.replace("_", "-")
 
 
 def contours_alone(job: Job) -> Job:
-    """Return a job with its contour operations alone, and their tools."""
-    operations = tuple(each for each in job.operations if isinstance(each, ContourOperation))
+    """Return a job with the operations that follow walls alone, and their tools."""
+    operations = tuple(each for each in job.operations if each.FOLLOWS_WALLS)
     used = {each.cut.tool for each in operations}
     return replace(job, operations=operations, tools=tuple(tool for tool in job.tools if tool.number in used))
 
@@ -139,20 +81,41 @@ def with_machining(job: Job, machining: Machining) -> Job:
     Raises:
         ParameterError: something is out of its range, does not go with something else, or has no effect on this job.
     """
+    known = {key: parameters()[key] for key in machining.values}
     operations = job.operations
-    for name, concerns, field, lacking in _OPTIONS:
-        value = getattr(machining, name)
-        if value is None or value is False:
-            continue
-        concerned = [each.cut.enabled and concerns(each) for each in operations]
-        if not any(concerned):
-            raise no_effect(name, f"the job has {lacking}")
-        operations = tuple(_put(each, field.split("."), value) if mine else each for each, mine in zip(operations, concerned, strict=True))
+    for later in (False, True):  # what depends on something else comes behind it
+        names = [key for key, (placed, _) in known.items() if (placed.parameter.needs is not None) is later]
+        operations = tuple(_with_values(each, {key: machining.values[key] for key in names}) for each in operations)
+        for key in names:
+            placed, kinds = known[key]
+            if not any(_concerned(each, placed, kinds) for each in operations):
+                raise no_effect(option_of(key), f"the job has {_lacking(placed, kinds)}")
     keep_out = machining.keep_out or job.keep_out_layers
     if machining.keep_out_height is not None and not keep_out:
-        raise no_effect("keep_out_height", "no layer of clamps is named; --keep-out NAME does")
+        raise no_effect("keep-out-height", "no layer of clamps is named; --keep-out NAME does")
     height = job.keep_out_height if machining.keep_out_height is None else machining.keep_out_height
     return replace(job, operations=operations, copies=machining.copies or job.copies, keep_out_layers=keep_out, keep_out_height=height)
+
+
+def _with_values(operation: Operation, values: Mapping[str, Any]) -> Operation:
+    """Return an operation with those of the values that have an effect on it."""
+    own = parameters_of(type(operation))
+    mine = {key: value for key, value in values.items() if key in own and operation.cut.enabled and own[key].has_effect(operation)}
+    return with_values(operation, mine) if mine else operation
+
+
+def _concerned(operation: Operation, placed: Placed, kinds: tuple[type[Operation], ...]) -> bool:
+    return operation.cut.enabled and isinstance(operation, kinds) and placed.has_effect(operation)
+
+
+def _lacking(placed: Placed, kinds: tuple[type[Operation], ...]) -> str:
+    """Return what a job lacks that a parameter has no effect on."""
+    needs = placed.parameter.needs
+    mills = {kind for kind in OPERATION_KINDS.values() if not kind.DRILLS}
+    what = "operation that mills" if set(kinds) == mills else f"{' or '.join(kind.WORD for kind in kinds)} operation"
+    added = "; --drill D adds one" if all(kind.DRILLS for kind in kinds) else ""
+    with_ = f" with {needs.with_}{'; ' * bool(needs.option)}{needs.option}" if needs else ""
+    return f"no {what}{with_}{added}"
 
 
 def check_order(job: Job, order: Order | None) -> None:
@@ -164,24 +127,17 @@ def check_order(job: Job, order: Order | None) -> None:
     Raises:
         ParameterError: the job has no contours, or nothing else that they could come before.
     """
-    contours = [isinstance(each, ContourOperation) for each in job.operations if each.cut.enabled]
+    contours = [each.FOLLOWS_WALLS for each in job.operations if each.cut.enabled]
     if order is Order.PATENT_1986 and contours and (all(contours) or not any(contours)):
         lacking = "no operation but contours, which it puts first" if all(contours) else "no contour operation, which it puts first"
         raise no_effect("order", f"the job has {lacking}")
 
 
-def no_effect(name: str, why: str) -> ParameterError:
+def no_effect(option: str, why: str) -> ParameterError:
     """Return the error that something has no effect on a job.
 
     Args:
-        name: of the option, with underscores.
+        option: without its dashes.
         why: what the job lacks, without a full stop.
     """
-    return ParameterError(f"--{name.replace('_', '-')} has no effect: {why}. Leave the option away, or use a job that it concerns.")
-
-
-def _put(whole: Any, path: list[str], value: Any) -> Any:
-    """Return an operation, or a part of one, with a value in one of its fields."""
-    if len(path) > 1:
-        value = _put(getattr(whole, path[0]), path[1:], value)
-    return replace(whole, **{path[0]: value})
+    return ParameterError(f"--{option} has no effect: {why}. Leave the option away, or use a job that it concerns.")

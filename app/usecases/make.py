@@ -21,7 +21,6 @@ from ..model.finding import Finding, FindingKind, worst_first
 from ..model.job import Job
 from ..model.machine import Machine
 from ..model.moves import Program
-from ..model.operation import follows_lines
 from ..model.stock_box import stock_box, work_origin
 from ..model.tool import ToolKind
 from ..toolpath.coverage.coverage import Coverage, coverage_findings, measure
@@ -206,7 +205,7 @@ def finish(
 
 def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:
     """Return what is to say of tools that do not cut straight walls and a flat floor, as paths beside walls take them to do."""
-    moves, bare = program.moves, [k for k, each in enumerate(job.operations) if follows_lines(each)]
+    moves, bare = program.moves, [k for k, each in enumerate(job.operations) if each.follows_lines]
     tools = [job.tool(number) for number in dict.fromkeys(moves.tool[~np.isin(moves.operation, bare)].tolist())]
     return tuple(
         Finding(FindingKind.TOOL_SHAPE, f"T{tool.number} is a {tool.kind.value} cutter, and its path is that of a flat one of "

@@ -9,14 +9,9 @@ from ..model.job import Job, OriginXY, OriginZ, Stock
 from ..model.machine import Machine
 from ..model.operation import (
     LEAST_LENGTH,
-    ContourOperation,
-    Cut,
-    Direction,
-    DrillOperation,
     Operation,
     Order,
     PocketOperation,
-    RestOperation,
     Side,
 )
 from ..model.part import Part, Units
@@ -62,7 +57,6 @@ class MakeOptions:
         contour_diameter, pocket_diameter: tool diameters; with only one given that tool does both jobs.
         stepover: distance between pocket rings; None = as the job says, or the one with the shortest path.
         overlap: the same as diameter - stepover; give one of the two.
-        depth, stepdown, stock_to_leave, direction: of every operation.
         safe_z: clearance height above the stock's top.
         feed, plunge (mm/min), speed (rpm): of every tool.
         machine: that the program has to fit and is timed on; None = timed on a usual one.
@@ -77,14 +71,10 @@ class MakeOptions:
     pocket_diameter: float | None = None
     stepover: Stepover | None = None
     overlap: float | None = None
-    depth: float | None = None
-    stepdown: float | None = None
-    stock_to_leave: float | None = None
     safe_z: float | None = None
     feed: float | None = None
     plunge: float | None = None
     speed: float | None = None
-    direction: Direction | None = None
     order: Order | None = None
     post: str | None = None
     out_units: Units | None = None
@@ -108,7 +98,7 @@ def job_with_options(part: Part, options: MakeOptions) -> Job:
         InputError: a layer is not in the drawing.
     """
     base = replace(options.job, part=part) if options.job is not None else Job(part=part)
-    if options.job is None and options.machining.side in (Side.OUTSIDE, Side.ON):
+    if options.job is None and options.machining.values.get("side") in (Side.OUTSIDE, Side.ON):
         base = contours_alone(base)
     _check_effects(base, options)
     tools, operations = _tools(base, options)
@@ -116,8 +106,8 @@ def job_with_options(part: Part, options: MakeOptions) -> Job:
     safe_z = base.safe_z if options.safe_z is None else options.safe_z
     if not safe_z >= LEAST_LENGTH:
         raise ParameterError(f"Safe Z is {safe_z:g} mm; it must be {LEAST_LENGTH:g} mm or more above the top of the stock.")
-    asked = with_drills(replace(base, tools=tuple(tools.values()), operations=operations), options.machining.drills, options.depth)
-    asked = with_machining(asked, options.machining)
+    asked = replace(base, tools=tuple(tools.values()), operations=operations)
+    asked = with_machining(with_drills(asked, options.machining.drills, options.machining.values.get("depth")), options.machining)
     return with_layers_spelled(replace(
         asked,
         tools=tuple(_speeds(tool, options) for tool in asked.tools),
@@ -145,21 +135,20 @@ def layers_of_drawing(options: MakeOptions) -> tuple[str, ...]:
 
 def _check_effects(base: Job, options: MakeOptions) -> None:
     """Refuse options for operations that the job does not have."""
-    kinds = {type(each) for each in base.operations if each.cut.enabled}
+    mills = [each for each in base.operations if each.cut.enabled and not each.DRILLS]
     pocket = {"pocket_tool": options.pocket_diameter, "stepover": options.stepover, "overlap": options.overlap}
     one_tool = options.job is None and (options.pocket_diameter is None) != (options.contour_diameter is None)
     for name, value in pocket.items():
-        if value is not None and PocketOperation not in kinds and not (name == "pocket_tool" and one_tool):
-            raise no_effect(name, "the job has no pocket operation")
-    if options.contour_diameter is not None and not kinds & {ContourOperation, RestOperation} and not one_tool:
-        raise no_effect("contour_tool", "the job has no contour or rest operation")
+        if value is not None and not any(each.COARSE for each in mills) and not (name == "pocket_tool" and one_tool):
+            raise no_effect(name.replace("_", "-"), "the job has no pocket operation")
+    if options.contour_diameter is not None and all(each.COARSE for each in mills) and not one_tool:
+        raise no_effect("contour-tool", "the job has no contour or rest operation")
 
 
 def _tools(base: Job, options: MakeOptions) -> tuple[dict[int, Tool], tuple[Operation, ...]]:
     """Return tools by number, and the operations with the numbers of their tools."""
     tools = {tool.number: tool for tool in base.tools}
-    given = {PocketOperation: options.pocket_diameter, **dict.fromkeys((ContourOperation, RestOperation), options.contour_diameter)}
-    diameters = {value for value in given.values() if value is not None}
+    diameters = {value for value in (options.pocket_diameter, options.contour_diameter) if value is not None}
     if not diameters:
         return tools, base.operations
     if options.job is None and len(diameters) == 1:
@@ -167,9 +156,9 @@ def _tools(base: Job, options: MakeOptions) -> tuple[dict[int, Tool], tuple[Oper
         return {one.number: one}, tuple(replace(each, cut=replace(each.cut, tool=one.number)) for each in base.operations)
     operations = []
     for operation in base.operations:
-        diameter, number = given.get(type(operation)), operation.cut.tool
+        diameter, number = _diameter(operation, options), operation.cut.tool
         if diameter is not None:
-            shared = any(each.cut.tool == number and given.get(type(each)) != diameter for each in base.operations)
+            shared = any(each.cut.tool == number and _diameter(each, options) != diameter for each in base.operations)
             new = max(tools) + 1 if shared and tools[number].diameter != diameter else number
             tools[new] = replace(base.tool(number), number=new, diameter=diameter, name="")
             operation = replace(operation, cut=replace(operation.cut, tool=new))
@@ -178,12 +167,13 @@ def _tools(base: Job, options: MakeOptions) -> tuple[dict[int, Tool], tuple[Oper
     return {number: tool for number, tool in tools.items() if number in used}, tuple(operations)
 
 
+def _diameter(operation: Operation, options: MakeOptions) -> float | None:
+    """Return the diameter that was asked for of an operation's tool."""
+    return None if operation.DRILLS else options.pocket_diameter if operation.COARSE else options.contour_diameter
+
+
 def _operation(operation: Operation, tools: dict[int, Tool], options: MakeOptions) -> Operation:
-    """Return the operation with the given depth, stepdown, stock, direction and stepover."""
-    if isinstance(operation, DrillOperation):
-        depth = operation.cut.depth if options.depth is None else options.depth
-        return replace(operation, cut=replace(operation.cut, depth=depth))
-    operation = replace(operation, cut=_cut(operation.cut, options))
+    """Return the operation with the stepover that was asked for."""
     if not isinstance(operation, PocketOperation):
         return operation
     if operation.cut.tool not in tools:
@@ -209,17 +199,6 @@ def _stepover_of_overlap(options: MakeOptions, diameter: float) -> float:
         raise ParameterError(f"Overlap is {overlap:g} mm with a pocket tool of {diameter:g} mm; "
                              "it must be greater than 0 and less than the tool's diameter.")
     return diameter - overlap
-
-
-def _cut(cut: Cut, options: MakeOptions) -> Cut:
-    """Return the cut with the given values; without a stepdown of its own a new depth keeps the old stepdown."""
-    return replace(
-        cut,
-        depth=cut.depth if options.depth is None else options.depth,
-        stepdown=cut.stepdown if options.stepdown is None else options.stepdown,
-        stock_to_leave=cut.stock_to_leave if options.stock_to_leave is None else options.stock_to_leave,
-        direction=options.direction or cut.direction,
-    )
 
 
 def _speeds(tool: Tool, options: MakeOptions) -> Tool:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from enum import Enum
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model.fields import Placed, Unit, parameters_of
 from ..model.job import Job
 from ..model.motion import MotionKind
 from ..model.moves import MoveKind, Moves, Program, Purpose
-from ..model.operation import ContourOperation, DrillOperation, Operation, PocketOperation, RestOperation, kind_word
+from ..model.operation import Operation
 from ..verify.verdict import in_stock
 from .written import Written
 
@@ -76,10 +78,9 @@ def operation_values(job: Job, index: int, program: Program, written: Written, t
         top: height of the stock's top, mm, program coordinates.
     """
     operation, moves = job.operations[index], program.moves
-    cut, mine = operation.cut, moves.operation[written.move] == index
+    mine = moves.operation[written.move] == index
     return {
-        "kind": kind_word(operation), "tool": cut.tool, "enabled": cut.enabled, "depth_mm": cut.depth,
-        **_parameters(operation), **_stepover(job, index, program), "layers": list(cut.layers), "strokes": strokes_of(moves, index),
+        "kind": operation.WORD, **_parameters(operation), **_stepover(job, index, program), "strokes": strokes_of(moves, index),
         "length_mm": path_lengths(moves, written, top, index), "time_s": float(np.sum(written.moving[mine])),
         "rapid_time_s": float(np.sum(written.moving[mine & (written.kind == MotionKind.RAPID)])),
     }  # fmt: skip
@@ -88,26 +89,25 @@ def operation_values(job: Job, index: int, program: Program, written: Written, t
 def _stepover(job: Job, index: int, program: Program) -> Json:
     """Return the stepover that was asked for, or what the program has chosen, of rest runs the most; None where a pocket makes no rings."""
     operation = job.operations[index]
-    if isinstance(operation, PocketOperation):
-        return {"stepover_mm": program.stepovers.get(index, operation.stepover)}
-    if isinstance(operation, RestOperation):
-        return {"stepover_mm": operation.stepover or job.tool(operation.cut.tool).diameter}
-    return {}
+    if "stepover" not in parameters_of(type(operation)):
+        return {}
+    asked = _parameters(operation)["stepover_mm"]
+    usual = None if operation.COARSE else asked or job.tool(operation.cut.tool).diameter
+    return {"stepover_mm": program.stepovers.get(index, asked or usual)}
 
 
 def _parameters(operation: Operation) -> Json:
-    """Return what was asked of an operation of its kind, None where nothing was."""
-    cut = operation.cut
-    if isinstance(operation, DrillOperation):
-        return {"peck_mm": operation.peck, "least_mm": operation.least, "most_mm": operation.most, "through_mm": operation.through}
-    asked: Json = {
-        "stepdown_mm": cut.stepdown, "stock_to_leave_mm": cut.stock_to_leave, "floor_to_leave_mm": cut.floor_to_leave,
-        "finish_depth_mm": cut.finish_depth, "direction": cut.direction.value, "entry": cut.entry.kind.value,
-        "most_engaged": operation.most_engaged,
-    }  # fmt: skip
-    if isinstance(operation, PocketOperation):
-        asked["outside_in"] = operation.outside_in
-    if isinstance(operation, ContourOperation):
-        asked |= {"side": operation.side.value, "lead": operation.lead.kind.value, "finish_width_mm": operation.finish_width,
-                  "spring_passes": operation.spring_passes, "dog_bones": operation.dog_bones, "tabs": operation.tabs.count}  # fmt: skip
-    return asked
+    """Return what was asked of an operation, with the unit behind the name; None where nothing was."""
+    return {f"{key}{_SUFFIXES.get(placed.parameter.unit, '')}": _plain(placed, placed.of(operation))
+            for key, placed in parameters_of(type(operation)).items()}
+
+
+def _plain(placed: Placed, value: Any) -> Any:
+    if isinstance(value, Enum):
+        return value.value
+    if isinstance(value, tuple):
+        return [list(each) if isinstance(each, tuple) else each for each in value]
+    return placed.parameter.shown(value) if placed.parameter.unit is Unit.ANGLE and value is not None else value
+
+
+_SUFFIXES = {Unit.LENGTH: "_mm", Unit.ANGLE: "_deg"}

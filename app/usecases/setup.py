@@ -13,13 +13,12 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..formats.job.toml import JobFile
 from ..gcode.interpreter.codes import ROTARY
 from ..gcode.interpreter.program import HeaderNote, OperationNote
-from ..model.entry import LONGEST_LEAD, Lead
 from ..model.finding import Finding, FindingKind
 from ..model.job import Copies, Job, OriginXY, OriginZ
 from ..model.job import Stock as JobStock
 from ..model.motion import Floats, MotionKind
 from ..model.moves import DogBone, Tab
-from ..model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, RestOperation
+from ..model.operation import Cut, Operation, PocketOperation
 from ..model.part import Contour, Region, Units
 from ..model.part import Part as DrawnPart
 from ..model.read_options import AS_DRAWN, ReadOptions
@@ -346,13 +345,7 @@ def _as_noted(note: OperationNote) -> Operation:
         InputError: its numbers make none.
     """
     try:
-        cut = Cut(note.tool, note.depth, note.depth, note.leave, floor_to_leave=note.floor_to_leave, layers=note.layers)
-        if note.kind == "contour":
-            return ContourOperation(cut, note.side, Lead(radius=min(note.leads, LONGEST_LEAD) or None))
-        if note.kind == "drill":
-            least, most, through = note.holes
-            return DrillOperation(cut, None, least or None, most or None, through)
-        return RestOperation(cut) if note.kind == "rest" else PocketOperation(cut)
+        return note.operation()
     except HitofudeError as error:
         raise InputError(f"The program's comments tell of an operation that is none: {error}") from error
 

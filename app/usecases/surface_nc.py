@@ -14,10 +14,11 @@ from ..formats.machine_toml import DEFAULT_MACHINE, load_machine
 from ..gcode.interpreter.options import ReadOptions
 from ..gcode.interpreter.program import NcProgram
 from ..gcode.interpreter.reader import read_program
+from ..gcode.note_texts import plain_numbers, spelled
 from ..gcode.posts.post import Post
 from ..gcode.posts.posts import load_post
 from ..gcode.timing.duration import duration
-from ..gcode.writer.header import plain_numbers, safe_name, spelled_name, tool_words, unit_sign
+from ..gcode.writer.header import safe_name, tool_words, unit_sign
 from ..gcode.writer.header_notes import shape_numbers
 from ..gcode.writer.write import NcFile, Remarks, write_moves
 from ..model.finding import Finding, FindingKind
@@ -179,7 +180,7 @@ def _notes(computed: Computed) -> list[str]:
     for family in computed.families:  # passes may feed one tool in different ways
         fastest[family.tool.number] = max(family.tool.plunge_rate, fastest.get(family.tool.number, 0.0))
     notes += [f"plunge_mm_min={plain_numbers(number, rate)}" for number, rate in fastest.items()]
-    notes += [f"surface={number},{spelled_name(surface.name)}" for number, surface in enumerate(scene.surfaces, 1)]
+    notes += [f"surface={number},{spelled(surface.name)}" for number, surface in enumerate(scene.surfaces, 1)]
     return [f"hitofude: {note}" for note in notes]
 
 

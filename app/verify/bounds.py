@@ -14,7 +14,7 @@ from ..geometry.primitives import contour_rows, points_at, within_half_turn
 from ..model.curves import Circle
 from ..model.job import Job
 from ..model.moves import Area, DogBone, Moves, Program
-from ..model.operation import DrillOperation, Operation
+from ..model.operation import Operation
 from ..model.part import Contour, Region
 from ..model.tool import Tool, ToolKind
 from ..simulation.cutter import DRILL_ANGLE, cutter_of
@@ -57,15 +57,13 @@ def bounds_of(program: Program, job: Job) -> list[Bound]:
     busy = {operation.cut.tool for operation in job.operations if operation.cut.enabled}
     idle = tuple(tool.number for tool in job.tools if tool.number not in busy)
     return [Bound(tuple(group), (*dict.fromkeys(job.operations[k].cut.tool for k in group), *idle), areas[group[0]], leave, floor,
-                  isinstance(job.operations[group[0]], DrillOperation))
+                  job.operations[group[0]].DRILLS)
             for (_, _, leave, floor), group in found.items()]  # fmt: skip
 
 
 def deepest(operation: Operation, job: Job) -> float:
     """Return how deep an operation's tool may go, mm: a drill goes through by its tip's length and what is asked for."""
-    if not isinstance(operation, DrillOperation):
-        return operation.cut.floor
-    return operation.cut.depth + operation.through + tip_length(job.tool(operation.cut.tool))
+    return operation.cut.floor + operation.beyond + (tip_length(job.tool(operation.cut.tool)) if operation.DRILLS else 0.0)
 
 
 def tip_length(tool: Tool) -> float:

@@ -16,7 +16,7 @@ from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import Level, offset_levels
 from app.geometry.primitives import Primitives, contour_rows, pack, sample
 from app.model.part import Region
-from app.operations.pocket.pocket import pocket_distances, without_empty
+from app.operations.pocket.paths import pocket_distances, without_empty
 from tests.benchmarks.conftest import OURS, record
 
 pytestmark = pytest.mark.benchmark

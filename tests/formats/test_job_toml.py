@@ -13,7 +13,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core.errors import InputError
-from app.formats.job.operations import KEYS
 from app.formats.job.toml import TOOL_KEYS, parse_origin, read_job
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
@@ -27,7 +26,7 @@ from app.model.operation import (
     PocketOperation,
     RestOperation,
     Side,
-    kind_word,
+    declared,
 )
 from app.model.part import Part, Units
 from app.model.tool import Tool, ToolKind
@@ -49,7 +48,7 @@ def test_the_sample_names_every_key_of_every_kind(samples: Path) -> None:
     assert isinstance(contour, ContourOperation) and contour.lead.radius == 1.5
     assert drill == DrillOperation(Cut(1), 1.0, 5.9, 6.1, 0.0)
     named = set(re.findall(r"(?m)^(\w+) = ", text))
-    assert set(KEYS) | set(TOOL_KEYS) - {"feeds"} <= named
+    assert {"kind", *declared()} | set(TOOL_KEYS) - {"feeds"} <= named
 
 
 def test_an_empty_file_is_the_default_job() -> None:
@@ -165,7 +164,7 @@ CONTOUR = "[[operation]]\nkind = 'contour'\ntool = 1\n"
     ("[[operation]]\nkind = 'contour'\ntool = 1\nside = 'on'\ndog_bones = true", "j:1: A path on the line has no wall"),
     ("[[operation]]\nkind = 'contour'\ntool = 1\nentry_angle = 60", "j:1: Entry angle is 60 degrees"),
     ("[[operation]]\nkind = 'pocket'\ntool = 1\nmost_engaged = '40'", "j:4: most_engaged is '40': it must be a share"),
-    ("[[operation]]\nkind = 'pocket'\ntool = 1\nmost_engaged = '400%'", "j:1: The limit of engagement is 400 %"),
+    ("[[operation]]\nkind = 'pocket'\ntool = 1\nmost_engaged = '400%'", "j:1: Limit of engagement is 400 %"),
     ("[copies]\ncolumns = 2", "j:1: Copies along X are 0 mm apart"),
     ("[copies]\ncolumns = 2.5", "j:2: columns is 2.5: it must be a whole number"),
     ("[copies]\ndx = 40", "j:2: dx has no effect without columns; add columns = 2, or take it out"),
@@ -174,7 +173,7 @@ CONTOUR = "[[operation]]\nkind = 'contour'\ntool = 1\n"
     (CONTOUR + "lead = 'none'\nlead_radius = 2", "j:5: lead_radius has no effect without a lead; write lead = \"arc\""),
     (CONTOUR + "lead_overlap = 0\nlead = 'none'", "j:4: lead_overlap has no effect without a lead"),
     (CONTOUR + "lead_overlap = 51", "j:1: Lead overlap is 51 mm; use 0 to 50 mm"),
-    (CONTOUR + "entry = 'plunge'\nentry_angle = 5", "j:5: entry_angle has no effect where the tool goes straight down; write entry"),
+    (CONTOUR + "entry = 'plunge'\nentry_angle = 5", "j:5: entry_angle has no effect without a slope; write entry"),
     (CONTOUR + "entry = 'predrilled'\nentry_angle = 5", "j:5: entry_angle has no effect"),
     (CONTOUR + "tab_width = 4", "j:4: tab_width has no effect without tabs; add tabs = 4 or tab_places, or take it out"),
     (CONTOUR + "tabs = 0\ntab_height = 2", "j:5: tab_height has no effect without tabs"),
@@ -230,7 +229,7 @@ def effective(operation: Operation) -> Operation:
 def written(operation: Operation) -> str:
     """An operation as a person would write it, by the keys that its kind has."""
     cut = operation.cut
-    keys: dict[str, object] = {"kind": kind_word(operation), "tool": cut.tool, "depth": cut.depth, "enabled": cut.enabled,
+    keys: dict[str, object] = {"kind": operation.WORD, "tool": cut.tool, "depth": cut.depth, "enabled": cut.enabled,
                                "layers": list(cut.layers)}  # fmt: skip
     if not isinstance(operation, DrillOperation):
         keys |= {"stepdown": cut.stepdown, "stock_to_leave": cut.stock_to_leave, "direction": cut.direction.value,

@@ -16,7 +16,6 @@ import numpy as np
 import trimesh
 from fontTools.fontBuilder import FontBuilder
 from fontTools.pens.ttGlyphPen import TTGlyphPen
-from tests.surfaces import solids
 
 from app.core.settings import Settings
 from app.drafting.document import drawn
@@ -29,6 +28,7 @@ from app.model.job import Job
 from tests.conftest import ROOT
 from tests.formats.test_svg_damage import RICH
 from tests.gcode.interpreter.rs274_programs import PROGRAMS
+from tests.surfaces import solids
 
 DATA, RESOURCES, GOLDEN = ROOT / "tests" / "data", ROOT / "resources", ROOT / "tests" / "gcode" / "golden"
 WHERE = b'{"x0": -1.5, "y0": 2, "pitch": 0.5, "floor": -3.0}\n'

@@ -173,9 +173,10 @@ def test_header_names_stock_origin_tools_and_operations() -> None:
     for words in (
         "Part plate", "Stock 44 mm x 34 mm x 8 mm", "Work origin: drawing zero, top of stock", "T1 flat 6 mm Schlichtfraser, 12000 rpm",
         "T2 ball 3.175 mm, 18000 rpm", "Contour T3: depth 2 mm, stepdown 2 mm, stock to leave 0 mm, climb, makes no moves",
-        "Pocket T1: depth 2 mm, stepdown 2 mm, stepover 2.5 mm, stock to leave 0.1 mm, climb",
+        "Pocket T1: depth 2 mm, stepdown 2 mm, stock to leave 0.1 mm, climb, stepover 2.5 mm",
         "hitofude: part=plate", "hitofude: units=mm", "hitofude: origin_mm=0,0,0", "hitofude: stock_mm=-2,-2,-8,42,32,0",
-        "hitofude: tool=2,ball,3.175", "hitofude: operation=pocket,1,2,0.1", "hitofude: path_tolerance_mm=0.0012",
+        "hitofude: tool=2,ball,3.175",
+        "hitofude: operation=pocket,tool=1,depth=2,stock_to_leave=0.1,stepover=2.5", "hitofude: path_tolerance_mm=0.0012",
         "hitofude: blend_mm=0.01",
     ):  # fmt: skip
         assert words in comments

@@ -20,7 +20,7 @@ from app.model.operation import Cut, Direction, PocketOperation
 from app.model.part import Contour, Entity, Part, Region
 from app.model.tool import Tool
 from app.operations.compute import compute, regions_of
-from app.operations.pocket.pocket import MOST_COMPARED, MOST_LINKED, Cleared, Wanted, candidates, shortest
+from app.operations.pocket.paths import MOST_COMPARED, MOST_LINKED, Cleared, Wanted, candidates, shortest
 from app.toolpath.coverage.coverage import measure
 from app.toolpath.linking.link import Manner
 from app.toolpath.narrow import necks

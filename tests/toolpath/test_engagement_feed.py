@@ -21,7 +21,7 @@ from app.model.tool import Tool
 from app.operations.compute import compute
 from app.toolpath.coverage.flat import move_rows
 from app.toolpath.engagement.engagement import engagement
-from app.toolpath.engagement.feed import LEAST_FEED, followed, most_engaged
+from app.toolpath.engagement.feed import LEAST_FEED, followed
 from tests.examples import examples
 from tests.gcode.programs import Path, job, square
 
@@ -70,7 +70,7 @@ def check(before: Program, of: Job) -> Program:
     assert np.all(new.feed <= old.feed[owner])
     assert np.all((new.feed == old.feed[owner]) | (new.feed >= LEAST_FEED * asked - 1e-9))
     held = engagement(after, of)
-    limit = np.array([most_engaged(operation) for operation in of.operations])[new.operation]
+    limit = np.array([operation.engagement_limit for operation in of.operations])[new.operation]
     removed, most = held.shares * new.feed, (limit + held.bounds[new.operation]) * asked
     assert np.all((removed <= most + 1e-6) | (new.feed <= LEAST_FEED * asked + 1e-9) | (limit == 1))
     assert same(followed(after, of).moves, new)
@@ -159,8 +159,8 @@ def test_each_operation_has_its_own_limit() -> None:
     slot(y=20, path=path)
     for limits, feeds in (((0.5, 1.0), (300, 600)), ((1.0, 0.5), (600, 300)), ((0.5, 0.4), (300, 240))):
         assert followed(path.program(PLATE), limited(*limits)).moves.feed[[3, 8]].tolist() == pytest.approx(feeds)
-    assert [most_engaged(operation) for operation in limited(0.5, 1.0).operations] == [0.5, 1.0]
-    assert most_engaged(DrillOperation(Cut(1))) == 1.0
+    assert [operation.engagement_limit for operation in limited(0.5, 1.0).operations] == [0.5, 1.0]
+    assert DrillOperation(Cut(1)).engagement_limit == 1.0
 
 
 def test_a_short_slot_slows_no_other_tool_behind_it() -> None:

@@ -16,7 +16,7 @@ from app.geometry.region import nest, polygon_contour
 from app.model.moves import Purpose
 from app.model.operation import Direction
 from app.model.part import Contour
-from app.operations.pocket.pocket import pocket_distances, without_empty
+from app.operations.pocket.paths import pocket_distances, without_empty
 from app.toolpath.build import Stroke, started_at
 from app.toolpath.linking.link import Manner, link
 from tests import plain_distance

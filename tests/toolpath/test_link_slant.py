@@ -19,7 +19,7 @@ from app.model.moves import Purpose
 from app.model.operation import Direction
 from app.model.part import Region
 from app.operations.compute import regions_of
-from app.operations.pocket.pocket import Cleared, Wanted, shortest
+from app.operations.pocket.paths import Cleared, Wanted, shortest
 from app.toolpath.coverage.uncut import uncut
 from app.toolpath.linking.link import Manner
 from app.toolpath.linking.slant import covers

@@ -17,7 +17,7 @@ from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import Primitives, Rows, lengths, pack, points_at, sample, within_half_turn
 from app.geometry.region import nest, polygon_contour
 from app.model.part import Contour
-from app.operations.pocket.pocket import pocket_distances, without_empty
+from app.operations.pocket.paths import pocket_distances, without_empty
 from app.toolpath.build import Stroke
 from app.toolpath.coverage.flat import region_shapes
 from app.toolpath.coverage.uncut import uncut

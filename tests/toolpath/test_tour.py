@@ -22,8 +22,8 @@ from app.model.job import Job
 from app.model.moves import Purpose
 from app.model.operation import Direction
 from app.operations.compute import regions_of
-from app.operations.contour.contour import contour_strokes
-from app.operations.pocket.pocket import pocket_distances, without_empty
+from app.operations.contour.paths import contour_strokes
+from app.operations.pocket.paths import pocket_distances, without_empty
 from app.toolpath.build import Stroke
 from app.toolpath.linking.link import Manner, link
 from app.toolpath.ordering.tour import in_short_order, travel_mm

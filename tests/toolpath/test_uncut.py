@@ -17,7 +17,7 @@ from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import Rows, pack
 from app.geometry.region import nest
 from app.model.part import Contour
-from app.operations.pocket.pocket import pocket_distances, without_empty
+from app.operations.pocket.paths import pocket_distances, without_empty
 from app.toolpath.coverage.uncut import Uncut, uncut
 from tests import plain_distance
 from tests.examples import examples

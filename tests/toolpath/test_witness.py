@@ -173,7 +173,7 @@ LINKS = {
 @pytest.mark.parametrize("link", list(LINKS))
 def test_a_broken_link_turns_the_verdict_red(link: str, monkeypatch: pytest.MonkeyPatch) -> None:
     damage, text = LINKS[link]
-    options = MakeOptions(machining=Machining(keep_out=("clamps",))) if text is CLAMPED else MakeOptions()
+    options = MakeOptions(machining=Machining.of(keep_out=("clamps",))) if text is CLAMPED else MakeOptions()
     assert not [each for each in made_of(text, options).findings if each.kind is FindingKind.AREA]
     damage(monkeypatch)
     broken = made_of(text, options)

@@ -12,7 +12,7 @@ from app.drafting.document import Document
 from app.gcode.posts.posts import post_titles
 from app.model.entry import Lead, LeadKind, Tabs
 from app.model.job import Job, OriginXY
-from app.model.operation import OPERATION_KINDS, ContourOperation, Cut, DrillOperation, Order, PocketOperation, Side, kind_word
+from app.model.operation import OPERATION_KINDS, ContourOperation, Cut, DrillOperation, Order, PocketOperation, Side
 from app.model.part import Part
 from app.model.tool import Tool
 from app.ui.framework import style
@@ -56,16 +56,16 @@ def test_every_post_can_be_chosen_by_its_title(qtbot, document, panel):
 
 
 def test_arithmetic_and_units_are_read(qtbot, document, panel):
-    enter(qtbot, panel.operation_form.cut_depth, "1in + 8mm")
+    enter(qtbot, panel.operation_form.number("depth"), "1in + 8mm")
     assert document.job.operations[0].cut.depth == pytest.approx(33.4)
-    assert panel.operation_form.cut_depth.edit.text() == "33.400"
+    assert panel.operation_form.number("depth").edit.text() == "33.400"
 
 
 @pytest.mark.parametrize(("text", "reason"), [
-    ("-1", "use 0.001 to 10000"), ("0", "use 0.001"), ("2 furlongs", "is no unit"), ("3+", "ends too early"), ("", "ends too early"),
+    ("-1", "use 0.001 to 99999"), ("0", "use 0.001"), ("2 furlongs", "is no unit"), ("3+", "ends too early"), ("", "ends too early"),
 ])
 def test_wrong_input_is_marked_at_once_with_the_reason_and_changes_nothing(qtbot, document, panel, text, reason):
-    field, before = panel.operation_form.cut_depth, document.job
+    field, before = panel.operation_form.number("depth"), document.job
     field.edit.setFocus()
     field.edit.selectAll()
     qtbot.keyClick(field.edit, Qt.Key.Key_Backspace)
@@ -78,7 +78,7 @@ def test_wrong_input_is_marked_at_once_with_the_reason_and_changes_nothing(qtbot
 
 
 def test_escape_brings_the_old_value_back(qtbot, document, panel):
-    field = panel.operation_form.cut_depth
+    field = panel.operation_form.number("depth")
     field.edit.setFocus()
     field.edit.selectAll()
     qtbot.keyClicks(field.edit, "nonsense")
@@ -89,20 +89,20 @@ def test_escape_brings_the_old_value_back(qtbot, document, panel):
 
 def test_stepover_by_per_cent_shows_overlap(qtbot, document, panel):
     form = panel.operation_form
-    enter(qtbot, form.stepover, "40%")
+    enter(qtbot, form.number("stepover"), "40%")
     assert document.job.operations[0].stepover == pytest.approx(2.4)
-    assert form.stepover.note.text() == "40.0 %"
+    assert form.number("stepover").note.text() == "40.0 %"
     assert form.overlap.text() == "3.600 mm"
 
 
 def test_stepover_larger_than_the_tool_is_refused(qtbot, document, panel):
-    enter(qtbot, panel.operation_form.stepover, "7")
+    enter(qtbot, panel.operation_form.number("stepover"), "7")
     assert document.job.operations[0].stepover is None
-    assert "not more than the tool's diameter, 6 mm" in panel.operation_form.stepover.reason.text()
+    assert "not more than the tool's diameter, 6 mm" in panel.operation_form.number("stepover").reason.text()
 
 
 def test_every_change_is_undone_by_its_name(qtbot, document, panel):
-    enter(qtbot, panel.operation_form.cut_depth, "5")
+    enter(qtbot, panel.operation_form.number("depth"), "5")
     panel.choose(Subject(SubjectKind.TOOL, 1))
     enter(qtbot, panel.tool_form.diameter, "1/4in")
     assert document.job.tool(1).diameter == pytest.approx(6.35)
@@ -152,7 +152,7 @@ def test_operations_are_added_and_removed(qtbot, document, panel, kind):
 
 
 def kinds(document):
-    return "".join(kind_word(op)[0].upper() for op in document.job.operations)
+    return "".join(op.WORD[0].upper() for op in document.job.operations)
 
 
 def test_operations_are_listed_as_they_are_cut(qtbot, document, panel):
@@ -203,7 +203,7 @@ def test_a_dragged_row_moves_its_operation(qtbot, document, panel):
 def test_contour_has_no_stepover(qtbot, document, panel):
     panel.choose(Subject(SubjectKind.OPERATION, 2))
     assert panel.operation_form.title.text() == "Contour"
-    assert not panel.operation_form.stepover.isVisible()
+    assert not panel.operation_form.number("stepover").isVisible()
 
 
 def test_stock_and_origin(qtbot, document, panel):
@@ -226,7 +226,7 @@ def test_what_only_the_job_knows_is_said_at_the_field(qtbot, document, panel):
 @pytest.mark.parametrize("kind", list(SubjectKind))
 def test_nothing_is_wider_than_the_panel(qtbot, document, panel, kind):
     panel.resize(panel.width(), 300)
-    enter(qtbot, panel.operation_form.cut_depth, "12")
+    enter(qtbot, panel.operation_form.number("depth"), "12")
     panel.show_results({0: 36_000.0, 1: 0.0}, 123)
     panel.choose(Subject(kind, 1 if kind is SubjectKind.TOOL else 0))
     qtbot.wait(20)
@@ -235,14 +235,14 @@ def test_nothing_is_wider_than_the_panel(qtbot, document, panel, kind):
 
 def test_values_that_do_not_fit_one_another_are_marked(qtbot, document, panel):
     form = panel.operation_form
-    enter(qtbot, form.cut_depth, "12")
-    assert "the stock is 10 mm thick" in form.cut_depth.reason.text()
-    enter(qtbot, form.stepover, "4")
+    enter(qtbot, form.number("depth"), "12")
+    assert "the stock is 10 mm thick" in form.number("depth").reason.text()
+    enter(qtbot, form.number("stepover"), "4")
     tool = document.job.tool(1)
     document.change_job("Smaller tool", with_tool(document.job, 1, replace(tool, diameter=3.0)))
-    assert "not more than the tool's diameter, 3 mm" in form.stepover.reason.text()
+    assert "not more than the tool's diameter, 3 mm" in form.number("stepover").reason.text()
     document.undo()
-    assert not form.stepover.reason.isVisible()
+    assert not form.number("stepover").reason.isVisible()
 
 
 @pytest.fixture(params=[TEXT_PX, TEXT_PX + 1])

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 import threading
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,7 @@ from app.core.errors import Cancelled, HitofudeError, InputError, ParameterError
 from app.core.progress import Progress
 from app.model.entry import EntryKind, LeadKind
 from app.model.job import Copies, Job
-from app.model.operation import ContourOperation, Cut, DrillOperation, Order, PocketOperation, RestOperation, Side, kind_word
+from app.model.operation import ContourOperation, Cut, DrillOperation, Order, PocketOperation, RestOperation, Side, parameters
 from app.model.part import Layer, Part
 from app.model.tool import Tool, ToolKind
 from app.usecases.machining import Machining, check_order
@@ -26,7 +25,7 @@ NO_OPTIONS = MakeOptions()
 
 
 def made(job: Job | None = None, options: MakeOptions = NO_OPTIONS, part: Part = Part(), **asked: Any) -> Job:  # noqa: B008  # frozen
-    return job_with_options(part, replace(options, job=job, machining=Machining(**asked)))
+    return job_with_options(part, replace(options, job=job, machining=Machining.of(**asked)))
 
 
 def contour_of(job: Job) -> ContourOperation:
@@ -42,7 +41,7 @@ def test_nothing_asked_for_changes_nothing() -> None:
 def test_every_value_reaches_its_operations() -> None:
     job = made(
         lead=LeadKind.LINE, lead_radius=2.0, lead_overlap=0.25, tabs=3, tab_width=4.0, tab_height=0.5, dog_bones=True, finish_width=0.2,
-        spring_passes=2, outside_in=True, entry=EntryKind.RAMP, ramp_angle=0.1, finish_depth=0.3, floor_to_leave=0.4, most_engaged=0.6,
+        spring_passes=2, outside_in=True, entry=EntryKind.RAMP, entry_angle=0.1, finish_depth=0.3, floor_to_leave=0.4, most_engaged=0.6,
     )  # fmt: skip
     contour, (pocket, rest) = contour_of(job), job.operations[:2]
     assert isinstance(pocket, PocketOperation) and isinstance(rest, RestOperation)
@@ -76,7 +75,7 @@ def test_one_tool_does_the_contour_alone() -> None:
 
 
 def test_drills_come_first_with_tools_of_their_own() -> None:
-    job = made(options=MakeOptions(depth=7.0, stock_to_leave=0.5, feed=99.0), drills=(5.0, 3.3), peck=1.5, through=0.5)
+    job = made(options=MakeOptions(feed=99.0), depth=7.0, stock_to_leave=0.5, drills=(5.0, 3.3), peck=1.5, through=0.5)
     first, second = job.operations[:2]
     assert (first, second) == (DrillOperation(Cut(3, 7.0), 1.5, through=0.5), DrillOperation(Cut(4, 7.0), 1.5, through=0.5))
     drills = job.tools[2:]
@@ -97,7 +96,7 @@ def test_copies_and_clamps() -> None:
 
 def test_layers_that_are_read_are_all_that_the_job_needs() -> None:
     job = Job(Part(), operations=(PocketOperation(Cut(1, layers=("p",))), ContourOperation(Cut(2, enabled=False, layers=("q",)))))
-    machining = Machining(keep_out=("k",))
+    machining = Machining.of(keep_out=("k",))
     assert layers_of_drawing(MakeOptions(job=job, machining=machining)) == ()
     assert layers_of_drawing(MakeOptions(job=job, layers=("a",), machining=machining)) == ("a", "p", "k")
 
@@ -109,7 +108,7 @@ def test_layers_that_are_read_are_all_that_the_job_needs() -> None:
     ({"entry": EntryKind.RAMP}, HOLES, "--entry has no effect: the job has no operation that mills"),
     ({"most_engaged": 0.5}, HOLES, "--most-engaged has no effect"),
     ({"floor_to_leave": 0.5}, HOLES, "--floor-to-leave has no effect"),
-    ({"ramp_angle": 0.1, "entry": EntryKind.PLUNGE}, None, "--ramp-angle has no effect: the job has no operation that goes down"),
+    ({"entry_angle": 0.1, "entry": EntryKind.PLUNGE}, None, "--ramp-angle has no effect: the job has no operation that mills with a slope"),
     ({"lead_radius": 1.0, "lead": LeadKind.NONE}, None, "--lead-radius has no effect: the job has no contour operation with a lead"),
     ({"tab_width": 1.0}, None, "--tab-width has no effect: the job has no contour operation with tabs; --tabs N makes some"),
     ({"tab_height": 1.0, "tabs": 0}, None, "--tab-height has no effect"),
@@ -154,7 +153,7 @@ def test_a_drill_mills_nothing() -> None:
     job = Job(Part(), (Tool(1, 3.0, ToolKind.DRILL),), (DrillOperation(Cut(1)),))
     assert job.cutter(job.operations[0]).number == 1
     for operation in (PocketOperation(Cut(1)), RestOperation(Cut(1)), ContourOperation(Cut(1))):
-        with pytest.raises(ParameterError, match="T1 is a drill, which cannot cut sideways; a " + kind_word(operation)):
+        with pytest.raises(ParameterError, match="T1 is a drill, which cannot cut sideways; a " + operation.WORD):
             export(replace(job, operations=(operation,)))
 
 
@@ -165,10 +164,10 @@ def test_a_switched_off_operation_is_left_as_it_is() -> None:
 
 
 def test_every_field_can_be_asked_for() -> None:
-    given = {"drills": (1.0,), "keep_out": ("a",), "copies": Copies(2, 1, 5.0), "ramp_angle": math.radians(2)}
-    for field in fields(Machining):
-        value = given.get(field.name, True if field.default is False else 1.0)
-        assert Machining(**{field.name: value}).asked == (field.name,)  # type: ignore[arg-type]
+    given: dict[str, Any] = {"drills": (1.0,), "keep_out": ("a",), "copies": Copies(2, 1, 5.0), "keep_out_height": 1.0}
+    options = {"drills": "drill", "entry_angle": "ramp-angle"}
+    for name, value in {**given, **dict.fromkeys(parameters(), 1.0)}.items():
+        assert Machining.of(**{name: value}).asked == (options.get(name, name.replace("_", "-")),)
 
 
 def test_a_thousand_passes_can_be_stopped(samples: Path) -> None:
@@ -181,7 +180,8 @@ def test_a_thousand_passes_can_be_stopped(samples: Path) -> None:
             stop.set()
 
     with pytest.raises(Cancelled):
-        make("fig2.dxf", (samples / "fig2.dxf").read_bytes(), MakeOptions(depth=1.0, stepdown=0.001), Progress(listen, stop))
+        options = MakeOptions(machining=Machining.of(depth=1.0, stepdown=0.001))
+        make("fig2.dxf", (samples / "fig2.dxf").read_bytes(), options, Progress(listen, stop))
     assert told[-1] == "Depth passes"
 
 
@@ -192,6 +192,7 @@ def test_every_depth_pass_tells_how_far_it_is(samples: Path) -> None:
         if text == "Depth passes":
             told.append(fraction)
 
-    made = make("fig2.dxf", (samples / "fig2.dxf").read_bytes(), MakeOptions(depth=1.0, stepdown=0.1), Progress(listen))
+    options = MakeOptions(machining=Machining.of(depth=1.0, stepdown=0.1))
+    made = make("fig2.dxf", (samples / "fig2.dxf").read_bytes(), options, Progress(listen))
     assert len(told) >= 10 * len(set(made.program.moves.operation.tolist()))
     assert told == sorted(set(told))

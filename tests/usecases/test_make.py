@@ -22,6 +22,7 @@ from app.model.operation import ContourOperation, Cut, PocketOperation, RestOper
 from app.model.part import Part, Units
 from app.model.stock_box import stock_box, work_origin
 from app.model.tool import ToolKind
+from app.usecases.machining import Machining
 from app.usecases.make import Made, finish, make
 from app.usecases.options import MakeOptions
 from tests.gcode.rs274_oracle import assert_same_motion, canonical_calls
@@ -226,8 +227,8 @@ def test_one_tool_does_both_jobs() -> None:
 
 def test_depth_passes_origin_and_units_reach_the_program() -> None:
     options = MakeOptions(
-        depth=5, stepdown=2, origin_xy=OriginXY.CENTRE, origin_z=OriginZ.BOTTOM, out_units=Units.INCH, safe_z=0.5, feed=333,
-    )  # fmt: skip
+        origin_xy=OriginXY.CENTRE, origin_z=OriginZ.BOTTOM, out_units=Units.INCH, safe_z=0.5, feed=333,
+        machining=Machining.of(depth=5, stepdown=2))  # fmt: skip
     this = make("fig2.dxf", drawing("fig2.dxf").read_bytes(), options)
     level = this.program.moves.start[:, 2] == this.program.moves.end[:, 2]
     depths = sorted({round(float(z), 6) for z in this.program.moves.end[level, 2] if z < 0})
@@ -241,7 +242,7 @@ def test_depth_passes_origin_and_units_reach_the_program() -> None:
 
 
 def test_a_depth_below_the_stock_makes_it_thicker() -> None:
-    this = make("fig2.dxf", drawing("fig2.dxf").read_bytes(), MakeOptions(depth=14, stepdown=14))
+    this = make("fig2.dxf", drawing("fig2.dxf").read_bytes(), MakeOptions(machining=Machining.of(depth=14, stepdown=14)))
     assert this.job.stock.thickness == 14
 
 
@@ -256,7 +257,7 @@ def test_a_wrong_option_names_itself() -> None:
     for options, words in (
         (MakeOptions(overlap=6), "Overlap is 6 mm with a pocket tool of 6 mm"),
         (MakeOptions(overlap=1, stepover=None, pocket_diameter=0.5), "Overlap is 1 mm with a pocket tool of 0.5 mm"),
-        (MakeOptions(depth=-1), "Depth is -1 mm"),
+        (MakeOptions(machining=Machining.of(depth=-1)), "Depth is -1 mm"),
         (MakeOptions(safe_z=0), "Safe Z is 0 mm"),
     ):
         with pytest.raises(ParameterError, match=words):

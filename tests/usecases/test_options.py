@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
 from app.core.errors import ParameterError
 from app.model.job import Job, Stock
-from app.model.operation import ContourOperation, Cut, Direction, PocketOperation
+from app.model.operation import ContourOperation, Cut, Direction, PocketOperation, parameters
 from app.model.part import Part
 from app.model.tool import Tool
+from app.usecases.machining import Machining
 from app.usecases.options import MakeOptions, Stepover, job_with_options
 
 
-def made(**options: object) -> Job:
-    return job_with_options(Part(), MakeOptions(**options))  # type: ignore[arg-type]
+def made(**options: Any) -> Job:
+    asked = {key: options.pop(key) for key in tuple(options) if key in parameters() and key != "stepover"}
+    return job_with_options(Part(), MakeOptions(**options, machining=Machining(asked)))
 
 
 def diameters(job: Job) -> dict[str, float]:
@@ -95,4 +98,4 @@ def test_an_operation_without_its_tool_is_refused() -> None:
 def test_the_stock_that_a_job_says_is_never_made_thicker() -> None:
     thin = Job(Part(), stock=Stock(0.0, 1.0))
     assert job_with_options(Part(), MakeOptions(job=thin)).stock.thickness == 1.0
-    assert job_with_options(Part(), MakeOptions(depth=12.0)).stock.thickness == 12.0
+    assert job_with_options(Part(), MakeOptions(machining=Machining.of(depth=12.0))).stock.thickness == 12.0

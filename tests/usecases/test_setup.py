@@ -17,6 +17,7 @@ from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
 from app.simulation.field.workpiece import BoxStock
 from app.usecases.examine import ExamineOptions, examine
+from app.usecases.machining import Machining
 from app.usecases.make import make
 from app.usecases.options import MakeOptions
 from app.usecases.setup import Ready, Wishes, setup_of
@@ -196,7 +197,8 @@ def test_programs_that_cannot_be_cut(text: str, words: str) -> None:
 
 def test_our_own_header_tells_everything(samples: Path) -> None:
     drawing = (samples / "fig2.dxf").read_bytes()
-    options = MakeOptions(depth=3.0, stock_to_leave=0.1, origin_xy=OriginXY.CENTRE, origin_z=OriginZ.BOTTOM, layers=())
+    machining = Machining.of(depth=3.0, stock_to_leave=0.1)
+    options = MakeOptions(origin_xy=OriginXY.CENTRE, origin_z=OriginZ.BOTTOM, layers=(), machining=machining)
     made = make("fig2.dxf", drawing, options)
     examined = examine("fig2.ngc", made.nc.text.encode(), ExamineOptions())
     got = setup_of((examined,), Wishes(against=("fig2.dxf", drawing)))

@@ -16,6 +16,7 @@ from ...core.errors import InputError
 from ...exhibits.stage_files import MOST_TURNS_PX, TURNS, StagesRun, run_stages, stage_files
 from ...exhibits.stages import Variant
 from ...formats.job.toml import read_job, read_units
+from ...usecases.machining import Machining
 from ...usecases.options import MakeOptions
 from ..bitmap_options import add_bitmap_options, bitmap_options
 from ..files import check_outputs, read_input, shown_progress
@@ -122,9 +123,10 @@ def _make_folder(folder: Path) -> None:
 
 
 def _make_options(arguments: argparse.Namespace) -> MakeOptions:
+    left = {} if arguments.stock_to_leave is None else {"stock_to_leave": arguments.stock_to_leave}
     options = MakeOptions(
         contour_diameter=arguments.contour_tool, pocket_diameter=arguments.pocket_tool, stepover=arguments.stepover,
-        overlap=arguments.overlap, stock_to_leave=arguments.stock_to_leave, units=arguments.units, layers=tuple(arguments.layer),
+        overlap=arguments.overlap, machining=Machining(left), units=arguments.units, layers=tuple(arguments.layer),
         join_tolerance=arguments.join_tolerance, bitmap=bitmap_options(arguments), reading=reading(arguments),
     )  # fmt: skip
     if arguments.job is None:

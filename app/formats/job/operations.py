@@ -1,65 +1,25 @@
-"""The operations of a job file: which keys each kind has."""
+"""The operations of a job file: the keys of each kind are its parameters, as `app.model.fields` declares them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from ...model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
-from ...model.operation import OPERATION_KINDS, ContourOperation, Cut, Direction, Operation, Side
+from ...model.fields import Placed, Unit, built, declared_of, parameters_of
+from ...model.operation import OPERATION_KINDS, Operation, declared, parameters
 from .tables import Table, read_angle, read_flag, read_number, read_points, read_share, read_texts, read_whole, word
 
-_MILLS = ("pocket", "rest", "contour")
-
-
-KEYS: dict[str, tuple[Callable[[Any], Any], str, tuple[str, ...]]] = {
-    "kind": (word(OPERATION_KINDS, "kind of operation"), "kind", tuple(OPERATION_KINDS)),
-    "tool": (read_whole, "cut.tool", tuple(OPERATION_KINDS)),
-    "depth": (read_number, "cut.depth", tuple(OPERATION_KINDS)),
-    "stepdown": (read_number, "cut.stepdown", _MILLS),
-    "stepover": (read_number, "stepover", ("pocket", "rest")),
-    "stock_to_leave": (read_number, "cut.stock_to_leave", _MILLS),
-    "direction": (word({each.value: each for each in Direction}, "direction"), "cut.direction", _MILLS),
-    "enabled": (read_flag, "cut.enabled", tuple(OPERATION_KINDS)),
-    "layers": (read_texts, "cut.layers", tuple(OPERATION_KINDS)),
-    "finish_depth": (read_number, "cut.finish_depth", _MILLS),
-    "floor_to_leave": (read_number, "cut.floor_to_leave", _MILLS),
-    "entry": (word({each.value: each for each in EntryKind}, "way into the metal"), "entry.kind", _MILLS),
-    "entry_angle": (read_angle, "entry.angle", _MILLS),
-    "most_engaged": (read_share, "most_engaged", _MILLS),
-    "outside_in": (read_flag, "outside_in", ("pocket",)),
-    "side": (word({each.value: each for each in Side}, "side"), "side", ("contour",)),
-    "lead": (word({each.value: each for each in LeadKind}, "lead"), "lead.kind", ("contour",)),
-    "lead_radius": (read_number, "lead.radius", ("contour",)),
-    "lead_overlap": (read_number, "lead.overlap", ("contour",)),
-    "tabs": (read_whole, "tabs.count", ("contour",)),
-    "tab_width": (read_number, "tabs.width", ("contour",)),
-    "tab_height": (read_number, "tabs.height", ("contour",)),
-    "tab_places": (read_points, "tabs.places", ("contour",)),
-    "spring_passes": (read_whole, "spring_passes", ("contour",)),
-    "dog_bones": (read_flag, "dog_bones", ("contour",)),
-    "finish_width": (read_number, "finish_width", ("contour",)),
-    "finish_each_pass": (read_flag, "finish_each_pass", ("contour",)),
-    "peck": (read_number, "peck", ("drill",)),
-    "least": (read_number, "least", ("drill",)),
-    "most": (read_number, "most", ("drill",)),
-    "through": (read_number, "through", ("drill",)),
+_READERS: dict[Unit, Callable[[Any], Any]] = {
+    Unit.LENGTH: read_number, Unit.ANGLE: read_angle, Unit.SHARE: read_share, Unit.COUNT: read_whole, Unit.FLAG: read_flag,
+    Unit.NAMES: read_texts, Unit.POINTS: read_points,
 }
-"""By key: how it is read, the field that it goes into, and the kinds of operation that it has an effect on."""
 
-_DEFAULT = ContourOperation(Cut(tool=1))
-_SLOPED = (lambda each: each.cut.entry.sloped, 'where the tool goes straight down; write entry = "helix" or "ramp"')
-_LED = (lambda each: each.lead.wanted, 'without a lead; write lead = "arc" or "line"')
-_HELD = (lambda each: each.tabs.wanted, "without tabs; add tabs = 4 or tab_places")
-_NEEDS: dict[str, tuple[object, Callable[[Any], bool], str]] = {
-    "entry_angle": (_DEFAULT.cut.entry.angle, *_SLOPED),
-    "lead_radius": (_DEFAULT.lead.radius, *_LED),
-    "lead_overlap": (_DEFAULT.lead.overlap, *_LED),
-    "tab_width": (_DEFAULT.tabs.width, *_HELD),
-    "tab_height": (_DEFAULT.tabs.height, *_HELD),
-    "finish_each_pass": (False, lambda each: each.finish_width > 0, "without a finish pass; add finish_width = 0.2"),
-}
-"""By key: its default, which may stand anywhere; when another value has an effect; and what to do where it has none."""
+
+def reader_of(placed: Placed) -> Callable[[Any], Any]:
+    """Return what reads a parameter's value as TOML gives it; it raises InputError for what can be none."""
+    if placed.enum is not None:
+        return word({each.value: each for each in placed.enum}, placed.parameter.label.lower())
+    return _READERS[placed.parameter.unit]
 
 
 def operations_of(tables: list[Table], kept: bool = False) -> Iterator[Operation]:
@@ -74,36 +34,36 @@ def operations_of(tables: list[Table], kept: bool = False) -> Iterator[Operation
     """
     for table in tables:
         given = tuple(table.values)
-        for key, (read, target, _) in KEYS.items():
-            table.take(key, read, target)
-        table.done(", ".join(KEYS))
-        for key, target in (("kind", "kind"), ("tool", "cut.tool")):
-            if target not in table.taken:
+        table.take("kind", word(OPERATION_KINDS, "kind of operation"))
+        for key, placed in declared().items():
+            table.take(key, reader_of(placed))
+        table.done(", ".join(("kind", *declared())))
+        for key in ("kind", "tool"):
+            if key not in table.taken:
                 raise table.error(key, f"is missing in this [[operation]]; add {key} = …")
-        kind = next(name for name, each in OPERATION_KINDS.items() if each is table.taken["kind"])
-        for key in given:
-            kept_anyway = kept and KEYS[key][1].startswith(("cut.", "entry."))
-            if kind not in (kinds := KEYS[key][2]) and not kept_anyway:
-                raise table.error(key, f"belongs to {_listed(kinds)} operations; remove it from this {kind} operation")
-        operation = table.text.built("operation", table.index, lambda taken=table.taken: _operation(taken))  # type: ignore[misc]
-        for key in given if not kept else ():
-            default, has_effect, remedy = _NEEDS.get(key, (None, bool, ""))
-            if remedy and table.taken[KEYS[key][1]] != default and not has_effect(operation):
-                raise table.error(key, f"has no effect {remedy}, or take it out")
+        kind: type[Operation] = table.taken.pop("kind")
+        _refuse_strange_keys(table, kind, given, kept)
+        operation = table.text.built("operation", table.index, lambda kind=kind, taken=table.taken: built(kind, taken))  # type: ignore[misc]
+        if not kept:
+            _refuse_idle_values(table, operation, given)
         yield operation
 
 
-def _listed(kinds: tuple[str, ...]) -> str:
+def _refuse_strange_keys(table: Table, kind: type[Operation], given: tuple[str, ...], kept: bool) -> None:
+    known = {"kind", *(declared_of(kind) if kept else parameters_of(kind))}
+    for key in given:
+        if key not in known:
+            raise table.error(key, f"belongs to {_listed([each.WORD for each in parameters()[key][1]])} operations; "
+                                   f"remove it from this {kind.WORD} operation")
+
+
+def _refuse_idle_values(table: Table, operation: Operation, given: tuple[str, ...]) -> None:
+    """Refuse what would have an effect only together with something else; its default may stand anywhere."""
+    for key, placed in parameters_of(type(operation)).items():
+        needs = placed.parameter.needs
+        if key in given and needs is not None and table.taken[key] != placed.default and not needs.holds(operation):
+            raise table.error(key, f"has no effect without {needs.with_}; {needs.remedy}, or take it out")
+
+
+def _listed(kinds: list[str]) -> str:
     return " and ".join([*([", ".join(kinds[:-1])] if len(kinds) > 1 else []), kinds[-1]])
-
-
-def _operation(taken: dict[str, Any]) -> Operation:
-    """Return the operation of values by field; those of its parts have the part's name before a dot."""
-    of = {part: {name.partition(".")[2]: value for name, value in taken.items() if name.startswith(f"{part}.")}
-          for part in ("cut", "entry", "lead", "tabs")}  # fmt: skip
-    own = {name: value for name, value in taken.items() if "." not in name and name != "kind"}
-    cut = Cut(**of["cut"], entry=Entry(**of["entry"]))
-    if taken["kind"] is ContourOperation:
-        return ContourOperation(cut, lead=Lead(**of["lead"]), tabs=Tabs(**of["tabs"]), **own)
-    operation: Operation = taken["kind"](cut, **own)
-    return operation

@@ -7,16 +7,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, TypeVar
 
 from ...core.toml_tables import spelled
+from ...model.fields import Unit, declared_of, parameters_of
 from ...model.job import Job
-from ...model.operation import Cut, Operation, kind_word
+from ...model.operation import Operation
 from ...model.part import Units
 from ...model.tool import Tool, shape_keys
 from ..tools.library import shortest_degrees
-from .operations import KEYS
 from .toml import ORIGIN_XY, ORIGIN_Z, OUT_UNITS, TOOL_KEYS, UNITS
 
 Value = TypeVar("Value")
-_USUAL_CUT = Cut(tool=1)
 
 
 def job_lines(job: Job, units: Units | None = None) -> Iterator[str]:
@@ -73,21 +72,13 @@ def tool_lines(tool: Tool) -> Iterator[str]:
 
 
 def _operation(operation: Operation) -> Iterator[tuple[str, Any]]:
-    """Yield keys and values: those that belong to the kind, and others where they are not as usual."""
-    kind = kind_word(operation)
-    for key, (_, target, kinds) in KEYS.items():
-        if kind not in kinds and (not target.startswith(("cut.", "entry.")) or _at(_USUAL_CUT, target) == _at(operation.cut, target)):
-            continue
-        value: Any = kind if key == "kind" else _at(operation.cut if target.startswith(("cut.", "entry.")) else operation, target)
-        if value is not None:
-            yield key, angle_said(value) if key == "entry_angle" else value
-
-
-def _at(holder: Any, target: str) -> Any:
-    """Return what lies at the end of a dotted name; "cut." leads nowhere."""
-    for name in target.removeprefix("cut.").split("."):
-        holder = getattr(holder, name)
-    return holder
+    """Yield keys and values: those that have an effect on the kind, and others where they are not as usual."""
+    effective = parameters_of(type(operation))
+    yield "kind", operation.WORD
+    for key, placed in declared_of(type(operation)).items():
+        value = placed.of(operation)
+        if value is not None and (key in effective or value != placed.default):
+            yield key, angle_said(value) if placed.parameter.unit is Unit.ANGLE else value
 
 
 def angle_said(angle: float) -> float | str:

@@ -8,11 +8,10 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from ...model.operation import OPERATION_KINDS
 from .program import EventKind, NcProgram
 from .text import Text
 
-_CONTOURS = (b"Contour T", b"CONTOUR T")
-_OTHERS = (b"Pocket T", b"POCKET T", b"Rest T", b"REST T", b"Drill T", b"DRILL T")
 _NUMBER = re.compile(rb"\d{1,9}:")
 _OPENS = (b"(", b";")
 _BEFORE = 8
@@ -39,7 +38,8 @@ def contour_motions(data: bytes, program: NcProgram) -> NDArray[np.bool_]:
 
 def _operations(data: bytes) -> dict[int, bool]:
     """Return, by 1-based line, whether the operation that begins there is a contour."""
-    found = sorted((at, words in _CONTOURS) for words in (*_CONTOURS, *_OTHERS) for at in _comments(data, words))
+    words = ((f"{word.capitalize()} T", kind.FOLLOWS_WALLS) for word, kind in OPERATION_KINDS.items())
+    found = sorted((at, contour) for text, contour in words for each in (text, text.upper()) for at in _comments(data, each.encode()))
     begins, line, last = {}, 1, 0
     for at, contour in found:
         line, last = line + data.count(b"\n", last, at), at

@@ -6,14 +6,18 @@ import math
 import re
 from collections.abc import Iterator
 from contextlib import suppress
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ...core.errors import ParameterError
+from ...model.entry import LONGEST_LEAD
+from ...model.fields import parameters_of
 from ...model.job import Copies
 from ...model.moves import DogBone, Tab
-from ...model.operation import OPERATION_KINDS, Side
+from ...model.operation import OPERATION_KINDS, Operation, Side
 from ...model.part import Units
 from ...model.read_options import LEAST_PER_INCH, MOST_PER_INCH, ReadOptions
+from .. import operation_notes
+from ..note_texts import unspelled
 from .notes_stock import Box
 from .notes_words import Comments
 from .program import HeaderNote, OperationNote, StockNote, ToolNote
@@ -21,7 +25,6 @@ from .program import HeaderNote, OperationNote, StockNote, ToolNote
 MARK, MARK_ON = b"hitofude:", b"hitofude+"
 """What the comments of the header begin with, and those that go on with the one before."""
 
-_SPELLED = re.compile(r"\+([0-9A-F]{1,6})\+", re.IGNORECASE)
 _MOST = 20_000
 """Comments of a header that are looked at: each tab and each dog-bone has one."""
 
@@ -102,25 +105,44 @@ def _stock(told: list[Values], origin: tuple[float, float, float]) -> StockNote 
 
 
 def _operations(told: dict[str, list[Values]]) -> Iterator[OperationNote]:
-    """Yield operations: kind, tool, depth, stock to leave, and the side of contours; with what other comments say of the N-th."""
-    layers = [(int(values[0]), _name(values[1:])) for _, values in told.get("operation_layer", []) if values[0].strip().isdecimal()]
-    left, leads = ({int(numbers[0]): numbers[1] for _, values in told.get(key, []) if len(numbers := _floats(values)) == 2}
-                   for key in ("floor_to_leave_mm", "leads_mm"))  # fmt: skip
-    holes = {int(numbers[0]): (numbers[1], numbers[2], numbers[3])
-             for _, values in told.get("holes_mm", []) if len(numbers := _floats(values)) == 4}  # fmt: skip
+    """Yield operations, as they are written now or were by earlier versions."""
     for number, (_, values) in enumerate(told.get("operation", []), 1):
-        kind, numbers, side = values[0].strip().lower(), _floats(values[1:4]), _side(values[4:])
-        if kind in OPERATION_KINDS and len(numbers) == 3 and side is not None:
-            names = tuple(name for of, name in layers if of == number)
-            yield OperationNote(kind, int(numbers[0]), numbers[1], numbers[2], side, names, left.get(number, 0.0),
-                                leads.get(number, 0.0), holes.get(number, (0.0, 0.0, 0.0)))
+        kind = OPERATION_KINDS.get(values[0].strip().lower())
+        if kind is not None:
+            read = operation_notes.read(kind, values[1:]) if "=" in values[-1] else _earlier(kind, values[1:], _Earlier(told, number))
+            if read is not None:
+                yield OperationNote(kind, tuple(read.items()))
 
 
-def _side(values: list[str]) -> Side | None:
-    """Return the side that a contour is told to run on, inside where nothing is said; None for anything else."""
-    if not values:
-        return Side.INSIDE
-    return next((side for side in Side if [value.strip().lower() for value in values] == [side.value]), None)
+class _Earlier:
+    """What comments beside that of the N-th operation told of it in programs of earlier versions."""
+
+    def __init__(self, told: dict[str, list[Values]], number: int) -> None:
+        self._told, self._number = told, number
+
+    def numbers(self, key: str, count: int) -> list[float]:
+        """Return the numbers behind the operation's own; none where there are not so many."""
+        lists = (_floats(values) for _, values in self._told.get(key, []))
+        return next((numbers[1:] for numbers in lists if len(numbers) == count + 1 and numbers[0] == self._number), [])
+
+    def layers(self) -> tuple[str, ...]:
+        """Return the layers that it alone machines."""
+        named = (values for _, values in self._told.get("operation_layer", []) if values[0].strip().isdecimal())
+        return tuple(_name(values[1:]) for values in named if int(values[0]) == self._number)
+
+
+def _earlier(kind: type[Operation], values: list[str], beside: _Earlier) -> dict[str, Any] | None:
+    """Return the parameters of an operation that is told as tool, depth, stock to leave, and the side of a contour."""
+    numbers, side = _floats(values[:3]), [value.strip().lower() for value in values[3:]]
+    sides = {each.value: each for each in Side}
+    if len(numbers) != 3 or len(side) > 1 or not set(side) <= sides.keys():
+        return None
+    told: dict[str, Any] = {"tool": int(numbers[0]), "depth": numbers[1], "layers": beside.layers()}
+    (left,), (lead,) = (beside.numbers(key, 1) or [0.0] for key in ("floor_to_leave_mm", "leads_mm"))
+    least, most, through = beside.numbers("holes_mm", 3) or [0.0] * 3
+    told |= {"stock_to_leave": numbers[2], "floor_to_leave": left, "side": sides[side[0]] if side else Side.INSIDE}
+    told |= {"lead_radius": min(lead, LONGEST_LEAD) or None, "least": least or None, "most": most or None, "through": through}
+    return {key: value for key, value in told.items() if key in parameters_of(kind)}
 
 
 def _copies(told: list[Values]) -> Copies | None:
@@ -154,7 +176,7 @@ def _first(told: list[Values]) -> float | None:
 
 def _name(values: list[str]) -> str:
     """Return a name as it was before it was spelled in safe characters."""
-    return _SPELLED.sub(lambda match: chr(min(int(match[1], 16), 0x10FFFF)), ",".join(values).strip())
+    return unspelled(",".join(values).strip())
 
 
 def _floats(values: list[str]) -> list[float]:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from typing import Any
 
 from ...core.errors import printable
+from ...model.fields import built
 from ...model.job import Copies
 from ...model.motion import Motions, Plane
 from ...model.moves import DogBone, Tab
-from ...model.operation import Side
+from ...model.operation import Operation
 from ...model.part import Units
 from ...model.read_options import AS_DRAWN, ReadOptions
 
@@ -163,25 +165,21 @@ class OperationNote:
     """An operation as the header of our own tells of it.
 
     Attributes:
-        kind: "pocket", "rest", "contour" or "drill".
-        tool: T number.
-        depth, leave: from the stock's top down to the floor, and what is left on walls, mm.
-        side: where a contour runs.
-        layers: that it alone machines; empty = all. Controls that write capitals alone write these so too.
-        floor_to_leave: mm.
-        leads: of a contour outside: what room they need beside the wall's path, mm; 0 = not told.
-        holes: of a drill operation: least and most diameter of its circles, 0 = the drill's own, and how far it goes below the depth, mm.
+        kind: of operation.
+        values: parameters that are told, by key. Controls that write capitals alone write names so too.
     """
 
-    kind: str
-    tool: int
-    depth: float
-    leave: float
-    side: Side = Side.INSIDE
-    layers: tuple[str, ...] = ()
-    floor_to_leave: float = 0.0
-    leads: float = 0.0
-    holes: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    kind: type[Operation]
+    values: tuple[tuple[str, Any], ...]
+
+    def operation(self) -> Operation:
+        """Return the operation; a step that is not told is never in the way of its depth.
+
+        Raises:
+            ParameterError: the values make none.
+        """
+        told = dict(self.values)
+        return built(self.kind, {"stepdown": told.get("depth", 2.0), **told})
 
 
 @dataclass(frozen=True, slots=True)

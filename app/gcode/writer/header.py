@@ -5,19 +5,21 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ...core.tolerances import LEVEL
+from ...model.fields import Parameter, Placed, Unit, parameters_of
 from ...model.job import Job
 from ...model.moves import Program
-from ...model.operation import ContourOperation, DrillOperation, Operation, PocketOperation, RestOperation, Side, kind_word
+from ...model.operation import Operation
 from ...model.part import Units
 from ...model.stock_box import StockBox, work_origin
 from ...model.tool import Tool
+from ..note_texts import ALLOWED, plain_numbers
 from ..posts.post import Post
 
-ALLOWED = frozenset("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789 _.,+-/")
 LONGEST_NAME = 60
 
 
@@ -48,11 +50,6 @@ def safe_name(text: str) -> str:
     return kept.strip()[:LONGEST_NAME].rstrip() or "untitled"
 
 
-def spelled_name(text: str) -> str:
-    """Return a name in safe characters from which it can be read again: others become their code point, "+DF+"."""
-    return "".join(c if c in ALLOWED and c != "+" else f"+{ord(c):X}+" for c in text)
-
-
 def tool_words(tool: Tool, units: Units) -> str:
     """Return a tool in the trade's habit: "T1 flat 6 mm"; a V or drill with its name, if it has one."""
     words = f"T{tool.number} {tool.kind.value} {_length(tool.diameter, units)}"
@@ -61,38 +58,40 @@ def tool_words(tool: Tool, units: Units) -> str:
 
 def operation_words(operation: Operation, job: Job) -> str:
     """Return an operation in words: "Pocket T1: depth 2 mm, ...", the kind first, as `app.gcode.interpreter.notes_operation` reads it."""
-    cut, units = operation.cut, job.out_units
-    words = [f"depth {_length(cut.depth, units)}"]
-    if isinstance(operation, DrillOperation):
-        words += _drill_words(operation, units)
-    else:
-        words.append(f"stepdown {_length(cut.stepdown, units)}")
-        if isinstance(operation, (PocketOperation, RestOperation)):
-            words.append("stepover " + (_length(operation.stepover, units) if operation.stepover else "automatic"))
-        words += [f"stock to leave {_length(cut.stock_to_leave, units)}", cut.direction.value]
-    if isinstance(operation, ContourOperation):
-        words += _contour_words(operation, units)
-    thin = (("floor to leave", cut.floor_to_leave), ("finish pass", cut.finish_depth))
-    words += [f"{what} {_length(value, units)}" for what, value in thin if value]
-    words += [f"layers {' and '.join(map(safe_name, cut.layers))}"] if cut.layers else []
-    return f"{kind_word(operation).capitalize()} T{cut.tool}: {', '.join(words)}"
+    words = (_parameter_words(placed, placed.of(operation), job.out_units) for placed in parameters_of(type(operation)).values())
+    return f"{operation.WORD.capitalize()} T{operation.cut.tool}: {', '.join(filter(None, words))}"
 
 
-def _drill_words(operation: DrillOperation, units: Units) -> list[str]:
-    """Return how holes are drilled, and which."""
-    words = [f"through by {_length(operation.through, units)}"] if operation.through else []
-    words.append(f"peck {_length(operation.peck, units)}" if operation.peck else "in one go")
-    bounds = [f"{word} {_length(value, units)}" for word, value in (("from", operation.least), ("to", operation.most)) if value]
-    return words + ([f"circles {' '.join(bounds)}"] if bounds else [])
+_SHORT = 12  # letters
+_ALWAYS = ("depth", "stepdown", "stepover", "stock_to_leave", "direction", "peck")
+"""Parameters that are told also where they have their default."""
 
 
-def _contour_words(operation: ContourOperation, units: Units) -> list[str]:
-    """Return what a contour does beside following the walls inside."""
-    words = [] if operation.side is Side.INSIDE else ["outside" if operation.side is Side.OUTSIDE else "on the line"]
-    words += [f"finish {_length(operation.finish_width, units)}"] if operation.finish_width else []
-    words += [f"{operation.spring_passes} spring passes"] if operation.spring_passes else []
-    words += ["dog-bones"] if operation.dog_bones else []
-    return words + (["tabs"] if operation.tabs.wanted else [])
+def _parameter_words(placed: Placed, value: Any, units: Units) -> str:
+    """Return a parameter in words; none where it has its default, or is told elsewhere."""
+    declared, name = placed.parameter, placed.parameter.label.lower()
+    if placed.key in ("tool", "enabled") or (value == placed.default and placed.key not in _ALWAYS):
+        return ""
+    match declared.unit:
+        case Unit.LENGTH:
+            return f"{name} {_auto(declared) if value is None else _length(value, units)}"
+        case Unit.CHOICE:
+            return str(value.value) if placed.key == "direction" else f"{name} {value.value}"
+        case Unit.FLAG:
+            return name
+        case Unit.COUNT:
+            return f"{value} {name}"
+        case Unit.NAMES:
+            return f"{name} {' and '.join(map(safe_name, value))}"
+        case Unit.POINTS:
+            return f"{len(value)} {name}"
+        case _:
+            return f"{name} {plain_numbers(declared.shown(value))}{declared.sign}".replace("%", "percent")
+
+
+def _auto(declared: Parameter) -> str:
+    """Return in a word what stands for a parameter that nobody has said."""
+    return declared.auto if len(declared.auto) <= _SHORT else "automatic"
 
 
 def heading_lines(heading: Heading) -> Iterator[str]:
@@ -168,7 +167,3 @@ def unit_sign(units: Units) -> str:
     """Return the unit's sign."""
     return "in" if units is Units.INCH else "mm"
 
-
-def plain_numbers(*values: float, decimals: int = 6) -> str:
-    """Return numbers with at most so many decimals, in 0 ... 9, and no zeros behind, joined by commas."""
-    return ",".join(f"{round(value, decimals) + 0.0:.{decimals}f}".rstrip("0").rstrip(".") for value in values)

@@ -6,7 +6,7 @@ Comments that begin with `hitofude:` hold one `key=value` each, in this order an
     part=NAME                                       as in the first comment, which begins with a word of its own:
                                                     controls obey comments that begin with MSG or PRINT
     drawing_units=mm|inch|cm|m|foot|micron          of the drawing that the part came from
-    layer=NAME                                      one a layer, where layers were chosen; see `spelled_name`
+    layer=NAME                                      one a layer, where layers were chosen; see `spelled`
     skip_layer=NAME, skip_type=NAME                 one a layer, one a type of entities, of which nothing was read
     layout=NAME                                     of paper space that was read in place of model space
     to_zero=1                                       where the drawing was moved to zero
@@ -23,14 +23,7 @@ Comments that begin with `hitofude:` hold one `key=value` each, in this order an
                                                     behind it (radius of the corner, diameter of the tip, full angle in degrees)
                                                     where it has one of them
     plunge_mm_min=NUMBER,RATE                       of programs over surfaces: how fast each tool is fed straight down
-    operation=KIND,TOOL,DEPTH,STOCK_TO_LEAVE        one an operation, also one that makes no moves: pocket, rest, contour, drill; of a
-                                                    contour that runs elsewhere than inside the walls ,outside or ,on behind it
-    operation_layer=N,NAME                          of the operation before it, the N-th: one a layer that it alone machines
-    floor_to_leave_mm=N,F                           of the N-th operation, where there is any
-    leads_mm=N,L                                    of the N-th operation, outside: what room its leads need beside the wall's path,
-                                                    where their size was asked for
-    holes_mm=N,LEAST,MOST,THROUGH                   of the N-th operation: diameters that it drills (0,0 = the drill's own), and how
-                                                    far it goes on below the depth
+    operation=KIND,KEY=VALUE,...                    one an operation, also one that makes no moves: see `app.gcode.operation_notes`
     tab=X,Y,WIDTH,TOP,DIAMETER                      one a bridge of metal: its middle, and the diameter of the cutter that went over it
     dog_bone=X0,Y0,X1,Y1,DIAMETER                   one a way of the cutter's centre into a corner
     path_tolerance_mm=T                             proven: the written path is nowhere nearer to the walls than asked by more
@@ -49,11 +42,12 @@ from collections.abc import Iterator
 
 from ...model.job import Copies, Job
 from ...model.moves import Program
-from ...model.operation import ContourOperation, DrillOperation, Operation, Side, kind_word
 from ...model.read_options import ReadOptions
 from ...model.stock_box import work_origin
 from ...model.tool import Tool
-from .header import Heading, operations_of, path_tolerance, plain_numbers, safe_name, spelled_name, tools_of, unit_sign
+from ..note_texts import plain_numbers, spelled
+from ..operation_notes import written
+from .header import Heading, operations_of, path_tolerance, safe_name, tools_of, unit_sign
 
 
 def heading_notes(heading: Heading) -> Iterator[str]:
@@ -67,7 +61,7 @@ def _notes(heading: Heading) -> Iterator[str]:
     yield "program=1"
     yield f"part={safe_name(job.part.name)}"
     yield f"drawing_units={job.part.units.name.lower()}"
-    yield from (f"layer={spelled_name(name)}" for name in job.layer_names)
+    yield from (f"layer={spelled(name)}" for name in job.layer_names)
     yield from _reading(job.part.reading)
     yield f"join_tolerance_mm={plain_numbers(job.join_tolerance)}"
     yield from _copies_and_clamps(job)
@@ -77,8 +71,7 @@ def _notes(heading: Heading) -> Iterator[str]:
     operations = [operation for operation, _ in operations_of(heading)]
     for tool in dict.fromkeys((*tools_of(heading), *(job.tool(each.cut.tool) for each in operations))):
         yield f"tool={tool.number},{tool.kind.value},{plain_numbers(tool.diameter, *shape_numbers(tool))}"
-    for number, operation in enumerate(operations, 1):
-        yield from _operation(operation, number)
+    yield from (f"operation={written(operation)}" for operation in operations)
     yield from _on_purpose(heading.program)
     yield f"path_tolerance_mm={plain_numbers(path_tolerance(heading))}"
     if heading.program.allowance_mm:
@@ -88,10 +81,10 @@ def _notes(heading: Heading) -> Iterator[str]:
 
 def _reading(how: ReadOptions) -> Iterator[str]:
     """Yield how the drawing was read, where that is not as it is drawn."""
-    yield from (f"skip_layer={spelled_name(name)}" for name in how.without_layers)
-    yield from (f"skip_type={spelled_name(name)}" for name in how.without_types)
+    yield from (f"skip_layer={spelled(name)}" for name in how.without_layers)
+    yield from (f"skip_type={spelled(name)}" for name in how.without_types)
     if how.layout:
-        yield f"layout={spelled_name(how.layout)}"
+        yield f"layout={spelled(how.layout)}"
     if how.to_zero:
         yield "to_zero=1"
     if how.pixels_per_inch is not None:
@@ -103,22 +96,9 @@ def _reading(how: ReadOptions) -> Iterator[str]:
 def _copies_and_clamps(job: Job) -> Iterator[str]:
     if job.copies != Copies():
         yield f"copies={plain_numbers(job.copies.columns, job.copies.rows, job.copies.dx, job.copies.dy, decimals=9)}"
-    yield from (f"keep_out={spelled_name(name)}" for name in job.keep_out_layers)
+    yield from (f"keep_out={spelled(name)}" for name in job.keep_out_layers)
     if job.keep_out_layers:
         yield f"keep_out_height_mm={plain_numbers(job.keep_out_height)}"
-
-
-def _operation(operation: Operation, number: int) -> Iterator[str]:
-    cut = operation.cut
-    side = f",{operation.side.value}" if isinstance(operation, ContourOperation) and operation.side is not Side.INSIDE else ""
-    yield f"operation={kind_word(operation)},{cut.tool},{plain_numbers(cut.depth, cut.stock_to_leave)}{side}"
-    yield from (f"operation_layer={number},{spelled_name(name)}" for name in cut.layers)
-    if cut.floor_to_leave:
-        yield f"floor_to_leave_mm={plain_numbers(number, cut.floor_to_leave)}"
-    if isinstance(operation, ContourOperation) and operation.side is Side.OUTSIDE and operation.lead.radius is not None:
-        yield f"leads_mm={plain_numbers(number, 2 * operation.finish_width + operation.lead.radius)}"
-    if isinstance(operation, DrillOperation):
-        yield f"holes_mm={plain_numbers(number, operation.least or 0.0, operation.most or 0.0, operation.through)}"
 
 
 def _on_purpose(program: Program) -> Iterator[str]:

@@ -1,1 +1,9 @@
 """Rest machining: what the operations before have left."""
+
+from __future__ import annotations
+
+from ...model.operation import RestOperation
+from ..registry import Way, register
+from .paths import rest
+
+register(RestOperation, Way(rest))

@@ -19,7 +19,7 @@ from shapely import Geometry as Shape
 from ...geometry.primitives import contour_rows, sample
 from ...model.job import Job
 from ...model.moves import Area, DogBone, Program, Tab
-from ...model.operation import ContourOperation, DrillOperation, Operation, PocketOperation, RestOperation, Side
+from ...model.operation import Operation, Side
 from ...model.part import Contour
 from ...model.tool import ToolKind
 from .areas import common, united, without
@@ -88,7 +88,7 @@ def areas_of_operations(program: Program, job: Job) -> tuple[Area, ...]:
     """Return the area of each operation of a job; where a program tells none, its regions are those of all."""
     if program.areas:
         return program.areas
-    return tuple(Area(program.regions, whole=isinstance(each, (PocketOperation, RestOperation))) for each in job.operations)
+    return tuple(Area(program.regions, whole=each.CLEARS) for each in job.operations)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,13 +106,13 @@ class _Work:
     @property
     def covers(self) -> bool:
         """True where its tool may go all over its area."""
-        return not isinstance(self.operation, DrillOperation) and not self.area.lines
+        return not self.operation.DRILLS and not self.area.lines
 
 
 def _cutting(program: Program, job: Job) -> list[_Work]:
     areas = areas_of_operations(program, job)
     return [_Work(operation, area) for operation, area in zip(job.operations, areas, strict=True)
-            if operation.cut.enabled and area.regions and not isinstance(operation, DrillOperation)]  # fmt: skip
+            if operation.cut.enabled and area.regions and not operation.DRILLS]  # fmt: skip
 
 
 @dataclass
@@ -175,14 +175,14 @@ def _wanted(group: Sequence[_Work], cutting: Sequence[_Work], made: _Shapes) -> 
             lines.append(_on_lines(work, made))
             continue
         floor = made.floor(work)
-        if isinstance(work.operation, ContourOperation) and work.operation.side is Side.OUTSIDE:
+        if work.operation.wall_side is Side.OUTSIDE:
             floor = common(floor, _band(work, made))
         if id(floor) not in within:
             within[id(floor)] = floor, common(reach, floor)
-        wanted.append(_along_walls(work, made) if isinstance(work.operation, ContourOperation) else within[id(floor)][1])
+        wanted.append(_along_walls(work, made) if work.operation.FOLLOWS_WALLS else within[id(floor)][1])
     asked = united([*{id(each): each for each in wanted}.values(), *lines])
     floor, reached = (united([*(pair[k] for pair in within.values()), *lines]) for k in (0, 1))
-    whole = any(isinstance(each.operation, (PocketOperation, RestOperation)) for each in group)
+    whole = any(each.operation.CLEARS for each in group)
     return Wanted(depth, floor, reached, asked, whole, cutters)
 
 

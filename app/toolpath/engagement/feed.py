@@ -12,7 +12,6 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.primitives import points_at
 from ...model.job import Job
 from ...model.moves import MoveKind, Moves, Program
-from ...model.operation import DrillOperation, Operation
 from ...model.tool import LEAST_RATE
 from ..coverage.flat import move_rows
 from .engagement import Seen, look, spans
@@ -30,11 +29,6 @@ _GAIN = 0.05
 _SLACK = 1e-6
 
 
-def most_engaged(operation: Operation) -> float:
-    """Return the share of the diameter, in (0, 1], beyond which an operation slows its feed; 1 = never."""
-    return 1.0 if isinstance(operation, DrillOperation) else operation.most_engaged
-
-
 def followed(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Program:
     """Return the program with its feed slowed where more of the cutter is engaged than the operation allows.
 
@@ -48,7 +42,7 @@ def followed(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Pr
         Cancelled: by progress.
     """
     moves = program.moves
-    limits = np.array([most_engaged(operation) for operation in job.operations] or [1.0])[moves.operation]
+    limits = np.array([operation.engagement_limit for operation in job.operations] or [1.0])[moves.operation]
     if not np.any((limits < 1) & (moves.kind != MoveKind.RAPID)):
         return program
     seen = look(program, job, progress.part(0.0, 0.9))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
@@ -139,6 +140,14 @@ class Form(Section):
         field.committed.connect(lambda value: self.edited.emit(f"Change {spec.name.lower()}", (field, lambda job: edit(job, value))))
         self.add(field)
         return field
+
+    def add_field(self, name: str, field: NumberField | ChoiceField | ListField | SwitchField, edit: Callable[[Job, Any], Job]) -> None:
+        """Add a field of any sort; `edit(job, value)` gives the job with that value."""
+        if isinstance(field, NumberField):
+            field.committed.connect(lambda value: self.edited.emit(f"Change {name.lower()}", (field, lambda job: edit(job, value))))
+            self.add(field)
+        else:
+            self.add_choice(name, field, edit)
 
     def add_choice(self, name: str, field: ChoiceField | ListField | SwitchField, edit: Callable[[Job, object], Job]) -> None:
         """Add a choice; `edit(job, value)` gives the job with that value."""

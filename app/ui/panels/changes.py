@@ -7,7 +7,7 @@ from enum import Enum
 
 from ...core.errors import ParameterError
 from ...model.job import Job
-from ...model.operation import ContourOperation, Cut, Operation, Order, PocketOperation, RestOperation, Side, kind_word
+from ...model.operation import Cut, Operation, Order, Side
 from ...model.tool import FeedRow, Tool
 
 
@@ -37,10 +37,8 @@ class Subject:
 
 def operation_name(operation: Operation) -> str:
     """Return the trade's name of an operation, with the side of a contour that does not go inside."""
-    name = kind_word(operation).capitalize()
-    if isinstance(operation, ContourOperation) and operation.side is not Side.INSIDE:
-        return f"{name} {operation.side.value}" if operation.side is Side.OUTSIDE else f"{name} on line"
-    return name
+    name = operation.WORD.capitalize()
+    return name + {Side.OUTSIDE: " outside", Side.ON: " on line"}.get(operation.wall_side or Side.INSIDE, "")
 
 
 def refusal(job: Job, operation: Operation) -> str:
@@ -126,8 +124,8 @@ def with_cut(job: Job, index: int, cut: Cut) -> Job:
 
 def with_order(job: Job, order: Order) -> Job:
     """Return the job with an order, and its operations listed as they are cut."""
-    first = ContourOperation if order is Order.PATENT_1986 else object
-    return replace(job, order=order, operations=tuple(sorted(job.operations, key=lambda each: not isinstance(each, first))))
+    contours_first = order is Order.PATENT_1986
+    return replace(job, order=order, operations=tuple(sorted(job.operations, key=lambda each: contours_first and not each.FOLLOWS_WALLS)))
 
 
 def with_moved_operation(job: Job, index: int, place: int) -> tuple[Job, int]:
@@ -150,9 +148,9 @@ def with_new_operation(job: Job, kind: type[Operation]) -> tuple[Job, int]:
         raise ParameterError("The job has no tool yet; add one first.")
     alike = [operation for operation in job.operations if isinstance(operation, kind)] or list(job.operations)
     like = alike[-1].cut if alike else Cut(tool=job.tools[0].number)
-    contours = [k for k, operation in enumerate(job.operations) if isinstance(operation, ContourOperation)]
-    early = kind in (PocketOperation, RestOperation) and contours and job.order is Order.POCKET_FIRST
-    late = len(contours) if kind is ContourOperation and job.order is Order.PATENT_1986 else len(job.operations)
+    contours = [k for k, operation in enumerate(job.operations) if operation.FOLLOWS_WALLS]
+    early = kind.CLEARS and contours and job.order is Order.POCKET_FIRST
+    late = len(contours) if kind.FOLLOWS_WALLS and job.order is Order.PATENT_1986 else len(job.operations)
     place = contours[0] if early else late
     operations = list(job.operations)
     operations.insert(place, kind(replace(like, enabled=True, layers=())))

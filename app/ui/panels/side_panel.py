@@ -13,7 +13,6 @@ from ...core.errors import HitofudeError
 from ...drafting.document import Change, Document
 from ...formats.tools.library import load_libraries
 from ...model.job import Job
-from ...model.operation import PocketOperation
 from ...model.tool import Tool
 from ..framework.fields import NumberField
 from ..framework.section import hairline
@@ -195,7 +194,7 @@ class SidePanel(QScrollArea):
         elif kind is SubjectKind.TOOL:
             self.tool_form.show_tool(job, self.subject.key)
         else:
-            pocket = isinstance(job.operations[self.subject.key], PocketOperation)
+            pocket = job.operations[self.subject.key].COARSE
             self.operation_form.show_operation(job, self.subject.key, self._strokes if pocket else None)
         self.tools.library_button.setChecked(not self.library.isHidden())
         self.tools.advice_button.setChecked(not self.advice.isHidden())

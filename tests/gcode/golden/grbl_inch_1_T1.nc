@@ -7,8 +7,8 @@
 (It is at X -0.07874 in, Y -0.07874 in, Z 0 in of the drawing,)
 (whose Z 0 is the top of stock)
 (T1 flat 0.23622 in, 12000 rpm)
-(Pocket T1: depth 0.07874 in, stepdown 0.07874 in, stepover)
-(automatic, stock to leave 0 in, climb)
+(Pocket T1: depth 0.07874 in, stepdown 0.07874 in, stock to leave 0)
+(in, climb, stepover automatic)
 (Path within 0.000059 in of the exact offset of the drawing)
 (Exact path: the control does not blend)
 (hitofude: program=1)
@@ -19,7 +19,7 @@
 (hitofude: origin_mm=-2,-2,0)
 (hitofude: stock_mm=-2,-2,-8,42,32,0)
 (hitofude: tool=1,flat,6)
-(hitofude: operation=pocket,1,2,0)
+(hitofude: operation=pocket,tool=1,depth=2,stock_to_leave=0)
 (hitofude: path_tolerance_mm=0.001508)
 (hitofude: blend_mm=0)
 G17 G20 G90 G94 G40 G49 G80
@@ -29,8 +29,8 @@ G61
 (T1 flat 0.23622 in)
 S12000 M3
 G4 P2
-(Pocket T1: depth 0.07874 in, stepdown 0.07874 in, stepover)
-(automatic, stock to leave 0 in, climb)
+(Pocket T1: depth 0.07874 in, stepdown 0.07874 in, stock to leave 0)
+(in, climb, stepover automatic)
 G0 Z0.19685
 X0.47244 Y0.47244
 Z0.03937

@@ -18,7 +18,7 @@
 (hitofude: origin_mm=-2,-2,0)
 (hitofude: stock_mm=-2,-2,-8,42,32,0)
 (hitofude: tool=2,flat,3)
-(hitofude: operation=contour,2,2,0)
+(hitofude: operation=contour,tool=2,depth=2,stock_to_leave=0)
 (hitofude: path_tolerance_mm=0.0012)
 (hitofude: blend_mm=0)
 G17 G21 G90 G94 G40 G49 G80

@@ -12,9 +12,11 @@ from app.gcode.interpreter.program import HeaderNote, OperationNote, ToolNote
 from app.gcode.interpreter.reader import read_program
 from app.gcode.posts.posts import load_post, post_names
 from app.gcode.writer.write import write_files
+from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
+from app.model.fields import parameters_of
 from app.model.job import Copies, Job, OriginXY, OriginZ
 from app.model.moves import DogBone, Tab
-from app.model.operation import ContourOperation, Cut, DrillOperation, PocketOperation, RestOperation, Side
+from app.model.operation import ContourOperation, Cut, Direction, DrillOperation, Operation, PocketOperation, RestOperation, Side
 from app.model.part import Units
 from app.model.read_options import AS_DRAWN
 from app.model.read_options import ReadOptions as Reading
@@ -39,7 +41,7 @@ def test_what_every_post_writes_is_read_again(name: str) -> None:
             for program in read for note in program.tools]  # fmt: skip
     assert told == [(1, "bull", 6.0, 0.5, 0.0, 0.0), (2, "taper", 3.0, 0.0, round(TAPER.tip_angle, 9), 0.4)]
     assert [note for program in read if program.header for note in program.header.operations] == [
-        OperationNote("pocket", 1, 2.0, 0.0), OperationNote("contour", 2, 2.0, 0.0)]  # fmt: skip
+        noted(PocketOperation(Cut(1, 2.0))), noted(ContourOperation(Cut(2, 2.0)))]  # fmt: skip
     for program in read:
         assert program.header is not None
         assert program.stock is not None
@@ -69,11 +71,9 @@ def test_what_a_part_depends_on_is_read_again(name: str) -> None:
     post = load_post(name)
     headers = [read_program(file.nc.text.encode(), ReadOptions(post.dialect)).header for file in write_files(program, made, post)]
     told = [note for header in headers if header is not None for note in header.operations]
-    assert [(note.kind, note.side, note.floor_to_leave, note.holes) for note in told] == [
-        ("pocket", Side.INSIDE, 0.25, NO_HOLES), ("rest", Side.INSIDE, 0.0, NO_HOLES), ("contour", Side.OUTSIDE, 0.0, NO_HOLES),
-        ("contour", Side.ON, 0.0, NO_HOLES), ("drill", Side.INSIDE, 0.0, (2.5, 3.0, 0.5)), ("drill", Side.INSIDE, 0.0, NO_HOLES),
-    ]  # fmt: skip
-    assert [[layer.casefold() for layer in note.layers] for note in told] == [[each.casefold() for each in LAYERS], [], [], ["x"], [], []]
+    assert [lowered(note.operation()) for note in told] == [
+        lowered(replace(each, cut=replace(each.cut, stepdown=each.cut.depth if each.cut.stepdown == 2.0 else each.cut.stepdown)))
+        for each in operations]  # fmt: skip
     for header in headers:
         assert header is not None
         assert (header.tabs, header.dog_bones) == (tabs, bones)
@@ -83,7 +83,52 @@ def test_what_a_part_depends_on_is_read_again(name: str) -> None:
         assert ([layer.casefold() for layer in header.keep_out[0]], header.keep_out[1]) == (["clämps", "b"], 3.5)
 
 
-NO_HOLES = (0.0, 0.0, 0.0)
+def lowered(operation: Operation) -> Operation:
+    return replace(operation, cut=replace(operation.cut, layers=tuple(layer.casefold() for layer in operation.cut.layers)))
+
+
+def noted(operation: Operation) -> OperationNote:
+    return OperationNote(type(operation), tuple((key, parameters_of(type(operation))[key].of(operation))
+                                                for key in ("tool", "depth", "stock_to_leave")))
+
+
+ANGLE = math.radians(2.5)
+
+
+@pytest.mark.parametrize("name", post_names())
+@pytest.mark.parametrize("operation", [
+    ContourOperation(Cut(2, 4.0, 1.5, 0.1, Direction.CONVENTIONAL, True, 0.2, 0.25, Entry(EntryKind.RAMP, ANGLE), LAYERS), Side.OUTSIDE,
+                     Lead(LeadKind.LINE, 1.25, 0.0), Tabs(3, 4.0, 0.5, ((10.0, -0.125), (1 / 3, 5.0))), 2, True, 0.2, True, 0.4),
+    DrillOperation(Cut(2, 5.0), 0.5, 2.5, 3.0, 0.5),
+    PocketOperation(Cut(2, 4.0, 1.0), 1.25, True, 0.55),
+    RestOperation(Cut(2, 4.0, 1.0), 1.25, 0.55),
+], ids=lambda operation: operation.WORD)
+def test_every_parameter_goes_through_the_comments_of_every_control(name: str, operation: Operation) -> None:
+    post, path = load_post(name), two_tools()
+    first = PocketOperation(Cut(1))
+    files = write_files(path.program(), job(tools=(BULL, TAPER), operations=(first, operation)), post)
+    headers = [read_program(file.nc.text.encode(), ReadOptions(post.dialect)).header for file in files]
+    told = lowered(next(note for header in reversed(headers) if header for note in reversed(header.operations)).operation())
+    for key, placed in parameters_of(type(operation)).items():
+        mine, theirs = placed.of(lowered(operation)), placed.of(told)
+        if key == "tab_places":
+            mine, theirs = np.ravel(mine), np.ravel(theirs)
+        assert theirs == (pytest.approx(mine, abs=1e-8) if isinstance(mine, float | np.ndarray) else mine), key
+
+
+@pytest.mark.parametrize(("text", "expected"), [
+    ("operation=pocket,1,2,0.1", PocketOperation(Cut(1, 2.0, stock_to_leave=0.1))),
+    ("operation=contour,2,2,0,outside)\n(hitofude: leads_mm=1,3.5", ContourOperation(Cut(2, 2.0), Side.OUTSIDE, Lead(radius=3.5))),
+    ("operation=drill,2,5,0)\n(hitofude: holes_mm=1,2.5,3,0.5", DrillOperation(Cut(2, 5.0), None, 2.5, 3.0, 0.5)),
+    ("operation=rest,1,2,0)\n(hitofude: operation_layer=1,a/b)\n(hitofude: floor_to_leave_mm=1,0.25",
+     RestOperation(Cut(1, 2.0, floor_to_leave=0.25, layers=("a/b",)))),
+])  # fmt: skip
+def test_headers_of_earlier_versions_are_read(text: str, expected: Operation) -> None:
+    header = notes(f"(hitofude: {text})\n".encode()).header
+    assert header is not None
+    (note,) = header.operations
+    told = note.operation()
+    assert replace(told, cut=replace(told.cut, stepdown=2.0)) == expected
 
 
 @pytest.mark.parametrize("name", post_names())
@@ -128,7 +173,11 @@ def test_a_tool_with_its_shape(text: str) -> None:
 
 
 @pytest.mark.parametrize("text", [
-    "operation=saw,1,2,0", "operation=contour,1,2,0,beside", "operation=contour,1,2,0,on,on", "operation=pocket,1,2", "operation_layer=1,a",
+    "operation=saw,1,2,0", "operation=contour,1,2,0,beside",
+    "operation=contour,1,2,0,on,on", "operation=pocket,1,2", "operation=pocket,depth=2", "operation=pocket,tool=1,depth=x",
+    "operation=contour,tool=1,side=up",
+    "operation=saw,tool=1",
+    "operation_layer=1,a",
     "operation_layer=x,a", "floor_to_leave_mm=1,2", "leads_mm=1,2", "holes_mm=1,2", "copies=2,2,0,0",
     "copies=2", "tab=1,2,3", "dog_bone=1,2,3,4,x", "operation=pocket", "origin_mm=1,2", "origin_mm=1,2,x", "drawing_units=yards",
     "to_zero=2", "px_per_inch=0", "px_per_inch=many", "overrule_units=x", "join_tolerance_mm=", "path_tolerance_mm=1,2", "nonsense=1", "",

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from ....model.curves import Point
 from ....model.job import Job
 from ....model.moves import MoveKind, Purpose
-from ....model.operation import kind_word
 from .program_geometry import MoveShapes
 
 _NAMES = {Purpose.RAPID: "Rapid", Purpose.PLUNGE: "Plunge", Purpose.CONTOUR: "Contour", Purpose.POCKET: "Pocket",
@@ -61,7 +60,7 @@ def _name(operation: int, purpose: Purpose, job: Job) -> str:
     name = _NAMES[purpose]
     if purpose in (Purpose.CONTOUR, Purpose.POCKET) or not 0 <= operation < len(job.operations):
         return name
-    return f"{name} of {kind_word(job.operations[operation])}"
+    return f"{name} of {job.operations[operation].WORD}"
 
 
 def _distances(shapes: MoveShapes, rows: NDArray[np.int64], at: Point) -> NDArray[np.float64]:

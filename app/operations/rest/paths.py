@@ -12,7 +12,7 @@ from ...geometry.offset.offset import Level, offset_levels
 from ...geometry.primitives import Rows
 from ...model.job import Job
 from ...model.moves import MoveKind, Purpose
-from ...model.operation import ContourOperation, Cut, RestOperation, Side
+from ...model.operation import Cut, RestOperation, Side
 from ...model.tool import Tool
 from ...toolpath.cleared import flat_radius
 from ...toolpath.coverage.flat import move_rows
@@ -109,7 +109,7 @@ def contours_later(setting: Setting, index: int, sheet: Sheet) -> list[tuple[Row
     """Return (rows, radius, mm) of the wall paths that operations later in the list will follow in the same area, as deep."""
     job = setting.job
     own = job.operations[index].cut
-    followers = [each.cut for each in job.operations[index + 1:] if isinstance(each, ContourOperation) and each.side is Side.INSIDE
+    followers = [each.cut for each in job.operations[index + 1:] if each.FOLLOWS_WALLS and each.wall_side is Side.INSIDE
                  and each.cut.enabled and each.cut.layers == own.layers and each.cut.floor >= own.floor]
     return [_wall_path(cut, job.tool(cut.tool), sheet) for cut in followers if flat_radius(job.tool(cut.tool)) > 0]
 

@@ -13,7 +13,7 @@ from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Level, offset_levels
 from ...geometry.primitives import lengths
 from ...model.job import Job
-from ...model.operation import ContourOperation, Cut, PocketOperation, Side
+from ...model.operation import Cut, PocketOperation, Side
 from ...model.tool import Tool
 from ...toolpath.build import Stroke
 from ...toolpath.linking.link import Manner, link
@@ -140,8 +140,8 @@ def wall_distance(job: Job, operation: PocketOperation) -> float:
 
 def _followers(job: Job, operation: PocketOperation) -> list[Cut]:
     """Return the contour operations inside the walls of the same layers, as deep."""
-    return [each.cut for each in job.operations if isinstance(each, ContourOperation) and each.cut.enabled
-            and each.side is Side.INSIDE and each.cut.layers == operation.cut.layers and each.cut.floor >= operation.cut.floor]  # fmt: skip
+    cuts = (each.cut for each in job.operations if each.FOLLOWS_WALLS and each.cut.enabled and each.wall_side is Side.INSIDE)
+    return [cut for cut in cuts if cut.layers == operation.cut.layers and cut.floor >= operation.cut.floor]
 
 
 def _left_to_contours(disc: float, job: Job, operation: PocketOperation) -> bool:

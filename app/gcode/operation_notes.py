@@ -1,0 +1,99 @@
+"""An operation in one comment of a program's header, written and read: its kind, then its parameters, `key=value` each.
+
+    operation=contour,tool=2,depth=2,stock_to_leave=0,side=outside,tab_places=10 0/50 0
+
+Lengths are in mm, angles in degrees, shares parts of 1; lists have slashes between their items, and what is not said has its default.
+Programs of earlier versions say KIND,TOOL,DEPTH,STOCK_TO_LEAVE[,SIDE] instead, and the rest in comments of their own.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Sequence
+from enum import Enum
+from typing import Any
+
+from ..model.fields import Placed, Unit, parameters_of
+from ..model.operation import Operation
+from .note_texts import ALLOWED, plain_numbers, spelled, unspelled
+
+_ALWAYS = ("tool", "depth", "stock_to_leave")
+_DECIMALS = 9
+_NUMBER = re.compile(r"-?\d{1,9}(\.\d{1,9})?")
+
+
+def written(operation: Operation) -> str:
+    """Return an operation as the value of its comment."""
+    said = ((key, placed, placed.of(operation)) for key, placed in parameters_of(type(operation)).items())
+    items = [f"{key}={_text(placed, value)}" for key, placed, value in said if key in _ALWAYS or value != placed.default]
+    return ",".join((operation.WORD, *items))
+
+
+def read(kind: type[Operation], items: Sequence[str]) -> dict[str, Any] | None:
+    """Return the parameters that a comment tells, by key; None where one is not as it is written. Strange keys are passed over."""
+    known, values = parameters_of(kind), {}
+    for item in items:
+        key, _, text = item.partition("=")
+        placed = known.get(key.strip().lower())
+        if placed is not None:
+            value = _READERS[placed.parameter.unit](text.strip(), placed)
+            if value is None:
+                return None
+            values[placed.key] = value
+    return values if "tool" in values else None
+
+
+_IN_LISTS = ALLOWED - {",", "/"}
+
+
+def _text(placed: Placed, value: Any) -> str:
+    unit = placed.parameter.unit
+    if isinstance(value, Enum):
+        return str(value.value)
+    if unit is Unit.FLAG:
+        return str(int(value))
+    if unit is Unit.NAMES:
+        return "/".join(spelled(name, _IN_LISTS) for name in value)
+    if unit is Unit.POINTS:
+        return "/".join(plain_numbers(*point, decimals=_DECIMALS).replace(",", " ") for point in value)
+    return plain_numbers(math.degrees(value) if unit is Unit.ANGLE else value, decimals=_DECIMALS)
+
+
+def _number(text: str, _: Placed) -> float | None:
+    return float(text) if _NUMBER.fullmatch(text) else None
+
+
+def _angle(text: str, placed: Placed) -> float | None:
+    degrees = _number(text, placed)
+    return None if degrees is None else math.radians(degrees)
+
+
+def _count(text: str, _: Placed) -> int | None:
+    return int(text) if re.fullmatch(r"\d{1,9}", text) else None
+
+
+def _flag(text: str, _: Placed) -> bool | None:
+    return {"0": False, "1": True}.get(text)
+
+
+def _choice(text: str, placed: Placed) -> Enum | None:
+    assert placed.enum is not None
+    return next((each for each in placed.enum if each.value == text.lower()), None)
+
+
+def _names(text: str, _: Placed) -> tuple[str, ...]:
+    return tuple(unspelled(name) for name in text.split("/"))
+
+
+def _points(text: str, _: Placed) -> tuple[tuple[float, float], ...] | None:
+    pairs = [point.split() for point in text.split("/")]
+    if not all(len(pair) == 2 and all(_NUMBER.fullmatch(number) for number in pair) for pair in pairs):
+        return None
+    return tuple((float(x), float(y)) for x, y in pairs)
+
+
+_READERS: dict[Unit, Callable[[str, Placed], Any]] = {
+    Unit.LENGTH: _number, Unit.SHARE: _number, Unit.ANGLE: _angle, Unit.COUNT: _count, Unit.FLAG: _flag, Unit.CHOICE: _choice,
+    Unit.NAMES: _names, Unit.POINTS: _points,
+}

@@ -1,0 +1,7 @@
+"""The kinds of operation that come with the program: importing this registers them."""
+
+from __future__ import annotations
+
+from . import contour, drill, pocket, rest
+
+__all__ = ["contour", "drill", "pocket", "rest"]

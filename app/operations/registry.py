@@ -1,0 +1,48 @@
+"""How each kind of operation is carried out: registered by its folder, asked for by whoever computes a job or judges what it lacks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from ..core.progress import Progress
+from ..model.finding import Finding
+from ..model.operation import Operation
+from ..toolpath.setting import Setting
+from ..toolpath.sheets import Sheet, Sheets
+
+
+@dataclass(frozen=True)
+class Way:
+    """How a kind of operation is carried out.
+
+    Attributes:
+        paths: makes the moves of the operation with an index in the job of a setting.
+        missed: what an operation asks for and no path of it will make, from the drawing alone; without a sheet for one that makes
+            none, which is asked of nobody else's area.
+    """
+
+    paths: Callable[[Setting, int, Progress], None]
+    missed: Callable[[Sheets, Operation, Sheet | None], Iterable[Finding]] = lambda sheets, operation, sheet: ()
+
+
+_WAYS: dict[type[Operation], Way] = {}
+
+
+def register(kind: type[Operation], way: Way) -> None:
+    """Make known how a kind of operation is carried out.
+
+    Raises:
+        ValueError: that is known already.
+    """
+    if _WAYS.setdefault(kind, way) is not way:
+        raise ValueError(f"operations of the kind {kind.WORD} are carried out in two ways")
+
+
+def way_of(operation: Operation) -> Way:
+    """Return how an operation is carried out.
+
+    Raises:
+        KeyError: nobody has registered that.
+    """
+    return _WAYS[type(operation)]

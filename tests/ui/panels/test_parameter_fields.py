@@ -1,0 +1,64 @@
+"""The form of an operation comes from the declarations: a parameter that is added shows by itself, and what it shows is what is set."""
+
+import pytest
+
+from app.drafting.document import Document
+from app.model import operation as operations
+from app.model.job import Job
+from app.model.operation import OPERATION_KINDS, Cut, parameters_of, register
+from app.model.part import Part
+from app.ui.framework.fields import ChoiceField, ListField, NumberField
+from app.ui.framework.form import SwitchField
+from app.ui.panels.operation_form import OperationForm
+from tests.model.test_fields import ASKED, EngraveOperation, Grain
+
+
+@pytest.fixture
+def form(qtbot, monkeypatch):
+    monkeypatch.setattr(operations, "OPERATION_KINDS", dict(OPERATION_KINDS))
+    register(EngraveOperation)
+    made = OperationForm()
+    qtbot.addWidget(made)
+    return made
+
+
+def job_of(kind):
+    return Job(Part(), operations=(kind(Cut(2)),))
+
+
+@pytest.mark.parametrize("kind", [*OPERATION_KINDS.values(), EngraveOperation], ids=lambda kind: kind.WORD)
+def test_the_fields_are_those_of_the_kind(form, kind):
+    form.show_operation(job_of(kind), 0, None)
+    shown = {key for key, each in form.fields.items() if not each.field.isHidden()}
+    operation = job_of(kind).operations[0]
+    assert shown == {key for key, placed in parameters_of(kind).items() if placed.has_effect(operation)} - {"tool", "enabled", "tab_places"}
+
+
+def test_a_kind_from_outside_is_set_in_the_form(form):
+    document = Document(job_of(EngraveOperation))
+    form.edited.connect(lambda name, wish: document.change_job(name, wish[1](document.job)))
+    form.show_operation(document.job, 0, None)
+    fields = {key: form.fields[key].field for key in ASKED}
+    assert [type(field) for field in fields.values()] == [NumberField, ChoiceField, NumberField, SwitchField]
+    for key, text in (("overcut", "1.25"), ("slant", "12.5")):
+        fields[key].edit.setText(text)
+        fields[key].edit.setModified(True)
+        fields[key].edit.editingFinished.emit()
+    fields["grain"].buttons[Grain.ACROSS].click()
+    fields["twice"].switch.click()
+    (made,) = document.job.operations
+    assert {key: parameters_of(EngraveOperation)[key].of(made) for key in ASKED} == {**ASKED, "slant": pytest.approx(ASKED["slant"])}
+    assert document.undo_name == "Change twice"
+
+
+def test_what_is_out_of_range_is_said_at_the_field(form):
+    form.show_operation(job_of(EngraveOperation), 0, None)
+    field = form.number("overcut")
+    field.edit.setText("10")
+    field.edit.textEdited.emit("10")
+    assert field.reason.text() == "Overcut is 10 mm; use 0 to 9."
+
+
+def test_long_choices_are_a_list(form):
+    assert isinstance(form.fields["entry"].field, ListField)
+    assert isinstance(form.fields["side"].field, ChoiceField)
