@@ -27,13 +27,20 @@ _NOTHING = 1e-9
 """Of the extent cubed: a surface that encloses no more is folded flat."""
 
 
+_BEFORE = 1e-6
+"""Of a triangle's extent: how far before it it is asked whether there is metal."""
+
+_EVEN = 1e-6
+"""Of its extent that a patch may be off its plane: what rounding in files does."""
+
+
 @dataclass(frozen=True, eq=False)
 class Wound:
     """A surface, right side out.
 
     Attributes:
-        triangles: (k, 3, 3) mm; counter-clockwise seen from outside, unless there is a fault. Those without an area, and pairs of them
-            at the same place, are left out.
+        triangles: (k, 3, 3) mm; counter-clockwise seen from outside, unless there is a fault. Those without an area, pairs of them at
+            the same place, and sides that bodies touch in are left out; some may be in parts where others have a corner on their edge.
         turned: (n,) which of those that were given had to be turned over.
         fault: why that cannot be done, as the end of a sentence; "" = it is done.
         place: x, y, z of the fault, mm, where it has one.
@@ -82,23 +89,59 @@ def right_side_out(triangles: Floats) -> Wound:
     Args:
         triangles: (n, 3, 3) mm, n > 0.
     """
+    from .sew import sewn
+
     corners, turned = triangles + 0.0, np.zeros(len(triangles), np.bool_)
-    counts = _counting(corners)
-    solid = corners[counts]
+    rows = np.flatnonzero(_counting(corners))
+    solid = corners[rows]
     if not len(solid):
         return Wound(corners, turned, "its triangles enclose nothing")
     edges = Edges.of(solid)
     loose = edges.open_uses()
+    if len(loose) and (mended := sewn(solid)) is not None:
+        some = _counting(mended.triangles)
+        solid, rows = mended.triangles[some], rows[mended.origin[some]]
+        edges, loose = Edges.of(solid), loose[:0]
     if len(loose):
         return Wound(corners, turned, f"{len(loose)} of its edges belong to one triangle only", _middle(solid, int(loose[0])))
     patch, against, fault = _agreed(edges, len(solid))
+    touching = _touching(solid, edges, patch)
+    if touching.any():
+        solid, rows = solid[~touching], rows[~touching]
+        if not len(solid):
+            return Wound(corners, turned, "its triangles enclose nothing")
+        edges = Edges.of(solid)
+        patch, against, fault = _agreed(edges, len(solid))
     if fault >= 0:
         return Wound(corners, turned, "it has one side only, like a twisted strip", _middle(solid, fault))
     over, shells, fault = _outward(solid, edges, patch, against)
     if fault >= 0:
         return Wound(corners, turned, "its triangles do not agree on an inside", _middle(solid, fault))
-    turned[counts] = over
-    return Wound(np.where(over[:, None, None], solid[:, ::-1], solid), turned, shells=shells)
+    wound = np.where(over[:, None, None], solid[:, ::-1], solid)
+    fault = _less_than_nothing(wound, edges, patch)
+    if fault >= 0:
+        return Wound(corners, turned, "its triangles do not agree on an inside", _middle(solid, fault))
+    turned[rows[over]] = True
+    return Wound(wound, turned, shells=shells)
+
+
+def _less_than_nothing(wound: Floats, edges: Edges, patch: Ints) -> int:
+    """Return a use of a patch that has less than no metal before it, as where a body that touches another is inside out; -1: none has.
+
+    Bodies that share edges alone are turned together, so that one of them may be turned wrongly, and edges do not tell. The largest
+    patches that share edges are asked.
+    """
+    meeting = np.unique(patch[np.flatnonzero(edges.count[edges.edge] > 2) // 3])
+    normal = np.cross(wound[:, 1] - wound[:, 0], wound[:, 2] - wound[:, 0])
+    size = np.linalg.norm(normal, axis=1)
+    area = np.bincount(patch, size, len(patch))
+    for name in meeting[np.argsort(-area[meeting], kind="stable")[:_ASKED]].tolist():
+        mine = np.flatnonzero(patch == name)
+        k = int(mine[np.argmax(size[mine])])
+        before = wound[k].mean(axis=0) + _BEFORE * normal[k] / np.sqrt(size[k])
+        if winding_number(wound, before) < -0.5:
+            return 3 * k
+    return -1
 
 
 def _counting(corners: Floats) -> NDArray[np.bool_]:
@@ -112,6 +155,48 @@ def _counting(corners: Floats) -> NDArray[np.bool_]:
     last = np.zeros(len(corners), np.bool_)
     last[order[np.cumsum(many) - 1]] = True
     return np.asarray(~flat & last & (many[alike] % 2 == 1))
+
+
+def _touching(triangles: Floats, edges: Edges, patch: Ints) -> NDArray[np.bool_]:
+    """Return which triangles lie in sides that two bodies share: flat patches in pairs that end at the same edges, which others end at, too.
+
+    So it does not matter in which triangles each body has the side that they touch in. A flat patch is what its border encloses, and
+    two of them at the same place have metal, or none, on both sides.
+    """
+    found = np.zeros(len(triangles), np.bool_)
+    uses = np.flatnonzero(edges.count[edges.edge] > 2)
+    if not len(uses):
+        return found
+    pairs = np.unique(np.column_stack([patch[uses // 3], edges.edge[uses]]), axis=0)
+    names, first = np.unique(pairs[:, 0], return_index=True)
+    order = np.argsort(patch, kind="stable")
+    begin, end = (np.searchsorted(patch[order], names, side) for side in ("left", "right"))
+    borders: dict[bytes, list[Ints]] = {}
+    for border, a, b in zip(np.split(pairs[:, 1], first[1:]), begin.tolist(), end.tolist(), strict=True):
+        mine = order[a:b]
+        inner = np.isin(edges.edge[(3 * mine[:, None] + np.arange(3)).ravel()], border)
+        if int(inner.sum()) == len(border) and _is_flat(triangles[mine]) and _closes(edges, mine):
+            borders.setdefault(border.tobytes(), []).append(mine)
+    for alike in borders.values():
+        for mine in alike[: len(alike) // 2 * 2]:
+            found[mine] = True
+    return found
+
+
+def _is_flat(triangles: Floats) -> bool:
+    """Return whether triangles that hang together lie in one plane."""
+    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    size = np.linalg.norm(normal, axis=1)
+    main = normal[int(np.argmax(size))] / max(float(size.max()), 1e-300)
+    places = triangles.reshape(-1, 3) - triangles[0, 0]
+    return bool(np.all(np.abs(places @ main) <= _EVEN * max(float(np.abs(places).max()), 1e-300)))
+
+
+def _closes(edges: Edges, mine: Ints) -> bool:
+    """Return whether a patch ends nowhere but at edges of more than two triangles."""
+    _, own = np.unique(edges.edge[(3 * mine[:, None] + np.arange(3)).ravel()], return_counts=True)
+    each = np.unique(edges.edge[(3 * mine[:, None] + np.arange(3)).ravel()])
+    return bool(np.all((own == 2) | (edges.count[each] > 2)))
 
 
 def _middle(triangles: Floats, use: int) -> tuple[float, float, float]:
