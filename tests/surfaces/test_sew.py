@@ -1,5 +1,7 @@
 """Surfaces that rounding has torn: the same volume comes out; what is really open stays so."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -18,7 +20,7 @@ def parted(triangle: int, side: int, shares: list[float]) -> np.ndarray:
     """The block with corners on one side of one triangle, which its neighbour there does not have."""
     a, b, c = np.roll(BLOCK[triangle], -side, axis=0)
     line = [a, *(a + (b - a) * share for share in sorted(shares)), b]
-    return np.concatenate([np.delete(BLOCK, triangle, axis=0), [[p, q, c] for p, q in zip(line, line[1:], strict=False)]])
+    return np.concatenate([np.delete(BLOCK, triangle, axis=0), [[p, q, c] for p, q in pairwise(line)]])
 
 
 def single(triangles: np.ndarray) -> np.ndarray:

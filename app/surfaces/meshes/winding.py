@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .rows import numbered
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
@@ -71,7 +73,7 @@ class Edges:
     @staticmethod
     def of(triangles: Floats) -> Edges:
         """Return the edges of triangles (n, 3, 3); corners at exactly the same place are one."""
-        _, corner = np.unique(triangles.reshape(-1, 3) + 0.0, axis=0, return_inverse=True)  # + 0.0: there is one zero only
+        corner = numbered(triangles.reshape(-1, 3) + 0.0)  # + 0.0: there is one zero only
         corners = corner.reshape(-1, 3)
         start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
         both = np.minimum(start, end) * (int(corner.max(initial=0)) + 1) + np.maximum(start, end)
@@ -146,11 +148,10 @@ def _less_than_nothing(wound: Floats, edges: Edges, patch: Ints) -> int:
 
 def _counting(corners: Floats) -> NDArray[np.bool_]:
     """Return which triangles are part of a surface: those with an area, but for pairs at the same place, as where bodies touch."""
-    _, number = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
-    sides = np.sort(number.reshape(-1, 3), axis=1)
+    sides = np.sort(numbered(corners.reshape(-1, 3)).reshape(-1, 3), axis=1)
     flat = (sides[:, 0] == sides[:, 1]) | (sides[:, 1] == sides[:, 2])
-    _, alike, many = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
-    alike = alike.ravel()
+    alike = numbered(sides)
+    many = np.bincount(alike)
     order = np.argsort(alike, kind="stable")
     last = np.zeros(len(corners), np.bool_)
     last[order[np.cumsum(many) - 1]] = True
@@ -158,7 +159,7 @@ def _counting(corners: Floats) -> NDArray[np.bool_]:
 
 
 def _touching(triangles: Floats, edges: Edges, patch: Ints) -> NDArray[np.bool_]:
-    """Return which triangles lie in sides that two bodies share: flat patches in pairs that end at the same edges, which others end at, too.
+    """Return which triangles lie in sides that two bodies share: flat patches in pairs that end at the same edges, as others do.
 
     So it does not matter in which triangles each body has the side that they touch in. A flat patch is what its border encloses, and
     two of them at the same place have metal, or none, on both sides.
@@ -278,10 +279,10 @@ def _turned_shells(triangles: Floats, turned: NDArray[np.bool_], shell: Ints) ->
 def _shells(edges: Edges, patch: Ints, forward: NDArray[np.bool_]) -> Ints:
     """Return a number by triangle for what is closed: a patch, or several that only close together, at edges of four and more."""
     face = np.arange(len(edges.edge)) // 3
-    keys, at = np.unique(np.column_stack([edges.edge, patch[face]]), axis=0, return_inverse=True)
+    keys, at = np.unique(edges.edge * len(patch) + patch[face], return_inverse=True)
     loose = np.bincount(at.ravel(), np.where(forward, 1, -1), len(keys)) != 0
     shell = np.arange(len(patch))
-    edge, number = keys[loose].T
+    edge, number = np.divmod(keys[loose], len(patch))
     while len(edge):
         least = np.full(len(edges.count), len(patch), np.int64)
         np.minimum.at(least, edge, shell[number])
