@@ -18,6 +18,8 @@ from .rows import numbered
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Numbers = NDArray[np.int32]
+"""Of edges, of which there are many."""
 
 _WITHIN = 0.75
 """Of a turn: a place that a surface winds round by more is in it; one on it has a half."""
@@ -66,7 +68,7 @@ class Edges:
         count: uses of each edge.
     """
 
-    edge: Ints
+    edge: Numbers
     forward: NDArray[np.bool_]
     count: Ints
 
@@ -78,7 +80,7 @@ class Edges:
         start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
         both = np.minimum(start, end) * (int(corner.max(initial=0)) + 1) + np.maximum(start, end)
         _, edge, count = np.unique(both, return_inverse=True, return_counts=True)
-        return Edges(edge.ravel(), np.asarray(start < end), count)
+        return Edges(edge.ravel().astype(np.int32), np.asarray(start < end), count)
 
     def open_uses(self) -> Ints:
         """Return the uses of edges that belong to an odd number of triangles: there the surface ends."""
@@ -95,7 +97,7 @@ def right_side_out(triangles: Floats) -> Wound:
 
     corners, turned = triangles + 0.0, np.zeros(len(triangles), np.bool_)
     rows = np.flatnonzero(_counting(corners))
-    solid = corners[rows]
+    solid = corners[rows] if len(rows) < len(corners) else corners
     if not len(solid):
         return Wound(corners, turned, "its triangles enclose nothing")
     edges = Edges.of(solid)
@@ -119,7 +121,7 @@ def right_side_out(triangles: Floats) -> Wound:
     over, shells, fault = _outward(solid, edges, patch, against)
     if fault >= 0:
         return Wound(corners, turned, "its triangles do not agree on an inside", _middle(solid, fault))
-    wound = np.where(over[:, None, None], solid[:, ::-1], solid)
+    wound = _turned_over(solid, over)
     fault = _less_than_nothing(wound, edges, patch)
     if fault >= 0:
         return Wound(corners, turned, "its triangles do not agree on an inside", _middle(solid, fault))
@@ -259,9 +261,11 @@ def _turned_shells(triangles: Floats, turned: NDArray[np.bool_], shell: Ints) ->
     order = np.argsort(shell, kind="stable")
     _, first = np.unique(shell[order], return_index=True)
     rows = np.split(order, first[1:])
-    wound = np.where(turned[:, None, None], triangles[:, ::-1], triangles)
-    own = wound - wound.reshape(-1, 3).mean(axis=0)
-    volume = np.add.reduceat(np.einsum("ij,ij->i", own[:, 0], np.cross(own[:, 1], own[:, 2]))[order] / 6.0, first)
+    wound = _turned_over(triangles, turned)
+    middle = wound.reshape(-1, 3).mean(axis=0)
+    a, b, c = (wound[:, k] - middle for k in range(3))
+    volume = np.add.reduceat(np.einsum("ij,ij->i", a, np.cross(b, c))[order] / 6.0, first)
+    del a, b, c
     low, high = np.minimum.reduceat(wound.min(axis=1)[order], first), np.maximum.reduceat(wound.max(axis=1)[order], first)
     hollow = np.abs(volume) <= _NOTHING * np.max(high - low, axis=1) ** 3
     if hollow.all():
@@ -276,10 +280,15 @@ def _turned_shells(triangles: Floats, turned: NDArray[np.bool_], shell: Ints) ->
     return turned, -1
 
 
+def _turned_over(triangles: Floats, turned: NDArray[np.bool_]) -> Floats:
+    """Return triangles, some of them turned over."""
+    return np.where(turned[:, None, None], triangles[:, ::-1], triangles) if turned.any() else triangles
+
+
 def _shells(edges: Edges, patch: Ints, forward: NDArray[np.bool_]) -> Ints:
     """Return a number by triangle for what is closed: a patch, or several that only close together, at edges of four and more."""
     face = np.arange(len(edges.edge)) // 3
-    keys, at = np.unique(edges.edge * len(patch) + patch[face], return_inverse=True)
+    keys, at = np.unique(edges.edge.astype(np.int64) * len(patch) + patch[face], return_inverse=True)
     loose = np.bincount(at.ravel(), np.where(forward, 1, -1), len(keys)) != 0
     shell = np.arange(len(patch))
     edge, number = np.divmod(keys[loose], len(patch))
