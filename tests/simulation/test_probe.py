@@ -48,3 +48,35 @@ def test_the_cells_of_the_engine_are_met(name: str) -> None:
     heights = np.minimum(heights, 0.0).reshape(cut.heights.shape)
     assert np.count_nonzero(np.abs(heights - cut.heights) > 2e-4) <= 3
     assert np.all((rows >= 0).reshape(cut.heights.shape)[cut.heights < -1e-3])
+
+
+@pytest.mark.parametrize("name", CUTTERS)
+def test_a_level_arc_is_the_reference(name: str) -> None:
+    points = np.random.default_rng(7).uniform(-9, 9, (150, 2))
+    got = asked(arc((5, 0, -2), (-3, 4, -2), (0, 0, -2), ccw=False), name, points)[0]
+
+    def way(t: np.ndarray) -> np.ndarray:
+        angle = -np.asarray(t) * (2 * np.pi - np.arctan2(4, -3))
+        return np.stack([5 * np.cos(angle), 5 * np.sin(angle), np.full(angle.shape, -2.0)], axis=-1)
+
+    expected = swept(CUTTERS[name], way, points)
+    assert np.count_nonzero(np.isfinite(expected) != np.isfinite(got)) <= 1
+    both = np.isfinite(expected) & np.isfinite(got)
+    assert np.abs(got[both] - expected[both]).max() < 2e-5
+
+
+def test_of_motions_that_are_as_low_the_first_is_told() -> None:
+    back_and_forth = polyline([(-5, 0, -1), (5, 0, -1), (-5, 0, -1), (5, 0, -1), (5, 0, 2)])
+    assert asked(back_and_forth, "flat", np.array([[0.0, 1.0], [0.0, 4.0]]))[1].tolist() == [0, -1]
+
+
+def test_a_point_is_met_by_few_of_many_pieces_and_by_the_lowest() -> None:
+    """Passes beside one another in both directions: each point against all motions, one by one."""
+    rng = np.random.default_rng(11)
+    xs = np.linspace(-9, 9, 40)
+    motions = polyline([(x, y, float(rng.uniform(-2, 0))) for k, x in enumerate(xs) for y in ((-9, 9) if k % 2 else (9, -9))])
+    points = rng.uniform(-9, 9, (40, 2))
+    heights, rows = asked(motions, "bull", points)
+    single = np.array([swept(CUTTERS["bull"], line(a, b), points) for a, b in zip(motions.start, motions.end, strict=True)])
+    assert heights == pytest.approx(single.min(axis=0), abs=2e-5)
+    assert single[rows, np.arange(len(points))] == pytest.approx(single.min(axis=0), abs=2e-5)
