@@ -159,12 +159,12 @@ def step() -> np.ndarray:
 
 
 def stepped(wall: float, floor: float, top: float) -> str:
-    """Mills the step with a flat tool of 6 mm: its wall, floor and top too deep by some mm."""
+    """Mills the step with a flat tool of 6 mm: its wall, floor, and top up to X 30, too deep by some mm."""
     lines = ["G21 G90 G94 G17", "T1 M6", "S1000 M3", "G0 Z5", "X-5 Y-5", f"G1 Z{-4 - floor} F300"]
     for x in (0.0, 5.0, 10.0, 15.0, 17.0 + wall):
         lines += [f"X{x:.4f} Y-5", "Y35", "Y-5"]
-    lines += ["G0 Z5", f"X{23.0 + wall + 0.2:.4f} Y-5", f"G1 Z{-top}"]
-    for x in (23.2 + wall, 28.0, 33.0, 38.0):
+    lines += ["G0 Z5", "X23 Y-5", f"G1 Z{-top}"]
+    for x in (23.0, 27.0):
         lines += [f"X{x:.4f} Y-5", "Y35", "Y-5"]
     return "\n".join([*lines, "G0 Z5", "M2", ""])
 
@@ -226,3 +226,19 @@ def test_the_depth_is_that_of_dense_columns_through_a_solid_with_undercut_faces(
     apart = float(side[1] - side[0])
     assert deepest - 1e-3 <= judgement.gouge.max_mm <= max(deepest, 0.0) + apart
     assert judgement.gouge.max_mm <= judgement.certificate.gouge_mm
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_the_side_that_two_bodies_touch_in_is_no_surface(turned: bool) -> None:
+    """Of a hole in their seam, whose diagonals differ, no place is deeper than its floor: 5 mm below the top and above the underside."""
+    from tests.simulation.test_target import box
+    from tests.surfaces.test_winding import other_diagonal
+
+    left, right = other_diagonal(box((0, 0, -10), (20, 30, 0)), 20.0), box((20, 0, -10), (40, 30, 0))
+    solid = read_solid("a.stl", stl(np.concatenate([left, right[:, ::-1] if turned else right])))
+    text = "\n".join(["G21 G90 G94 G17", "T1 M6", "G0 Z5", "X20 Y15", "G1 Z-5 F300", "G0 Z5", "M2", ""])
+    setup = CutSetup((program(text),), {1: Tool(1, 6.0)}, BoxStock(StockBox(0, 0, -10, 40, 30, 0)), SolidPart(solid))
+    judgement = cut(setup, CutOptions(128)).judgement
+    assert solid.shells == 1 and judgement is not None and judgement.certificate is not None
+    assert judgement.gouge.max_mm == pytest.approx(5.0, abs=1e-4)
+    assert 5.0 - 1e-4 <= judgement.certificate.gouge_mm <= 5.5

@@ -121,4 +121,4 @@ def _on(begin: Floats, end: Floats, places: Floats, within: float) -> Floats:
     along = (places - begin) @ way / length
     off = np.linalg.norm(places - begin - along[:, None] * (way / length), axis=1)
     some = (off <= within) & (along > within) & (along < length - within)
-    return places[some][np.argsort(along[some], kind="stable")]
+    return np.asarray(places[some][np.argsort(along[some], kind="stable")])
