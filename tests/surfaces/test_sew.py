@@ -60,3 +60,16 @@ def test_gaps_that_are_wider_than_rounding_stay_open() -> None:
     for torn in (gap, BLOCK[1:], np.concatenate([parted(5, 0, [0.5])[:-1], BLOCK[:0]])):
         assert sewn(torn) is None
         assert "belong to one triangle only" in right_side_out(torn).fault
+
+
+@pytest.mark.parametrize("spread", [1.0, 1e-9])
+def test_triangles_without_order_are_refused_soon(spread: float) -> None:
+    """Nearly all places within reach of one another, in a soup or in a heap: what damage makes of a file."""
+    import time
+
+    rng = np.random.default_rng(2)
+    soup = spread * rng.random((3300, 3, 3))
+    soup[0] = [[0, 0, 0], [1, 0, 0], [0, 1, 1]]
+    begin = time.process_time()
+    assert "belong to one triangle only" in right_side_out(soup).fault
+    assert time.process_time() - begin < 5.0

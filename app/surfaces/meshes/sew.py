@@ -17,8 +17,8 @@ Ints = NDArray[np.int64]
 ROUNDED = 8 * 2.0**-24
 """Of the greatest coordinate: how far apart corners may be that are one. Half a unit in the last place, on both sides, some times over."""
 
-_MOST = 50_000
-"""Open edges from which on a surface is not torn but open."""
+_MOST, _PAIRS = 10_000, 2_000_000
+"""Open edges from which on a surface is not torn but open, and pairs of near places that are looked at: damaged files may have any."""
 
 _SIDES = 3
 """Rounds of splitting: one for each side of a triangle."""
@@ -45,12 +45,18 @@ def sewn(triangles: Floats) -> Sewn | None:
     uses = Edges.of(triangles).open_uses()
     if len(uses) > _MOST:
         return None
-    found = Sewn(_welded(triangles, uses, within), found.origin)
+    welded = _welded(triangles, uses, within)
+    if welded is None:
+        return None
+    found = Sewn(welded, found.origin)
     for _ in range(_SIDES):
         uses = _real(found.triangles, Edges.of(found.triangles).open_uses())
         if not len(uses):
             break
-        found = _split(found, uses, within)
+        split = _split(found, uses, within)
+        if split is None:
+            return None
+        found = split
     found = _with_area(found)
     return None if len(Edges.of(found.triangles).open_uses()) else found
 
@@ -73,14 +79,17 @@ def _with_area(found: Sewn) -> Sewn:
     return Sewn(found.triangles[some], found.origin[some])
 
 
-def _welded(triangles: Floats, uses: Ints, within: float) -> Floats:
-    """Return triangles whose corners on open edges are one where they are no farther apart than `within`."""
+def _welded(triangles: Floats, uses: Ints, within: float) -> Floats | None:
+    """Return triangles whose corners on open edges are one where they are no farther apart than `within`; None: far too many are."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
     places = np.unique(np.concatenate(_ends(triangles, uses)), axis=0)
-    pairs = cKDTree(places).query_pairs(within, output_type="ndarray")
+    tree = cKDTree(places)
+    if tree.count_neighbors(tree, within) > _PAIRS:
+        return None
+    pairs = tree.query_pairs(within, output_type="ndarray")
     if not len(pairs):
         return triangles
     size = len(places)
@@ -92,13 +101,16 @@ def _welded(triangles: Floats, uses: Ints, within: float) -> Floats:
     return np.ascontiguousarray(one[at.ravel()].reshape(-1, 3, 3))
 
 
-def _split(found: Sewn, uses: Ints, within: float) -> Sewn:
-    """Return a surface whose triangles are split at the corners that lie on one open edge of each."""
+def _split(found: Sewn, uses: Ints, within: float) -> Sewn | None:
+    """Return a surface whose triangles are split at the corners that lie on one open edge of each; None: there are far too many."""
     from scipy.spatial import cKDTree
 
     begin, end = _ends(found.triangles, uses)
     places = np.unique(np.concatenate([begin, end]), axis=0)
-    near = cKDTree(places).query_ball_point((begin + end) / 2, np.linalg.norm(end - begin, axis=1) / 2 + within)
+    tree, middle, reach = cKDTree(places), (begin + end) / 2, np.linalg.norm(end - begin, axis=1) / 2 + within
+    if int(np.sum(tree.query_ball_point(middle, reach, return_length=True))) > _PAIRS:
+        return None
+    near = tree.query_ball_point(middle, reach)
     parts, rows, gone = [], [], np.zeros(len(found.triangles), np.bool_)
     for use, a, b, around in zip(uses.tolist(), begin, end, near, strict=True):
         face, k = divmod(use, 3)
