@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +20,7 @@ from ..simulation.cutter import Cutter, cutter_of
 from ..simulation.engines import Engine, Graphics, HeightEngine, Job, Told, hardware
 from ..simulation.field.workpiece import Grid, Heights, Stock, Workpiece, ensure_memory
 from ..simulation.sweeps.course import TrimOptions
-from ..simulation.sweeps.probe import lowest
+from ..simulation.sweeps.probe import PathProbe
 from ..simulation.sweeps.trim import Cut, trim
 from ..verify.accidents import Stage, accidents
 from ..verify.certify import certify
@@ -266,7 +267,7 @@ class _Run:
         lines = self.setup.lines()
         probe, lowest = None, self._lowest if isinstance(part, SolidPart) and self.options.judge else None
         if isinstance(part, SolidPart) and part.block is None and self.options.judge:  # of surfaces the cells tell enough
-            probe = WallProbe(part, self._lowest, self.workpiece, lines)
+            probe = WallProbe(part, self._lowest, self.workpiece)
         return judge(Judging(part, cut, wanted, exact, lines, lowest, probe), certificate)
 
     def unseen(self) -> Iterator[Finding]:
@@ -275,15 +276,14 @@ class _Run:
         if isinstance(part, SolidPart) and part.block is None and self.options.judge:
             yield from unseen_walls(part, self.workpiece.grid.pitch)
 
+    @cached_property
+    def _path(self) -> PathProbe:
+        """All that the programs cut along, to be asked at single points; made when somebody asks."""
+        return PathProbe.of([known.course for known in self.courses], self.cutters)
+
     def _lowest(self, points: Floats) -> tuple[Floats, NDArray[np.int64]]:
         """Return the lowest height that all programs reach at points, and which of all their motions."""
-        best, motion, done = np.full(len(points), np.inf), np.full(len(points), -1, np.int64), 0
-        for known in self.courses:
-            heights, rows = lowest(points, known.course, self.cutters)
-            better = heights < best
-            best[better], motion[better] = heights[better], rows[better] + done
-            done += len(known.course.motions)
-        return best, motion
+        return self._path.lowest(points)
 
 
 def _tools(program: NcProgram) -> NDArray[np.int32]:

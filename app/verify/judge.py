@@ -7,7 +7,7 @@ them, and a gouge that only the cells show counts too. For a solid, and where a 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,9 +25,9 @@ from .flat_target import flat_target
 from .judgement import BANDS, Band, Certificate, Judgement, Spot, SpotKind
 from .parts import FlatPart, Part, SolidPart
 from .places import CellPlace, places_of
-from .solid_gouges import Probe, SolidGouges
+from .solid_gouges import SolidGouges
 from .verdict import Gouge
-from .wall_probe import WallProbe
+from .wall_probe import Probe, WallProbe
 
 Mask = NDArray[np.bool_]
 
@@ -166,29 +166,12 @@ def _gouges(judging: Judging, deviation: NDArray[np.float32]) -> tuple[tuple[Spo
     gouged = np.asarray(deviation < -part.tolerance)
     places, count = places_of(gouged, -deviation, judging.grid)
     if isinstance(part, SolidPart) and judging.lowest is not None:
-        narrow = list(_apart(judging.probe.spots())) if judging.probe is not None else []
         cut, around = judging.cut, judging.wanted.target.around
         measure = SolidGouges(part, judging.lowest, cut.before, cut.heights, gouged, around, judging.lines)
-        spots = measure.spots(places, narrow)
+        spots = measure.spots(places, judging.probe)
         return tuple(spots), len(spots) + count - len(places)
     spots = [spot for spot in (_gouge_of_cells(judging, place) for place in places) if spot.depth_mm > part.tolerance]
     return tuple(sorted(spots, key=lambda spot: -spot.depth_mm)), len(spots) + count - len(places)
-
-
-def _near(spot: Spot, others: Sequence[Spot]) -> bool:
-    """Return whether a spot is one of others, but for a little way."""
-    return any(np.hypot(spot.x - other.x, spot.y - other.y) <= APART for other in others)
-
-
-def _apart(spots: Iterator[Spot]) -> Iterator[Spot]:
-    """Yield spots but for those near an earlier one."""
-    told: dict[tuple[int, int], list[Spot]] = {}
-    for spot in spots:
-        col, row = math.floor(spot.x / APART), math.floor(spot.y / APART)
-        around = [other for dx in (-1, 0, 1) for dy in (-1, 0, 1) for other in told.get((col + dx, row + dy), ())]
-        if not _near(spot, around):
-            told.setdefault((col, row), []).append(spot)
-            yield spot
 
 
 def _exact_gouges(judging: Judging) -> Iterator[Spot]:

@@ -44,7 +44,7 @@ class DepthInSolid:
 
     def __init__(self, solid: SolidStock, leave: float = 0.0) -> None:
         self._rays, self._leave = SolidRays(solid), leave
-        self._tree = TriangleTree.of(solid.triangles if solid.shells == 1 else self._outer_faces(solid.triangles))
+        self._tree = solid.tree if solid.shells == 1 else TriangleTree.of(self._outer_faces(solid.triangles))
 
     def of(self, columns: Columns, known: float = 0.0, fine: float = FINE) -> Floats:
         """Return how deep the deepest place of each column lies below the surface of what is wanted, mm, >= 0.

@@ -1,8 +1,9 @@
 """Gouges in a solid: how deep each place is, measured on the solid and on the motions themselves, not on the cells that show it.
 
-The cells tell where metal of the solid was cut away. At the centres of those that seem deepest the exact depth is asked, and from the
-deepest ones on it is climbed between the cells: the program's height at any place, and the solid's distance there, are closed forms.
-So what is told is the depth of a place that was cut; that nothing else is deeper by more than a cell's way, the certificate says.
+The cells tell where metal of the solid was cut away. At the centres of those that seem deepest the exact depth is asked, points on the
+walls tell what lies between the cells, and from the deepest ones on it is climbed: the program's height at any place, and the solid's
+distance there, are closed forms. So what is told is the depth of a place that was cut; that nothing else is deeper by more than a
+cell's way, the certificate says.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,21 +21,21 @@ from ..simulation.field.target import frozen
 from ..simulation.field.workpiece import Heights, Workpiece
 from .judgement import Spot, SpotKind
 from .parts import SolidPart
-from .places import CellPlace
+from .places import MOST, CellPlace
 from .solid_depth import Columns, DepthInSolid
-from .wall_probe import metal_at
+from .wall_probe import Probe, WallProbe, metal_at
 
 ASKED = 4000
 """Cells of a place that the solid is asked at, half of them those that seem deepest, the others spread; of all places ten times as many."""
 
-STARTS, APART = 12, 0.5
-"""Places that the depth is climbed from, so far apart, mm."""
+APART = 1.0
+"""mm between gouges in walls that are told one by one."""
 
-ROUNDS, SIDE = 24, 2
+STARTS, NEAR = 12, 0.5
+"""Places that the depth of the deepest gouge is climbed from, so far apart, mm; that of each other one from its own deepest."""
+
+ROUNDS, ROUNDS_OF_OTHERS, SIDE = 24, 12, 2
 """Times that the places round the best one so far are asked, on (2 SIDE + 1)² places, nearer and nearer."""
-
-Probe = Callable[[Floats], tuple[Floats, NDArray[np.int64]]]
-"""Gives the height that is left at places (m, 2), and the motion that cut it, -1 = none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,63 +56,77 @@ class SolidGouges:
     around: Heights
     lines: NDArray[np.int32]
 
-    def spots(self, places: Sequence[CellPlace], narrow: Sequence[Spot]) -> list[Spot]:
+    @cached_property
+    def _depth_in(self) -> DepthInSolid:
+        return DepthInSolid(self.part.solid, self.part.leave)
+
+    def spots(self, places: Sequence[CellPlace], walls: WallProbe | None) -> list[Spot]:
         """Return the gouges with their depths, the deepest first.
 
         Args:
-            places: of cells. narrow: at walls, places between the cells; those that lie in a place of cells are that place's.
+            places: of cells. walls: looks for what lies at walls between the cells; what it finds in places of cells is that place's.
         """
-        if not places and not narrow:
+        home, most = self._homes(places), min(ASKED, max(64, 10 * ASKED // max(len(places), 10)))
+        found = [self._of_cells(place, most) for place in places]
+        depths = np.array([*(spot.depth_mm for spot in found), 0.0])  # the last one is that of no place
+        if walls is not None:
+            narrow = self._narrow(walls, lambda points: depths[self._home(home, points)])
+            numbers = self._home(home, np.array([(spot.x, spot.y) for spot in narrow]).reshape(-1, 2)).tolist()
+            for spot, number in zip(narrow, numbers, strict=True):
+                if number < 0:
+                    found.append(spot)
+                elif spot.depth_mm > found[number].depth_mm:
+                    found[number] = replace(spot, area_mm2=places[number].area_mm2, disc_mm=places[number].disc_mm)
+        if not found:
             return []
-        depth_in = DepthInSolid(self.part.solid, self.part.leave)
-        told = list(self._exact(narrow, depth_in))
-        home = self._homes(places)
-        found = []
-        budget = max(64, 10 * ASKED // max(len(places), 10))
-        for number, place in enumerate(places):
-            own = [spot for spot in told if self._home(home, spot) == number]
-            best = self._of_cells(place, depth_in, min(ASKED, budget))
-            best = max([best, *own], key=lambda spot: spot.depth_mm)
-            found.append(replace(best, area_mm2=place.area_mm2, disc_mm=place.disc_mm))
-        found += [spot for spot in told if self._home(home, spot) < 0]
         found.sort(key=lambda spot: -spot.depth_mm)
-        if found:
-            found[0] = self._climbed(found[0], self._starts(found, places, depth_in), depth_in)
+        found[:MOST] = [self._climbed(spot, np.array([(spot.x, spot.y)]), ROUNDS_OF_OTHERS) for spot in found[:MOST]]
+        found.sort(key=lambda spot: -spot.depth_mm)
+        found[0] = self._climbed(found[0], self._starts(found, places), ROUNDS)
         return [spot for spot in found if spot.depth_mm > self.part.tolerance]
 
-    def _exact(self, narrow: Sequence[Spot], depth_in: DepthInSolid) -> Iterator[Spot]:
-        if not narrow:
-            return
-        places = np.array([(spot.x, spot.y) for spot in narrow])
-        columns = Columns(places, np.array([spot.z for spot in narrow]), metal_at(self.before, places))
-        for spot, depth in zip(narrow, depth_in.of(columns).tolist(), strict=True):
-            yield replace(spot, depth_mm=depth)
+    def _narrow(self, walls: WallProbe, deep: Callable[[Floats], Floats]) -> list[Spot]:
+        """Return gouges in walls that are deeper than what is known round them, one within APART, the deepest first."""
+        cut = walls.cut_places(deep)
+        if not len(cut):
+            return []
+        depth = self._depth_in.of(Columns(cut.places, cut.heights, metal_at(self.before, cut.places)))
+        order = np.argsort(-depth, kind="stable")
+        order = order[depth[order] > self.part.tolerance]
+        found = (self._spot(cut.places[k], float(cut.heights[k]), float(depth[k]), int(cut.motion[k])) for k in order.tolist())
+        return list(_apart(found))
+
+    def _spot(self, place: Floats, z: float, depth: float, motion: int) -> Spot:
+        line = int(self.lines[motion]) if motion >= 0 else 0
+        return Spot(SpotKind.GOUGE, float(place[0]), float(place[1]), z, depth, 0.0, 0.0, line, motion)
 
     def _homes(self, places: Sequence[CellPlace]) -> NDArray[np.int64]:
         """Return the number of the place of each cell, -1: none, with a cell round each place."""
         import cv2
 
+        if not places:
+            return np.full(self.gouged.shape, -1, np.int64)
         count, labels = cv2.connectedComponents(self.gouged.astype(np.uint8), connectivity=8)
         numbers = np.full(count, -1, np.int64)
         for number, place in enumerate(places):
             numbers[labels[place.cell]] = number
         return numbers[cv2.dilate(labels.astype(np.float32), np.ones((3, 3), np.uint8)).astype(np.int64)]
 
-    def _home(self, home: NDArray[np.int64], spot: Spot) -> int:
+    def _home(self, home: NDArray[np.int64], points: Floats) -> NDArray[np.int64]:
+        """Return the number of the place that each point (m, 2) lies in, -1: none."""
         grid = self.before.grid
-        row, col = int((spot.y - grid.y0) / grid.pitch), int((spot.x - grid.x0) / grid.pitch)
-        return int(home[min(max(row, 0), grid.rows - 1), min(max(col, 0), grid.cols - 1)])
+        cols, rows = (np.floor((points[:, axis] - start) / grid.pitch).astype(np.int64) for axis, start in ((0, grid.x0), (1, grid.y0)))
+        return home[np.clip(rows, 0, grid.rows - 1), np.clip(cols, 0, grid.cols - 1)]
 
-    def _of_cells(self, place: CellPlace, depth_in: DepthInSolid, most: int) -> Spot:
+    def _of_cells(self, place: CellPlace, most: int) -> Spot:
         """Return a place's deepest cell of those that are asked."""
         cells = self._asked(place, most)
-        depth = depth_in.of(self._columns(cells), fine=self.part.tolerance / 10)
+        depth = self._depth_in.of(self._columns(cells), fine=self.part.tolerance / 10)
         worst = int(np.argmax(depth))
-        cell, grid = int(cells[worst]), self.before.grid
-        x, y = grid.place(cell)
-        z, motion = self.lowest(np.array([[x, y]]))
-        line = int(self.lines[motion[0]]) if motion[0] >= 0 else 0
-        return Spot(SpotKind.GOUGE, x, y, float(min(z[0], self.heights.ravel()[cell])), float(depth[worst]), 0.0, 0.0, line, int(motion[0]))
+        at = np.array([self.before.grid.place(int(cells[worst]))])
+        z, motion = self.lowest(at)
+        spot = self._spot(at[0], float(min(z[0], self.heights.ravel()[cells[worst]])), float(depth[worst]), int(motion[0]))
+        return replace(spot, area_mm2=place.area_mm2, disc_mm=place.disc_mm)
 
     def _asked(self, place: CellPlace, most: int) -> NDArray[np.int64]:
         """Return cells of a place: those that seem deepest by the cells round them, and others spread over it."""
@@ -130,31 +146,31 @@ class SolidGouges:
         places = np.column_stack([grid.x0 + (cols + 0.5) * grid.pitch, grid.y0 + (rows + 0.5) * grid.pitch])
         return Columns(places, *(each.ravel()[cells].astype(np.float64) for each in (self.heights, self.before.heights)))
 
-    def _starts(self, found: Sequence[Spot], places: Sequence[CellPlace], depth_in: DepthInSolid) -> Floats:
+    def _starts(self, found: Sequence[Spot], places: Sequence[CellPlace]) -> Floats:
         """Return where to climb from (k, 2): the deepest spots, and cells that are nearly as deep as the deepest, apart from them."""
         best = found[0].depth_mm
         starts = [(spot.x, spot.y) for spot in found[:STARTS] if spot.depth_mm > best - 2 * self.before.grid.pitch]
         for place in places[:STARTS]:
             columns = self._columns(self._asked(place, ASKED // 4))
-            depth = depth_in.of(columns, best - 2 * self.before.grid.pitch, self.part.tolerance)
+            depth = self._depth_in.of(columns, best - 2 * self.before.grid.pitch, self.part.tolerance)
             for k in np.argsort(-depth, kind="stable")[:ASKED].tolist():
                 x, y = columns.places[k].tolist()
                 if len(starts) >= 2 * STARTS or depth[k] < best - 2 * self.before.grid.pitch:
                     break
-                if all(math.hypot(x - a, y - b) > APART for a, b in starts):
+                if all(math.hypot(x - a, y - b) > NEAR for a, b in starts):
                     starts.append((x, y))
         return np.array(starts)
 
-    def _climbed(self, spot: Spot, starts: Floats, depth_in: DepthInSolid) -> Spot:
-        """Return the deepest place that is found between the cells from some places on."""
+    def _climbed(self, spot: Spot, starts: Floats, rounds: int) -> Spot:
+        """Return the deepest place that is found between the cells from some places (k, 2) on."""
         side = np.arange(-SIDE, SIDE + 1) / SIDE
         around = np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2)
         places, reach, each = starts, self.before.grid.pitch, len(around)
         best = np.full(len(starts), -1.0)
-        for _ in range(ROUNDS):
+        for _ in range(rounds):
             asked = (places[:, None] + around * reach).reshape(-1, 2)
             z, motion = self.lowest(asked)
-            depth = depth_in.of(Columns(asked, np.where(motion >= 0, z, np.inf), metal_at(self.before, asked)))
+            depth = self._depth_in.of(Columns(asked, np.where(motion >= 0, z, np.inf), metal_at(self.before, asked)))
             deepest = np.argmax(depth.reshape(-1, each), axis=1) + np.arange(len(places)) * each
             better = depth[deepest] > best
             places, best = np.where(better[:, None], asked[deepest], places), np.where(better, depth[deepest], best)
@@ -164,3 +180,14 @@ class SolidGouges:
                 spot = replace(spot, x=x, y=y, z=float(z[k]), depth_mm=float(depth[k]), motion=row, line=int(self.lines[row]))
             reach *= 0.6
         return spot
+
+
+def _apart(spots: Iterator[Spot]) -> Iterator[Spot]:
+    """Yield spots but for those within APART of an earlier one."""
+    told: dict[tuple[int, int], list[Spot]] = {}
+    for spot in spots:
+        col, row = math.floor(spot.x / APART), math.floor(spot.y / APART)
+        around = (other for dx in (-1, 0, 1) for dy in (-1, 0, 1) for other in told.get((col + dx, row + dy), ()))
+        if all(math.hypot(spot.x - other.x, spot.y - other.y) > APART for other in around):
+            told.setdefault((col, row), []).append(spot)
+            yield spot

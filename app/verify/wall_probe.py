@@ -13,7 +13,6 @@ from ..model.motion import Floats
 from ..simulation.field.solid import SolidStock
 from ..simulation.field.solid_rays import SolidRays
 from ..simulation.field.workpiece import Workpiece
-from .judgement import Spot, SpotKind
 from .parts import SolidPart
 
 STEEP = 0.45
@@ -22,14 +21,36 @@ STEEP = 0.45
 MOST_POINTS = 60_000
 """Points on all walls; where half a cell apart would be more, they lie farther apart, and narrower gouges may go unseen."""
 
+STRIDES = (0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
+"""Of a cell: how far on a gouge in a wall is followed straight into the solid; farther in the cells show it."""
+
 HALVINGS = 12
-"""How a gouge's end is found: from a quarter of a cell on twice as deep each time, until it is passed, then between the last two."""
+"""How a gouge's end is found between the last place where it was and the first where it is no more."""
 
 ASIDE = 1e-4
 """mm from a wall at which its top is asked."""
 
+FINER = 0.1
+"""Of the tolerance: a gouge that is deeper than what is known by less is not looked at."""
+
 Probe = Callable[[Floats], tuple[Floats, NDArray[np.int64]]]
 """Gives the height that is left at points (m, 2), and the motion that cut it, -1 = none."""
+
+
+@dataclass(frozen=True, eq=False)
+class CutPlaces:
+    """Places in a solid that were cut.
+
+    Attributes:
+        places: (m, 2) x, y, mm. heights: (m,) that are cut down to there. motion: (m,) by whom.
+    """
+
+    places: Floats
+    heights: Floats
+    motion: NDArray[np.int64]
+
+    def __len__(self) -> int:
+        return len(self.heights)
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,48 +60,50 @@ class WallProbe:
     Attributes:
         part: whose walls. lowest: gives the height that is cut down to, and by whom.
         before: the stock; on its grid, half a cell apart, lie the points.
-        lines: NC line of each motion.
     """
 
     part: SolidPart
     lowest: Probe
     before: Workpiece
-    lines: NDArray[np.int32]
 
-    def spots(self) -> Iterator[Spot]:
-        """Yield the gouges at the walls, one for each point that is gouged, the deepest first.
+    def cut_places(self, deep: Callable[[Floats], Floats]) -> CutPlaces:
+        """Return places in the walls that were cut, and may be deeper than what is known near them.
 
-        How far a gouge goes on straight into the solid is looked for as far as that reaches, so the search has no other end.
+        From a point that is gouged the gouge is followed straight into the solid, without a step over what was not cut, to its end
+        or to the end of `STRIDES`; both that place and the one half way are returned. How deep they lie is for the solid to say.
+
+        Args:
+            deep: gives how deep a gouge round points (m, 2) is known to be, stock to leave counted, mm, >= 0: what is no deeper than
+                that is left out, as no place is deeper than it lies in from the wall, nor than it lies below the top over it.
         """
-        part, pitch = self.part, self.before.grid.pitch
-        asking = _Asking(*wall_points(part.solid, pitch), self, SolidRays(part.solid))
-        start = part.tolerance - part.leave
-        heights, motion, gouged = asking.at(np.full(len(asking.points), start))
-        if not gouged.any():
-            return
-        asking = asking.only(gouged)
-        heights, motion = heights[gouged], motion[gouged]
-        known, beyond = self._passed(asking, start)
-        for _ in range(HALVINGS):
-            middle = (known + beyond) / 2
-            still = asking.at(middle)[2]
-            known, beyond = np.where(still, middle, known), np.where(still, beyond, middle)
-        places = asking.points + asking.inwards * known[:, None]
-        for k in np.argsort(-known, kind="stable").tolist():
-            x, y = places[k].tolist()
-            depth_mm, line = float(known[k]) + part.leave, int(self.lines[motion[k]])
-            yield Spot(SpotKind.GOUGE, x, y, float(heights[k]), depth_mm, 0.0, 0.0, line, int(motion[k]))
+        part, start = self.part, self.part.tolerance - self.part.leave
+        asking = _Asking(*wall_points(part.solid, self.before.grid.pitch), self, SolidRays(part.solid))
+        asking = asking.only(asking.gouged(np.full(len(asking.points), start)))
+        known = np.maximum(deep(asking.points) - part.leave + FINER * part.tolerance, start)
+        some = asking.gouged(known, np.maximum(known, start))
+        asking, known = asking.only(some), known[some]
+        end = self._followed(asking, known)
+        places = np.concatenate([asking.points + asking.inwards * each[:, None] for each in (end, (known + end) / 2, end / 2)])
+        heights, motion = self.lowest(places)
+        cut = motion >= 0
+        return CutPlaces(places[cut], heights[cut], motion[cut])
 
-    def _passed(self, asking: _Asking, start: float) -> tuple[Floats, Floats]:
-        """Return depths (m,) at which gouges still are, and deeper ones at which they are no more."""
-        pitch, extent = self.before.grid.pitch, np.ptp(self.part.solid.triangles[..., :2].reshape(-1, 2), axis=0)
-        known, beyond = np.full(len(asking.points), start), np.full(len(asking.points), np.nan)
-        step, last = pitch / 4, float(np.hypot(*extent)) + abs(start)
-        while (open_ := np.flatnonzero(np.isnan(beyond))).size:
-            still = asking.only(open_).at(np.full(len(open_), start + step))[2] & (step < last)
-            known[open_[still]], beyond[open_[~still]] = start + step, start + step
-            step *= 2
-        return known, beyond
+    def _followed(self, asking: _Asking, start: Floats) -> Floats:
+        """Return depths (m,) at which gouges still are that are at others (m,); where they end sooner than `STRIDES`, their end."""
+        known, beyond, pitch = start.copy(), np.full(len(start), np.nan), self.before.grid.pitch
+        for stride in STRIDES:
+            open_ = np.flatnonzero(np.isnan(beyond))
+            still = asking.only(open_).gouged(start[open_] + stride * pitch)
+            known[open_[still]] = start[open_[still]] + stride * pitch
+            beyond[open_[~still]] = start[open_[~still]] + stride * pitch
+        passed = np.flatnonzero(~np.isnan(beyond))
+        asking, low, high = asking.only(passed), known[passed], beyond[passed]
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            still = asking.gouged(middle)
+            low, high = np.where(still, middle, low), np.where(still, high, middle)
+        known[passed] = low
+        return known
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,13 +119,15 @@ class _Asking:
         """Return some of the points."""
         return _Asking(self.points[chosen], self.inwards[chosen], self.probe, self.rays)
 
-    def at(self, depth: Floats) -> tuple[Floats, NDArray[np.int64], NDArray[np.bool_]]:
-        """Return the heights that are cut down to at depths (m,) in the solid, < 0 beside it, by whom, and whether that is a gouge."""
-        places = self.points + self.inwards * depth[:, None]
+    def gouged(self, depth: Floats, over: Floats | float = 0.0) -> NDArray[np.bool_]:
+        """Return whether the solid was cut at depths (m,) in it, < 0 beside it, deeper than its tolerance, and `over` below its top."""
+        if not len(depth):
+            return np.zeros(0, np.bool_)
+        places, part = self.points + self.inwards * depth[:, None], self.probe.part
         heights, motion = self.probe.lowest(places)
         wanted = self.rays.tops(self.points + self.inwards * np.maximum(depth, ASIDE)[:, None])
         metal = np.minimum(wanted, metal_at(self.probe.before, places))
-        return heights, motion, (motion >= 0) & (heights < metal - self.probe.part.tolerance)
+        return np.asarray((motion >= 0) & (heights < metal - part.tolerance) & (heights < wanted - over))
 
 
 def metal_at(workpiece: Workpiece, places: Floats) -> Floats:

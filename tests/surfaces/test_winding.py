@@ -68,13 +68,47 @@ def test_bodies_that_touch_or_not_are_each_turned_alone(second: tuple[tuple[floa
     assert volume(wound.triangles) == pytest.approx(2000)
 
 
-def test_bodies_that_share_a_side_are_one_if_they_are_wound_alike_and_none_if_not() -> None:
-    one, other = box((0, 0, 0), (10, 10, 10)), box((10, 0, 0), (20, 10, 10))
-    assert volume(right_side_out(np.concatenate([one, other])).triangles) == pytest.approx(2000)
-    assert right_side_out(np.concatenate([one, other[:, ::-1]])).fault == "its triangles do not agree on an inside"
-    mirrored = one[:, ::-1] * [-1, 1, 1] + [20, 0, 0]  # its triangles on the side that they share lie on those of the first
-    joined = right_side_out(np.concatenate([one, mirrored[:, ::-1]]))
-    assert volume(joined.triangles) == pytest.approx(2000) and len(joined.triangles) == 20
+def other_diagonal(triangles: Floats, x: float) -> Floats:
+    """A box whose side at X is in the other two triangles."""
+    side = np.all(triangles[..., 0] == x, axis=1)
+    (a, b, c), other = triangles[side][0], triangles[side][1]
+    lone = next(place for place in other if not any(np.array_equal(place, own) for own in (a, b, c)))
+    shared = [any(np.array_equal(place, own) for own in other) for place in (a, b, c)]
+    a, b, c = np.roll([a, b, c], -shared.index(False), axis=0)  # b and c are on the diagonal
+    return np.concatenate([triangles[~side], [[a, b, lone], [a, lone, c]]])
+
+
+LEFT, RIGHT = box((0, 0, 0), (10, 10, 10)), box((10, 0, 0), (20, 10, 10))
+LIKE_LEFT = other_diagonal(LEFT, 10.0)
+
+
+@given(st.sampled_from([LEFT, LIKE_LEFT]), st.integers(0, 10_000), st.sampled_from([1.0, 1 / 3, 25.4]))
+@settings(max_examples=examples(40), deadline=None)
+def test_bodies_that_share_a_side_are_one_whatever_its_diagonals_and_turns(left: Floats, seed: int, scale: float) -> None:
+    rng = np.random.default_rng(seed)
+    given_ = np.concatenate([left, RIGHT]) * scale + scale / 7
+    reversed_ = rng.random(len(given_)) < rng.random()
+    wound = right_side_out(np.where(reversed_[:, None, None], given_[:, ::-1], given_))
+    assert wound.fault == "" and (wound.shells, len(wound.triangles)) == (1, 20)
+    assert volume(wound.triangles) == pytest.approx(2000 * scale**3)
+    assert not np.any(wound.turned & ~reversed_) and int(wound.turned.sum()) >= int(reversed_.sum()) - 4
+
+
+def test_sides_that_only_nearly_touch_are_kept() -> None:
+    """The left body's side has a dent of 0.1 mm where the right one's is flat: that is a hollow between them."""
+    tip, ring = np.array([9.9, 5, 5]), [(10, 0, 0), (10, 10, 0), (10, 10, 10), (10, 0, 10)]
+    dent = np.array([[ring[k], ring[(k + 1) % 4], tip] for k in range(4)], float)
+    left = np.concatenate([LEFT[~np.all(LEFT[..., 0] == 10, axis=1)], dent])
+    wound = right_side_out(np.concatenate([left, RIGHT]))
+    assert wound.fault == "" and volume(wound.triangles) == pytest.approx(2000 - 100 * 0.1 / 3)
+    assert right_side_out(np.concatenate([left, RIGHT[:, ::-1]])).fault == "its triangles do not agree on an inside"
+
+
+def test_bodies_side_by_side_are_each_whole_where_their_sides_differ() -> None:
+    for second in (box((10, 2, 2), (20, 8, 8)), box((10, 0, 0), (20, 10, 5)), box((2, 2, 10), (8, 8, 14))):
+        wound = right_side_out(np.concatenate([LEFT, second[:, ::-1]]))
+        assert wound.fault == "" and wound.shells == 2 and int(wound.turned.sum()) == 12
+        assert volume(wound.triangles) == pytest.approx(1000 + volume(second))
 
 
 def test_a_missing_triangle_is_told_with_its_place() -> None:

@@ -11,7 +11,8 @@ import pytest
 from app.cli.main import main
 from app.model.finding import FindingKind
 from app.model.stock_box import StockBox
-from app.model.tool import Tool
+from app.model.tool import Tool, ToolKind
+from app.simulation.cutter import cutter_of
 from app.simulation.field.solid import SolidStock, read_solid
 from app.simulation.field.triangle_tree import TriangleTree
 from app.simulation.field.workpiece import BoxStock
@@ -143,3 +144,101 @@ def test_faces_within_an_overlapping_body_are_no_surface(tmp_path: Path) -> None
     inner = Columns(np.array([[18.0, 10.0]]), np.array([10.0]), np.array([10.5]))
     assert both.shells == 2
     assert DepthInSolid(both).of(inner)[0] == pytest.approx(5.0, abs=0.6)
+
+
+def step() -> np.ndarray:
+    """A block of 40 x 30 x 10 that is 4 lower left of X 20."""
+    outline = [(0, -10), (40, -10), (40, 0), (20, 0), (20, -4), (0, -4)]
+    front, back = [(x, 0, z) for x, z in outline], [(x, 30, z) for x, z in outline]
+    caps = [(0, 1, 4), (0, 4, 5), (1, 2, 4), (2, 3, 4)]
+    found = [[front[k] for k in cap] for cap in caps] + [[back[k] for k in cap[::-1]] for cap in caps]
+    for k in range(6):
+        a, b, c, d = front[k], back[k], back[(k + 1) % 6], front[(k + 1) % 6]
+        found += [[a, b, c], [a, c, d]]
+    return np.array(found, float)
+
+
+def stepped(wall: float, floor: float, top: float) -> str:
+    """Mills the step with a flat tool of 6 mm: its wall, floor, and top up to X 30, too deep by some mm."""
+    lines = ["G21 G90 G94 G17", "T1 M6", "S1000 M3", "G0 Z5", "X-5 Y-5", f"G1 Z{-4 - floor} F300"]
+    for x in (0.0, 5.0, 10.0, 15.0, 17.0 + wall):
+        lines += [f"X{x:.4f} Y-5", "Y35", "Y-5"]
+    lines += ["G0 Z5", "X23 Y-5", f"G1 Z{-top}"]
+    for x in (23.0, 27.0):
+        lines += [f"X{x:.4f} Y-5", "Y35", "Y-5"]
+    return "\n".join([*lines, "G0 Z5", "M2", ""])
+
+
+@pytest.mark.parametrize("cells", [64, 256, pytest.param(1024, marks=pytest.mark.exhaustive)])
+def test_a_gouge_in_a_wall_is_not_told_with_the_height_of_another_place(cells: int) -> None:
+    """Behind the wall the top is gouged, too, but not as deep down as the wall is: the two are no one deep place."""
+    setup = CutSetup((program(stepped(0.1, 0.3, 0.3)),), {1: Tool(1, 6.0)}, BoxStock(StockBox(0, 0, -10, 40, 30, 0)),
+                     SolidPart(SolidStock(step())))  # fmt: skip
+    judgement = cut(setup, CutOptions(cells)).judgement
+    assert judgement is not None and judgement.certificate is not None
+    assert judgement.gouge.max_mm == pytest.approx(0.1**0.5, abs=1e-4)  # from the wall's foot
+    assert judgement.gouge.x == pytest.approx(20.1, abs=1e-3) and judgement.gouge.z == pytest.approx(-4.3, abs=1e-6)
+    assert judgement.certificate.gouge_mm >= judgement.gouge.max_mm
+
+
+def test_a_rib_that_is_cut_through_is_half_its_width_deep() -> None:
+    """Nowhere is it cut deeper than in its middle; the end of the gouge is the rib's other side."""
+    rib = step() * [0.02, 1.0, 1.0] + [10.0, 0.0, 0.0]  # 0.8 mm wide, 0.4 of it 4 mm lower
+    text = "\n".join(["G21 G90 G94 G17", "T1 M6", "G0 Z5", "X10.4 Y15", "G1 Z-6 F300", "Y17", "G0 Z5", "M2", ""])
+    setup = CutSetup((program(text),), {1: Tool(1, 3.0)}, BoxStock(StockBox(0, 0, -10, 20, 30, 0)), SolidPart(SolidStock(rib)))
+    for cells in (24, 300):
+        judgement = cut(setup, CutOptions(cells)).judgement
+        assert judgement is not None and judgement.gouge.max_mm == pytest.approx(0.4, abs=2e-3)
+
+
+@pytest.mark.parametrize("cells", [40, 160])
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (1, 2, 3))])
+@pytest.mark.parametrize("kind", [ToolKind.BALL, ToolKind.FLAT])
+def test_the_depth_is_that_of_dense_columns_through_a_solid_with_undercut_faces(kind: ToolKind, seed: int, cells: int) -> None:
+    """A ball of 80 triangles, cut at random, also below its middle; inside it the surface is as far away as the nearest of all planes."""
+    from trimesh.creation import icosphere
+
+    ball = np.array(icosphere(subdivisions=1, radius=8.0).triangles) + [10.0, 10.0, -8.0]
+    rng = np.random.default_rng(seed)
+    angles = rng.uniform(0, 2 * np.pi, 8)
+    away, down = rng.uniform(4.0, 10.0, 8), rng.uniform(-14.0, -2.0, 8)
+    places = np.round(np.column_stack([10 + away * np.cos(angles), 10 + away * np.sin(angles), down]), 4)
+    moves = [f"G1 X{x:.4f} Y{y:.4f} Z{z:.4f} F300" for x, y, z in places.tolist()]
+    x, y, _ = places[0].tolist()
+    text = "\n".join(["G21 G90 G94 G17", "T1 M6", "G0 Z5", f"X{x:.4f} Y{y:.4f}", *moves, "G0 Z5", "M2", ""])
+    tool = Tool(1, 3.0, kind)
+    setup = CutSetup((program(text),), {1: tool}, BoxStock(StockBox(0, 0, -16, 20, 20, 0)), SolidPart(SolidStock(ball)))
+    judgement = cut(setup, CutOptions(cells)).judgement
+    assert judgement is not None and judgement.certificate is not None
+
+    side = np.linspace(1.5, 18.5, 70)
+    dense, shape = np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2), cutter_of(tool)
+    low = np.full(len(dense), np.inf)
+    for a, b in zip(np.vstack([[x, y, 5.0], places[:-1]]), places, strict=True):
+        for tip in a + np.linspace(0, 1, 150)[:, None] * (b - a):
+            low = np.minimum(low, tip[2] + shape.heights(np.hypot(*(dense - tip[:2]).T)))
+    dense, low = dense[low < 0], low[low < 0]
+    normal = np.cross(ball[:, 1] - ball[:, 0], ball[:, 2] - ball[:, 0])
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    heights = low[:, None] + np.linspace(0, 1, 80) * -low[:, None]
+    columns = np.concatenate([np.repeat(dense[:, None], 80, axis=1), heights[..., None]], axis=2).reshape(-1, 3)
+    deepest = float(np.max(np.min(np.einsum("ij,ij->i", ball[:, 0], normal) - columns @ normal.T, axis=1)))
+    apart = float(side[1] - side[0])
+    assert deepest - 1e-3 <= judgement.gouge.max_mm <= max(deepest, 0.0) + apart
+    assert judgement.gouge.max_mm <= judgement.certificate.gouge_mm
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_the_side_that_two_bodies_touch_in_is_no_surface(turned: bool) -> None:
+    """Of a hole in their seam, whose diagonals differ, no place is deeper than its floor: 5 mm below the top and above the underside."""
+    from tests.simulation.test_target import box
+    from tests.surfaces.test_winding import other_diagonal
+
+    left, right = other_diagonal(box((0, 0, -10), (20, 30, 0)), 20.0), box((20, 0, -10), (40, 30, 0))
+    solid = read_solid("a.stl", stl(np.concatenate([left, right[:, ::-1] if turned else right])))
+    text = "\n".join(["G21 G90 G94 G17", "T1 M6", "G0 Z5", "X20 Y15", "G1 Z-5 F300", "G0 Z5", "M2", ""])
+    setup = CutSetup((program(text),), {1: Tool(1, 6.0)}, BoxStock(StockBox(0, 0, -10, 40, 30, 0)), SolidPart(solid))
+    judgement = cut(setup, CutOptions(128)).judgement
+    assert solid.shells == 1 and judgement is not None and judgement.certificate is not None
+    assert judgement.gouge.max_mm == pytest.approx(5.0, abs=1e-4)
+    assert 5.0 - 1e-4 <= judgement.certificate.gouge_mm <= 5.5

@@ -7,14 +7,12 @@ import math
 import numpy as np
 
 from ...core.jit import kernel
+from ..sweeps.box_tree import LEAF
 
 _R, _MANY = "float64[::1]", "float64[:, ::1]"
 _STACK = 128
 _HALVINGS = 64
 """Intervals of a segment that wait at most; each is half as long as the one before it."""
-
-LEAF = 4
-"""Triangles of a leaf."""
 
 
 @kernel("float64(float64, float64, float64, float64, float64, float64, float64, float64, float64)", counts=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from ...core.errors import InputError
 from ...surfaces.meshes.read import stl_triangles
 from ...surfaces.meshes.winding import right_side_out
+from .triangle_tree import TriangleTree
 from .workpiece import Grid, Workpiece, ensure_memory
 
 CHUNK = 20_000
@@ -35,6 +37,11 @@ class SolidStock:
         """x0, y0, x1, y1, mm."""
         low, high = self.triangles.min(axis=(0, 1)), self.triangles.max(axis=(0, 1))
         return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
+    @cached_property
+    def tree(self) -> TriangleTree:
+        """Its triangles, to be asked for near ones; made when somebody asks."""
+        return TriangleTree.of(self.triangles)
 
     def over(self, grid: Grid) -> Workpiece:
         """Return the solid over a grid: its top at each cell's centre, cells that it is met in more than once counted.

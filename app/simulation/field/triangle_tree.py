@@ -1,14 +1,14 @@
-"""Triangles in a tree of boxes: which one is nearest to a place, in closed form."""
+"""Triangles in a tree of boxes: which one is nearest to a place, in closed form, and which ones an upright line meets."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...model.motion import Floats
-
-_BITS = 16
+from ..sweeps.box_tree import box_tree
 
 
 @dataclass(frozen=True, eq=False)
@@ -16,7 +16,7 @@ class TriangleTree:
     """A balanced binary tree over triangles that lie near one another.
 
     Attributes:
-        boxes: (2^k - 1, 6) x0, y0, z0, x1, y1, z1 of each node, the root first; children of i are 2 i + 1 and 2 i + 2.
+        boxes: of the nodes, as `box_tree` gives them.
         triangles: (n, 9) in the order of the leaves.
     """
 
@@ -26,23 +26,8 @@ class TriangleTree:
     @staticmethod
     def of(triangles: Floats) -> TriangleTree:
         """Return the tree of triangles (n, 3, 3), n > 0."""
-        from .nearest_kernels import LEAF
-
-        order = np.argsort(_along_a_curve(triangles.mean(axis=1)), kind="stable")
-        rows = triangles[order]
-        leaves = 1
-        while leaves * LEAF < len(rows):
-            leaves *= 2
-        level = np.full((leaves, 6), np.inf)
-        level[:, 3:] = -np.inf
-        leaf = np.arange(len(rows)) // LEAF
-        np.minimum.at(level[:, :3], leaf, rows.min(axis=1))
-        np.maximum.at(level[:, 3:], leaf, rows.max(axis=1))
-        levels = [level]
-        while len(level) > 1:
-            level = np.column_stack([np.minimum(level[::2, :3], level[1::2, :3]), np.maximum(level[::2, 3:], level[1::2, 3:])])
-            levels.append(level)
-        return TriangleTree(np.ascontiguousarray(np.concatenate(levels[::-1])), np.ascontiguousarray(rows.reshape(-1, 9)))
+        order, boxes = box_tree(triangles.min(axis=1), triangles.max(axis=1))
+        return TriangleTree(boxes, np.ascontiguousarray(triangles[order].reshape(-1, 9)))
 
     def distances(self, places: Floats) -> Floats:
         """Return how far places (m, 3) are from the nearest triangle, mm."""
@@ -60,13 +45,22 @@ class TriangleTree:
         deepest(self.boxes, self.triangles, np.ascontiguousarray(segments), np.ascontiguousarray(known), fine, out)
         return out
 
+    def tops(self, points: Floats) -> Floats:
+        """Return the highest place (m,) where upright lines through points (m, 2) meet triangles, mm; -infinite where they meet none."""
+        from .ray_kernels import tops
 
-def _along_a_curve(places: Floats) -> np.ndarray:
-    """Return numbers of places (n, 3) whose order keeps near ones together: the bits of x, y and z, interleaved (Morton)."""
-    low, high = places.min(axis=0), places.max(axis=0)
-    cells = ((places - low) / np.maximum(high - low, 1e-300) * ((1 << _BITS) - 1)).astype(np.int64)
-    number = np.zeros(len(places), np.int64)
-    for bit in range(_BITS):
-        for axis in range(3):
-            number |= ((cells[:, axis] >> bit) & 1) << (3 * bit + axis)
-    return number
+        out = np.empty(len(points))
+        tops(self.boxes, self.triangles, np.ascontiguousarray(points), out)
+        return out
+
+    def met(self, points: Floats) -> tuple[NDArray[np.int64], Floats, Floats]:
+        """Return where upright lines through points (m, 2) meet triangles, each meeting of n: point, height in mm, 1 = up, -1 = down."""
+        from .ray_kernels import met
+
+        places, counts = np.ascontiguousarray(points), np.empty(len(points), np.int64)
+        none = np.zeros((0, 2))
+        met(self.boxes, self.triangles, places, counts, none)
+        found = np.empty((int(counts.sum()), 2))
+        if len(found):
+            met(self.boxes, self.triangles, places, counts, found)
+        return np.repeat(np.arange(len(points)), counts), found[:, 0].copy(), found[:, 1].copy()

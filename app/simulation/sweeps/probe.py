@@ -2,98 +2,98 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from ...model.motion import Floats, MotionKind
-from ...model.motion_path import reach
 from ..cutter import Cutter
+from .box_tree import box_tree
 from .course import Course
-from .pieces import Splitter
-
-ROUNDS = 60
-"""Times that the interval in which a cutter is lowest is cut to two thirds."""
-
-PORTION = 400_000
-"""Pairs of a point and a piece that are looked at together."""
+from .pieces import Pieces, Splitter
 
 
-def lowest(points: Floats, course: Course, cutters: Mapping[int, Cutter]) -> tuple[Floats, NDArray[np.int64]]:
-    """Return the lowest height (m,) that cutting motions reach at points, infinite where none comes, and the motion's row, -1 = none.
+@dataclass(frozen=True, eq=False)
+class PathProbe:
+    """Motions that cut, in pieces of a tree: whoever asks for a place meets those alone that come over it.
 
-    Args:
-        points: (m, 2) mm.
-        course: rapids and what is left out do not cut.
-        cutters: by T number.
+    Attributes:
+        boxes: of the nodes, as `probe_kernels.lowest` wants them. pieces: (n, 9) in the order of the leaves. owners: (n, 2) of each the row
+            of its motion, counted through all courses, and of its cutter. shapes: (c, 6) of the cutters.
     """
-    best, row = np.full(len(points), np.inf), np.full(len(points), -1, np.int64)
+
+    boxes: Floats
+    pieces: Floats
+    owners: NDArray[np.int64]
+    shapes: Floats
+
+    @staticmethod
+    def of(courses: Sequence[Course], cutters: Mapping[int, Cutter]) -> PathProbe:
+        """Return what cuts along courses, one after the other.
+
+        Args:
+            courses: rapids and what is left out do not cut.
+            cutters: by T number.
+        """
+        numbers, found, done = sorted(cutters), [], 0
+        for course in courses:
+            found.append(_cutting(course, numbers, done))
+            done += len(course.motions)
+        pieces, owners = np.concatenate([rows for rows, _ in found]), np.concatenate([rows for _, rows in found])
+        shapes = np.array([_shape(cutters[number]) for number in numbers]).reshape(-1, 6)
+        if not len(pieces):
+            return PathProbe(np.zeros((0, 6)), pieces, owners, shapes)
+        low, high = _boxes(pieces, shapes[owners[:, 1]])
+        order, boxes = box_tree(low, high)
+        return PathProbe(boxes, np.ascontiguousarray(pieces[order]), np.ascontiguousarray(owners[order]), shapes)
+
+    def lowest(self, points: Floats) -> tuple[Floats, NDArray[np.int64]]:
+        """Return the lowest height (m,) that is reached at points (m, 2), infinite where nothing comes, and the motion's row, -1 = none."""
+        from .probe_kernels import lowest
+
+        heights, motions = np.full(len(points), np.inf), np.full(len(points), -1, np.int64)
+        if len(self.pieces) and len(points):
+            lowest(self.boxes, self.pieces, self.owners, self.shapes, np.ascontiguousarray(points), heights, motions)
+        return heights, motions
+
+
+def _cutting(course: Course, numbers: Sequence[int], done: int) -> tuple[Floats, NDArray[np.int64]]:
+    """Return the pieces (n, 9) of a course that cut, and their owners (n, 2); `done` motions were before it."""
     motions = course.motions
-    cuts = (motions.kind != MotionKind.RAPID) & np.isin(course.tool, list(cutters))
+    cuts = (motions.kind != MotionKind.RAPID) & np.isin(course.tool, np.array(numbers))
     cuts[list(course.left_out)] = False
-    rows = np.flatnonzero(cuts)
-    if not len(rows) or not len(points):
-        return best, row
-    low, high = reach(motions)
-    wide = np.array([cutters[number].radius for number in course.tool[rows].tolist()])[:, None]
-    near = shapely.box(*(low[rows, :2] - wide).T, *(high[rows, :2] + wide).T)
-    used = rows[np.unique(shapely.STRtree(shapely.points(points)).query(near)[0])]
-    splitter = Splitter(motions, arcs_stay=False)
-    for number in np.unique(course.tool[used]).tolist():
-        own = used[course.tool[used] == number]
-        parts = [splitter.pieces(int(k), int(k) + 1) for k in own]
-        start, end = (np.concatenate([getattr(part, name) for part in parts]) for name in ("start", "end"))
-        owner = np.concatenate([part.motion for part in parts])
-        _lower(points, (start, end, owner), cutters[number], (best, row))
-    return best, row
+    pieces = Splitter(motions).pieces(0, len(motions)) if cuts.any() else None
+    if pieces is None:
+        return np.zeros((0, 9)), np.zeros((0, 2), np.int64)
+    some = cuts[pieces.motion]
+    rows = pieces.motion[some].astype(np.int64)
+    return _rows(pieces, some), np.column_stack([rows + done, np.searchsorted(numbers, course.tool[rows])])
 
 
-def _lower(points: Floats, pieces: tuple[Floats, Floats, NDArray[np.int32]], cutter: Cutter,
-           found: tuple[Floats, NDArray[np.int64]]) -> None:  # fmt: skip
-    """Lower the heights at points to those of straight pieces."""
-    start, end, owner = pieces
-    best, row = found
-    tree = shapely.STRtree(shapely.points(points))
-    least, most = np.minimum(start, end)[:, :2] - cutter.radius, np.maximum(start, end)[:, :2] + cutter.radius
-    step = max(1, PORTION // 64)
-    for first in range(0, len(start), step):
-        part = slice(first, first + step)
-        piece, point = tree.query(shapely.box(*least[part].T, *most[part].T))
-        for at in range(0, len(piece), PORTION):
-            k, p = piece[at : at + PORTION] + first, point[at : at + PORTION]
-            heights = over_straight(points[p], start[k], end[k], cutter)
-            order = np.argsort(-heights, kind="stable")  # the lowest last, so that it stays
-            better = heights[order] < best[p[order]]
-            best[p[order][better]], row[p[order][better]] = heights[order][better], owner[k[order][better]]
+def _rows(pieces: Pieces, some: NDArray[np.bool_]) -> Floats:
+    """Return some pieces as rows (n, 9)."""
+    rows = np.zeros((int(np.count_nonzero(some)), 9))
+    rows[:, :3], rows[:, 3:6] = pieces.start[some], pieces.end[some]
+    arc = pieces.arc[some]
+    rows[arc >= 0, 6:] = pieces.arcs[arc[arc >= 0], :3]
+    return rows
 
 
-def over_straight(points: Floats, start: Floats, end: Floats, cutter: Cutter) -> Floats:
-    """Return the lowest height (n,) of a cutter over a point on a straight way each; infinite where it does not come over it.
+def _shape(cutter: Cutter) -> tuple[float, ...]:
+    slope = 0.0 if math.isinf(cutter.slope) else cutter.slope
+    return cutter.radius, cutter.flat, cutter.fillet, cutter.fillet_span, slope, cutter.lift
 
-    The height over the way is convex where the cutter is over the point, so an interval round its least one is narrowed.
-    """
-    way, off = end[:, :2] - start[:, :2], points - start[:, :2]
-    square = np.einsum("ij,ij->i", way, way)
-    moves = square > 1e-18
-    safe = np.where(moves, square, 1.0)
-    foot = np.einsum("ij,ij->i", off, way) / safe
-    aside2 = np.einsum("ij,ij->i", off, off) - np.where(moves, foot**2 * square, 0.0)
-    half2 = np.where(moves, (cutter.radius**2 - aside2) / safe, 0.0)
-    half = np.sqrt(np.maximum(half2, 0.0))
-    low, high = (np.where(moves, np.clip(foot + sign * half, 0.0, 1.0), 0.0) for sign in (-1, 1))
-    high = np.where(moves, high, 1.0)
-    rise = end[:, 2] - start[:, 2]
 
-    def height(t: Floats) -> Floats:
-        return start[:, 2] + cutter.lift + t * rise + cutter.heights(np.minimum(np.hypot(*(off - t[:, None] * way).T), cutter.radius))
-
-    for _ in range(ROUNDS):
-        third = (high - low) / 3
-        left, right = low + third, high - third
-        falls = height(left) > height(right)
-        low, high = np.where(falls, left, low), np.where(falls, high, right)
-    middle = (low + high) / 2
-    comes = (aside2 <= cutter.radius**2) & (np.hypot(*(off - middle[:, None] * way).T) <= cutter.radius * (1 + 1e-12))
-    return np.where(comes, height(middle), np.inf)
+def _boxes(pieces: Floats, shapes: Floats) -> tuple[Floats, Floats]:
+    """Return the lowest and highest coordinates (n, 3) that the cutters cut at; of arcs of at most a quarter turn, wide enough."""
+    low, high = np.minimum(pieces[:, :3], pieces[:, 3:6]), np.maximum(pieces[:, :3], pieces[:, 3:6])
+    bulge = (1.0 - math.sqrt(0.5)) * pieces[:, 8:9]  # of a quarter turn beyond its chord, and more than what it is beyond the chord's box
+    wide = shapes[:, :1] * (1.0 + 1e-9) + bulge
+    low[:, :2] -= wide
+    high[:, :2] += wide
+    low[:, 2] += shapes[:, 5]
+    high[:, 2] += shapes[:, 5]
+    return low, high

@@ -14,8 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .rows import numbered
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Numbers = NDArray[np.int32]
+"""Of edges, of which there are many."""
 
 _WITHIN = 0.75
 """Of a turn: a place that a surface winds round by more is in it; one on it has a half."""
@@ -27,13 +31,20 @@ _NOTHING = 1e-9
 """Of the extent cubed: a surface that encloses no more is folded flat."""
 
 
+_BEFORE = 1e-6
+"""Of a triangle's extent: how far before it it is asked whether there is metal."""
+
+_EVEN = 1e-6
+"""Of its extent that a patch may be off its plane: what rounding in files does."""
+
+
 @dataclass(frozen=True, eq=False)
 class Wound:
     """A surface, right side out.
 
     Attributes:
-        triangles: (k, 3, 3) mm; counter-clockwise seen from outside, unless there is a fault. Those without an area, and pairs of them
-            at the same place, are left out.
+        triangles: (k, 3, 3) mm; counter-clockwise seen from outside, unless there is a fault. Those without an area, pairs of them at
+            the same place, and sides that bodies touch in are left out; some may be in parts where others have a corner on their edge.
         turned: (n,) which of those that were given had to be turned over.
         fault: why that cannot be done, as the end of a sentence; "" = it is done.
         place: x, y, z of the fault, mm, where it has one.
@@ -57,19 +68,19 @@ class Edges:
         count: uses of each edge.
     """
 
-    edge: Ints
+    edge: Numbers
     forward: NDArray[np.bool_]
     count: Ints
 
     @staticmethod
     def of(triangles: Floats) -> Edges:
         """Return the edges of triangles (n, 3, 3); corners at exactly the same place are one."""
-        _, corner = np.unique(triangles.reshape(-1, 3) + 0.0, axis=0, return_inverse=True)  # + 0.0: there is one zero only
+        corner = numbered(triangles.reshape(-1, 3) + 0.0)  # + 0.0: there is one zero only
         corners = corner.reshape(-1, 3)
         start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
         both = np.minimum(start, end) * (int(corner.max(initial=0)) + 1) + np.maximum(start, end)
         _, edge, count = np.unique(both, return_inverse=True, return_counts=True)
-        return Edges(edge.ravel(), np.asarray(start < end), count)
+        return Edges(edge.ravel().astype(np.int32), np.asarray(start < end), count)
 
     def open_uses(self) -> Ints:
         """Return the uses of edges that belong to an odd number of triangles: there the surface ends."""
@@ -82,36 +93,113 @@ def right_side_out(triangles: Floats) -> Wound:
     Args:
         triangles: (n, 3, 3) mm, n > 0.
     """
+    from .sew import sewn
+
     corners, turned = triangles + 0.0, np.zeros(len(triangles), np.bool_)
-    counts = _counting(corners)
-    solid = corners[counts]
+    rows = np.flatnonzero(_counting(corners))
+    solid = corners[rows] if len(rows) < len(corners) else corners
     if not len(solid):
         return Wound(corners, turned, "its triangles enclose nothing")
     edges = Edges.of(solid)
     loose = edges.open_uses()
+    if len(loose) and (mended := sewn(solid)) is not None:
+        some = _counting(mended.triangles)
+        solid, rows = mended.triangles[some], rows[mended.origin[some]]
+        edges, loose = Edges.of(solid), loose[:0]
     if len(loose):
         return Wound(corners, turned, f"{len(loose)} of its edges belong to one triangle only", _middle(solid, int(loose[0])))
     patch, against, fault = _agreed(edges, len(solid))
+    touching = _touching(solid, edges, patch)
+    if touching.any():
+        solid, rows = solid[~touching], rows[~touching]
+        if not len(solid):
+            return Wound(corners, turned, "its triangles enclose nothing")
+        edges = Edges.of(solid)
+        patch, against, fault = _agreed(edges, len(solid))
     if fault >= 0:
         return Wound(corners, turned, "it has one side only, like a twisted strip", _middle(solid, fault))
     over, shells, fault = _outward(solid, edges, patch, against)
     if fault >= 0:
         return Wound(corners, turned, "its triangles do not agree on an inside", _middle(solid, fault))
-    turned[counts] = over
-    return Wound(np.where(over[:, None, None], solid[:, ::-1], solid), turned, shells=shells)
+    wound = _turned_over(solid, over)
+    fault = _less_than_nothing(wound, edges, patch)
+    if fault >= 0:
+        return Wound(corners, turned, "its triangles do not agree on an inside", _middle(solid, fault))
+    turned[rows[over]] = True
+    return Wound(wound, turned, shells=shells)
+
+
+def _less_than_nothing(wound: Floats, edges: Edges, patch: Ints) -> int:
+    """Return a use of a patch that has less than no metal before it, as where a body that touches another is inside out; -1: none has.
+
+    Bodies that share edges alone are turned together, so that one of them may be turned wrongly, and edges do not tell. The largest
+    patches that share edges are asked.
+    """
+    meeting = np.unique(patch[np.flatnonzero(edges.count[edges.edge] > 2) // 3])
+    normal = np.cross(wound[:, 1] - wound[:, 0], wound[:, 2] - wound[:, 0])
+    size = np.linalg.norm(normal, axis=1)
+    area = np.bincount(patch, size, len(patch))
+    for name in meeting[np.argsort(-area[meeting], kind="stable")[:_ASKED]].tolist():
+        mine = np.flatnonzero(patch == name)
+        k = int(mine[np.argmax(size[mine])])
+        before = wound[k].mean(axis=0) + _BEFORE * normal[k] / np.sqrt(size[k])
+        if winding_number(wound, before) < -0.5:
+            return 3 * k
+    return -1
 
 
 def _counting(corners: Floats) -> NDArray[np.bool_]:
     """Return which triangles are part of a surface: those with an area, but for pairs at the same place, as where bodies touch."""
-    _, number = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
-    sides = np.sort(number.reshape(-1, 3), axis=1)
+    sides = np.sort(numbered(corners.reshape(-1, 3)).reshape(-1, 3), axis=1)
     flat = (sides[:, 0] == sides[:, 1]) | (sides[:, 1] == sides[:, 2])
-    _, alike, many = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
-    alike = alike.ravel()
+    alike = numbered(sides)
+    many = np.bincount(alike)
     order = np.argsort(alike, kind="stable")
     last = np.zeros(len(corners), np.bool_)
     last[order[np.cumsum(many) - 1]] = True
     return np.asarray(~flat & last & (many[alike] % 2 == 1))
+
+
+def _touching(triangles: Floats, edges: Edges, patch: Ints) -> NDArray[np.bool_]:
+    """Return which triangles lie in sides that two bodies share: flat patches in pairs that end at the same edges, as others do.
+
+    So it does not matter in which triangles each body has the side that they touch in. A flat patch is what its border encloses, and
+    two of them at the same place have metal, or none, on both sides.
+    """
+    found = np.zeros(len(triangles), np.bool_)
+    uses = np.flatnonzero(edges.count[edges.edge] > 2)
+    if not len(uses):
+        return found
+    pairs = np.unique(np.column_stack([patch[uses // 3], edges.edge[uses]]), axis=0)
+    names, first = np.unique(pairs[:, 0], return_index=True)
+    order = np.argsort(patch, kind="stable")
+    begin, end = (np.searchsorted(patch[order], names, side) for side in ("left", "right"))
+    borders: dict[bytes, list[Ints]] = {}
+    for border, a, b in zip(np.split(pairs[:, 1], first[1:]), begin.tolist(), end.tolist(), strict=True):
+        mine = order[a:b]
+        inner = np.isin(edges.edge[(3 * mine[:, None] + np.arange(3)).ravel()], border)
+        if int(inner.sum()) == len(border) and _is_flat(triangles[mine]) and _closes(edges, mine):
+            borders.setdefault(border.tobytes(), []).append(mine)
+    for alike in borders.values():
+        for mine in alike[: len(alike) // 2 * 2]:
+            found[mine] = True
+    return found
+
+
+def _is_flat(triangles: Floats) -> bool:
+    """Return whether triangles that hang together lie in one plane."""
+    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    size = np.linalg.norm(normal, axis=1)
+    main = normal[int(np.argmax(size))] / max(float(size.max()), 1e-300)
+    places = triangles.reshape(-1, 3) - triangles[0, 0]
+    return bool(np.all(np.abs(places @ main) <= _EVEN * max(float(np.abs(places).max()), 1e-300)))
+
+
+def _closes(edges: Edges, mine: Ints) -> bool:
+    """Return whether a patch ends nowhere but at edges of more than two triangles."""
+    _, own = np.unique(edges.edge[(3 * mine[:, None] + np.arange(3)).ravel()], return_counts=True)
+    each = np.unique(edges.edge[(3 * mine[:, None] + np.arange(3)).ravel()])
+    return bool(np.all((own == 2) | (edges.count[each] > 2)))
 
 
 def _middle(triangles: Floats, use: int) -> tuple[float, float, float]:
@@ -173,9 +261,11 @@ def _turned_shells(triangles: Floats, turned: NDArray[np.bool_], shell: Ints) ->
     order = np.argsort(shell, kind="stable")
     _, first = np.unique(shell[order], return_index=True)
     rows = np.split(order, first[1:])
-    wound = np.where(turned[:, None, None], triangles[:, ::-1], triangles)
-    own = wound - wound.reshape(-1, 3).mean(axis=0)
-    volume = np.add.reduceat(np.einsum("ij,ij->i", own[:, 0], np.cross(own[:, 1], own[:, 2]))[order] / 6.0, first)
+    wound = _turned_over(triangles, turned)
+    middle = wound.reshape(-1, 3).mean(axis=0)
+    a, b, c = (wound[:, k] - middle for k in range(3))
+    volume = np.add.reduceat(np.einsum("ij,ij->i", a, np.cross(b, c))[order] / 6.0, first)
+    del a, b, c
     low, high = np.minimum.reduceat(wound.min(axis=1)[order], first), np.maximum.reduceat(wound.max(axis=1)[order], first)
     hollow = np.abs(volume) <= _NOTHING * np.max(high - low, axis=1) ** 3
     if hollow.all():
@@ -190,13 +280,18 @@ def _turned_shells(triangles: Floats, turned: NDArray[np.bool_], shell: Ints) ->
     return turned, -1
 
 
+def _turned_over(triangles: Floats, turned: NDArray[np.bool_]) -> Floats:
+    """Return triangles, some of them turned over."""
+    return np.where(turned[:, None, None], triangles[:, ::-1], triangles) if turned.any() else triangles
+
+
 def _shells(edges: Edges, patch: Ints, forward: NDArray[np.bool_]) -> Ints:
     """Return a number by triangle for what is closed: a patch, or several that only close together, at edges of four and more."""
     face = np.arange(len(edges.edge)) // 3
-    keys, at = np.unique(np.column_stack([edges.edge, patch[face]]), axis=0, return_inverse=True)
+    keys, at = np.unique(edges.edge.astype(np.int64) * len(patch) + patch[face], return_inverse=True)
     loose = np.bincount(at.ravel(), np.where(forward, 1, -1), len(keys)) != 0
     shell = np.arange(len(patch))
-    edge, number = keys[loose].T
+    edge, number = np.divmod(keys[loose], len(patch))
     while len(edge):
         least = np.full(len(edges.count), len(patch), np.int64)
         np.minimum.at(least, edge, shell[number])
