@@ -105,6 +105,16 @@ def _nearest_between(corners, count, x, y):
     return math.sqrt(least)
 
 
+@kernel("boolean(float64[:, ::1], int64, float64, float64, float64)", counts=False)
+def _in_disc(corners, count, x, y, reach):
+    """Return whether all corners lie within `reach` of a place: so do all between them."""
+    for k in range(count):
+        dx, dy = corners[k, 0] - x, corners[k, 1] - y
+        if dx * dx + dy * dy > reach * reach:
+            return False
+    return True
+
+
 @kernel("boolean(float64[:, ::1], float64[:, ::1], int64, float64, float64[:, ::1], int64, UniTuple(float64, 4))", counts=False)
 def _holds(rows, sectors, j, reach, corners, count, box):
     """Return whether a cutter along row j covers all corners, and what lies between them."""
@@ -113,6 +123,8 @@ def _holds(rows, sectors, j, reach, corners, count, box):
         for k in range(count):
             farthest = max(farthest, point_distance(rows, j, corners[k, 0], corners[k, 1]))
         return farthest <= reach
+    if _in_disc(corners, count, rows[j, 0], rows[j, 1], reach) or _in_disc(corners, count, rows[j, 2], rows[j, 3], reach):
+        return True
     cx, cy, radius = rows[j, 4], rows[j, 5], rows[j, 6]
     dx, dy = max(box[0] - cx, cx - box[2], 0.0), max(box[1] - cy, cy - box[3], 0.0)
     inner = max(radius - reach, 0.0)
