@@ -36,20 +36,24 @@ class Witnessed:
     loose: float = 0.0
 
 
-def even_odd(contours: Sequence[Contour], outlines: Sequence[Contour] = ()) -> Witnessed:
+_NO_CHORDS = np.zeros((0, 4))
+
+
+def even_odd(contours: Sequence[Contour], outlines: Sequence[Contour] = (), chords: Floats = _NO_CHORDS) -> Witnessed:
     """Return the area where an odd number of closed contours and no outline goes round, exactly.
 
     Args:
         contours: they may cross, touch and lie on one another in any way.
         outlines: what each holds by itself is left out; they may overlap.
+        chords: (n, 4) x0, y0, x1, y1 of lines, mm, that count with the contours.
     """
     lists = [[p for contour in contours for p in contour.primitives], *([*outline.primitives] for outline in outlines)]
     curves = [p for each in lists for p in each]
-    if not curves:
+    if not curves and not len(chords):
         return Witnessed(0.0, 0.0)
-    owner = np.repeat(np.arange(-1, len(outlines)), [len(each) for each in lists])
-    centre = _middle(curves)
-    risen, index, length = _rising(curves, centre)
+    owner = np.concatenate([np.repeat(np.arange(-1, len(outlines)), [len(each) for each in lists]), np.full(len(chords), -1)])
+    centre = _middle(curves, chords)
+    risen, index, length = _rising(curves, chords, centre)
     low = np.argsort(risen[:, 0], kind="stable")
     risen, owner = np.ascontiguousarray(risen[low]), np.ascontiguousarray(owner[index[low]])
     meeting = even_odd_kernels.meeting_heights(risen, _sides(risen))
@@ -58,18 +62,19 @@ def even_odd(contours: Sequence[Contour], outlines: Sequence[Contour] = ()) -> W
     return Witnessed(area, length, loose)
 
 
-def _middle(curves: Sequence[Primitive]) -> Floats:
+def _middle(curves: Sequence[Primitive], chords: Floats) -> Floats:
     """Return a point amid the curves: what is far from zero loses digits."""
-    starts = np.array([curve.start for curve in curves])
+    starts = np.concatenate([np.array([curve.start for curve in curves]).reshape(-1, 2), chords[:, :2]])
     middle: Floats = (starts.min(axis=0) + starts.max(axis=0)) / 2
     return middle
 
 
-def _rising(curves: Sequence[Primitive], centre: Floats) -> tuple[Floats, NDArray[np.int64], float]:
+def _rising(curves: Sequence[Primitive], chords: Floats, centre: Floats) -> tuple[Floats, NDArray[np.int64], float]:
     """Return (curves that rise all along (m, 7), see the kernels, from which curve (m,) each is, length of all, mm)."""
-    straight = np.array([isinstance(curve, Line) for curve in curves])
+    straight = np.array([isinstance(curve, Line) for curve in curves], np.bool_)
     lines, arcs = np.flatnonzero(straight), np.flatnonzero(~straight)
-    ends = np.array([(*curves[k].start, *curves[k].end) for k in lines.tolist()]).reshape(-1, 4) - np.tile(centre, 2)
+    drawn = np.array([(*curves[k].start, *curves[k].end) for k in lines.tolist()]).reshape(-1, 4)
+    ends, lines = np.concatenate([drawn, chords]) - np.tile(centre, 2), np.append(lines, len(curves) + np.arange(len(chords)))
     length = float(np.hypot(ends[:, 2] - ends[:, 0], ends[:, 3] - ends[:, 1]).sum())
     risen = np.hstack([ends[:, [1, 3, 0, 2]], np.zeros((len(ends), 3))])
     bent, index, more = _rising_arcs([curve for curve in curves if not isinstance(curve, Line)], centre)
