@@ -107,8 +107,9 @@ def _places(curve: Ellipse | Spline) -> Floats:
     """Return places (n, 2) along an ellipse or spline between which it is measured as chords."""
     from ..geometry.arcs.chord_kernels import chords
 
-    places, count = chords(np.ascontiguousarray(pieces_of(curve).control), _CHORD, _FINEST)
-    return places[:count]
+    found, count = chords(np.ascontiguousarray(pieces_of(curve).control), _CHORD, _FINEST)
+    places: Floats = found[:count]
+    return places
 
 
 def about_regions(contours: Sequence[Contour], outlines: Sequence[Contour], nesting: Nesting) -> list[Finding]:
