@@ -218,7 +218,14 @@ def switched_off(part: Part, asked: tuple[str, ...]) -> Iterator[Finding]:
 def all_left_out(left_out: Counter[str]) -> Iterator[Finding]:
     """Count what is no curve, by type."""
     if left_out:
-        yield remark(f"{listed(left_out, 'Left out: ')}.", float(left_out.total()))
+        yield remark(f"{listed(left_out, 'Left out: ')}.{_remedy(left_out)}", float(left_out.total()))
+
+
+def _remedy(left_out: Counter[str]) -> str:
+    """Return what to do about texts that are not read as they stand, or nothing."""
+    ways = [(" (in columns)", "set texts to no columns"), (" (vertical)", "let letters run to the right")]
+    named = [way for kind, way in ways if any(each.endswith(kind) for each in left_out)]
+    return f" To machine them, {' and '.join(named)}, or turn them into curves, where they were drawn." if named else ""
 
 
 def listed(left_out: Counter[str], before: str) -> str:

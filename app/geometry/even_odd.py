@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,20 +36,24 @@ class Witnessed:
     loose: float = 0.0
 
 
-def even_odd(contours: Sequence[Contour], outlines: Sequence[Contour] = ()) -> Witnessed:
+_NO_CHORDS = np.zeros((0, 4))
+
+
+def even_odd(contours: Sequence[Contour], outlines: Sequence[Contour] = (), chords: Floats = _NO_CHORDS) -> Witnessed:
     """Return the area where an odd number of closed contours and no outline goes round, exactly.
 
     Args:
         contours: they may cross, touch and lie on one another in any way.
         outlines: what each holds by itself is left out; they may overlap.
+        chords: (n, 4) x0, y0, x1, y1 of lines, mm, that count with the contours.
     """
     lists = [[p for contour in contours for p in contour.primitives], *([*outline.primitives] for outline in outlines)]
     curves = [p for each in lists for p in each]
-    if not curves:
+    if not curves and not len(chords):
         return Witnessed(0.0, 0.0)
-    owner = np.repeat(np.arange(-1, len(outlines)), [len(each) for each in lists])
-    centre = _middle(curves)
-    risen, index, length = _rising(curves, centre)
+    owner = np.concatenate([np.repeat(np.arange(-1, len(outlines)), [len(each) for each in lists]), np.full(len(chords), -1)])
+    centre = _middle(curves, chords)
+    risen, index, length = _rising(curves, chords, centre)
     low = np.argsort(risen[:, 0], kind="stable")
     risen, owner = np.ascontiguousarray(risen[low]), np.ascontiguousarray(owner[index[low]])
     meeting = even_odd_kernels.meeting_heights(risen, _sides(risen))
@@ -57,21 +62,22 @@ def even_odd(contours: Sequence[Contour], outlines: Sequence[Contour] = ()) -> W
     return Witnessed(area, length, loose)
 
 
-def _middle(curves: Sequence[Primitive]) -> Floats:
+def _middle(curves: Sequence[Primitive], chords: Floats) -> Floats:
     """Return a point amid the curves: what is far from zero loses digits."""
-    starts = np.array([curve.start for curve in curves])
+    starts = np.concatenate([np.array([curve.start for curve in curves]).reshape(-1, 2), chords[:, :2]])
     middle: Floats = (starts.min(axis=0) + starts.max(axis=0)) / 2
     return middle
 
 
-def _rising(curves: Sequence[Primitive], centre: Floats) -> tuple[Floats, NDArray[np.int64], float]:
+def _rising(curves: Sequence[Primitive], chords: Floats, centre: Floats) -> tuple[Floats, NDArray[np.int64], float]:
     """Return (curves that rise all along (m, 7), see the kernels, from which curve (m,) each is, length of all, mm)."""
-    straight = np.array([isinstance(curve, Line) for curve in curves])
+    straight = np.array([isinstance(curve, Line) for curve in curves], np.bool_)
     lines, arcs = np.flatnonzero(straight), np.flatnonzero(~straight)
-    ends = np.array([(*curves[k].start, *curves[k].end) for k in lines.tolist()]).reshape(-1, 4) - np.tile(centre, 2)
+    drawn = np.array([(*curves[k].start, *curves[k].end) for k in lines.tolist()]).reshape(-1, 4)
+    ends, lines = np.concatenate([drawn, chords]) - np.tile(centre, 2), np.append(lines, len(curves) + np.arange(len(chords)))
     length = float(np.hypot(ends[:, 2] - ends[:, 0], ends[:, 3] - ends[:, 1]).sum())
     risen = np.hstack([ends[:, [1, 3, 0, 2]], np.zeros((len(ends), 3))])
-    bent, index, more = _rising_arcs([curves[k] for k in arcs.tolist()], centre)
+    bent, index, more = _rising_arcs([curve for curve in curves if not isinstance(curve, Line)], centre)
     risen, index = np.concatenate([risen, bent]), np.concatenate([lines, arcs[index]])
     down = risen[:, 0] > risen[:, 1]
     risen[down, :4] = risen[down][:, [1, 0, 3, 2]]
@@ -79,13 +85,15 @@ def _rising(curves: Sequence[Primitive], centre: Floats) -> tuple[Floats, NDArra
     return risen[rising], index[rising], length + more
 
 
-def _rising_arcs(arcs: Sequence[Primitive], centre: Floats) -> tuple[Floats, NDArray[np.int64], float]:
+def _rising_arcs(arcs: Sequence[Arc | Circle], centre: Floats) -> tuple[Floats, NDArray[np.int64], float]:
     """Return the same for arcs and circles, which are cut at their highest and lowest places."""
     if not arcs:
         return np.zeros((0, 7)), np.zeros(0, np.int64), 0.0
-    table = np.array([_numbers(arc) for arc in arcs])
-    start, end, middle = table[:, :2] - centre, table[:, 2:4] - centre, table[:, 4:6] - centre
-    radius, first, sweep = table[:, 6], table[:, 7], table[:, 8]
+    points = chain.from_iterable((arc.start, arc.end, arc.centre) for arc in arcs)
+    table = np.fromiter(chain.from_iterable(points), np.float64, 6 * len(arcs))
+    start, end, middle = np.hsplit(table.reshape(-1, 6), 3)
+    sweep, radius, first = _turning(start - middle, end - middle, arcs)
+    start, end, middle = start - centre, end - centre, middle - centre
     turn = np.sign(sweep)
     hits = np.stack([(side * np.pi / 2 - first) * turn % (2 * np.pi) for side in (1.0, -1.0)], 1)
     tops = np.stack([middle[:, 1] + radius, middle[:, 1] - radius], 1)
@@ -103,12 +111,13 @@ def _rising_arcs(arcs: Sequence[Primitive], centre: Floats) -> tuple[Floats, NDA
     return np.concatenate(found), np.tile(np.arange(len(arcs)), 3), float((whole * radius).sum())
 
 
-def _numbers(arc: Primitive) -> tuple[float, ...]:
-    """Return start, end, centre, radius, angle of the start and signed sweep."""
-    if isinstance(arc, Circle):
-        return (*arc.start, *arc.end, *arc.centre, arc.radius, 0.0, 2 * np.pi if arc.ccw else -2 * np.pi)
-    assert isinstance(arc, Arc)
-    return (*arc.start, *arc.end, *arc.centre, arc.radius, arc.start_angle, arc.sweep)
+def _turning(out: Floats, back: Floats, arcs: Sequence[Arc | Circle]) -> tuple[Floats, Floats, Floats]:
+    """Return (signed sweep, radius, angle of the start), each (n,), of arcs that begin and end at these vectors from their centres."""
+    ccw, whole = np.array([(arc.ccw, isinstance(arc, Circle)) for arc in arcs]).T
+    first, last = np.arctan2(out[:, 1], out[:, 0]), np.arctan2(back[:, 1], back[:, 0])
+    turn = (last - first) % (2 * np.pi)
+    sweep = np.where(ccw, np.where(whole, 2 * np.pi, turn), np.where(whole, 0.0, turn) - 2 * np.pi)
+    return sweep, (np.hypot(*out.T) + np.hypot(*back.T)) / 2, first
 
 
 def _sides(risen: Floats) -> Floats:

@@ -83,7 +83,14 @@ def _arc_row(a: tuple[float, float], b: tuple[float, float], centre: tuple[float
 
 
 def contour_rows(contour: Contour) -> Rows:
-    """Return the rows (n, 8) of a contour, in its direction."""
+    """Return the rows (n, 8) of a contour, in its direction; they are the caller's own."""
+    if "rows" not in contour.kept:
+        contour.kept["rows"] = _made(contour)
+    rows: Rows = contour.kept["rows"].copy()
+    return rows
+
+
+def _made(contour: Contour) -> Rows:
     if all(type(curve) is Line for curve in contour.primitives):  # most of the longest ones
         ends = chain.from_iterable(chain.from_iterable((curve.start, curve.end) for curve in contour.primitives))
         rows = np.zeros((len(contour.primitives), 8))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from typing import Any
 
 from .curves import Curve, Primitive
 from .notes import Note, Shape
@@ -122,6 +123,7 @@ class Contour:
         layer: layer of the first curve.
         entity_ids: entities that it came from, in order.
         deviation: largest distance between the drawn curves and the primitives, mm (0: exact).
+        kept: what was computed from the primitives, by name, so that each of many judges need not compute it again.
     """
 
     primitives: tuple[Primitive, ...]
@@ -129,6 +131,7 @@ class Contour:
     layer: str = "0"
     entity_ids: tuple[int, ...] = ()
     deviation: float = 0.0
+    kept: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
 
 @dataclass(frozen=True)

@@ -33,11 +33,19 @@ class StockBox:
 
 def extent(contours: Iterable[Contour]) -> tuple[float, float, float, float] | None:
     """Return (x0, y0, x1, y1) of the contours, mm, arcs by what they really reach; None when there are none."""
-    points = [point for contour in contours for primitive in contour.primitives for point in _extreme_points(primitive)]
-    if not points:
+    boxes = [_box(contour) for contour in contours if contour.primitives]
+    if not boxes:
         return None
-    xs, ys = zip(*points, strict=True)
-    return (min(xs), min(ys), max(xs), max(ys))
+    x0, y0, x1, y1 = zip(*boxes, strict=True)
+    return (min(x0), min(y0), max(x1), max(y1))
+
+
+def _box(contour: Contour) -> tuple[float, float, float, float]:
+    if "box" not in contour.kept:
+        xs, ys = zip(*(point for primitive in contour.primitives for point in _extreme_points(primitive)), strict=True)
+        contour.kept["box"] = min(xs), min(ys), max(xs), max(ys)
+    box: tuple[float, float, float, float] = contour.kept["box"]
+    return box
 
 
 def stock_box(job: Job, regions: Iterable[Region], lines: Iterable[Contour] = ()) -> StockBox:
@@ -69,8 +77,18 @@ def _extreme_points(primitive: Primitive) -> Iterator[Point]:
     yield primitive.end
     if isinstance(primitive, (Arc, Circle)):
         cx, cy = primitive.centre
+        if isinstance(primitive, Arc) and _within_quadrant(primitive):
+            return
         yield from ((cx + primitive.radius * ux, cy + primitive.radius * uy)
                     for ux, uy in QUADRANTS if isinstance(primitive, Circle) or _passes(primitive, math.atan2(uy, ux)))
+
+
+def _within_quadrant(arc: Arc) -> bool:
+    """Tell whether an arc surely passes no quadrant, as nearly all of the short ones of a fitted curve do: without an angle."""
+    x, y = arc.centre
+    ax, ay, bx, by = arc.start[0] - x, arc.start[1] - y, arc.end[0] - x, arc.end[1] - y
+    turn = ax * by - ay * bx
+    return ax * bx > 0 and ay * by > 0 and (turn > 0 if arc.ccw else turn < 0)
 
 
 def _passes(arc: Arc, angle: float) -> bool:

@@ -38,6 +38,45 @@ def depths_left(rows, order, nodes, cutters, points, limit, out):
         out[k] = depth_left(rows, order, nodes, cutters, points[k, 0], points[k, 1], limit)
 
 
+@kernel("boolean(float64[:, ::1], int64[::1], float64[:, ::1], float64, float64, float64)")
+def _any_within(rows, order, nodes, x, y, limit):
+    """Return whether a point is no farther than `limit` from some row: the first that is found ends the search."""
+    leaves = (len(nodes) + 1) // 2
+    stack = np.empty(64, np.int64)
+    stack[0], top = 0, 1
+    while top > 0:
+        top -= 1
+        k = stack[top]
+        if box_distance(nodes, k, x, y) > limit:
+            continue
+        if k < leaves - 1:
+            left, right = 2 * k + 1, 2 * k + 2
+            if box_distance(nodes, left, x, y) > box_distance(nodes, right, x, y):
+                left, right = right, left
+            stack[top], stack[top + 1] = right, left
+            top += 2
+            continue
+        first = (k - leaves + 1) * LEAF
+        for place in range(first, min(first + LEAF, len(order))):
+            if point_distance(rows, order[place], x, y) <= limit:
+                return True
+    return False
+
+
+@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1], float64, boolean[::1])")
+def hold(rows, order, nodes, cutters, points, around, out):
+    """Write for each point (m, 2) whether all within `around` of it, mm, lies in what a cutter along some one row has cut."""
+    for i in range(len(points)):
+        out[i] = False
+        o, n = 0, 0
+        for k in range(len(cutters)):
+            limit, o1, n1 = cutters[k, 0] - around, int(cutters[k, 1]), int(cutters[k, 2])
+            if limit >= 0.0 and _any_within(rows, order[o:o1], nodes[n:n1], points[i, 0], points[i, 1], limit):
+                out[i] = True
+                break
+            o, n = o1, n1
+
+
 @kernel("boolean(float64[:, ::1], int64[::1], float64[:, ::1], float64[::1], float64)")
 def _within_one(rows, order, nodes, chunk, limit):
     """Return whether a short row, given by start, middle and end, stays within `limit` of some one row."""

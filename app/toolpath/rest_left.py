@@ -65,6 +65,12 @@ class Ground:
         rest_kernels.depths_left(*self.tree, np.ascontiguousarray(points), limit, out)
         return out
 
+    def holds(self, points: Floats, around: float) -> NDArray[np.bool_]:
+        """Return for points (m, 2) whether all within `around` of them, mm, is cut by one stretch of a path."""
+        out = np.empty(len(points), np.bool_)
+        rest_kernels.hold(*self.tree, np.ascontiguousarray(points), around, out)
+        return out
+
     def in_air(self, rows: Rows, radius: float, tolerance: float = _SAME) -> NDArray[np.bool_]:
         """Return for short rows (n, 8) whether a cutter of this radius, mm, cuts nothing along them."""
         places = np.hstack([rows[:, :2], points_at(rows, np.full(len(rows), 0.5)), rows[:, 2:4]])
@@ -121,7 +127,7 @@ def suspects(ground: Ground, reach: Reach, progress: Progress) -> Suspects:
     while True:
         progress.step(0.0, "Looking for what is left")
         q = half * math.sqrt(2)
-        centres = centres[ground.depth(centres, 4 * q) > -q]
+        centres = centres[~ground.holds(centres, q)]
         walls = reach.sheet.distances.nearest(centres)[0]
         alone = walls > q  # all of such a square lies on one side of the walls
         keep = ~alone

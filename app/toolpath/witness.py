@@ -79,35 +79,37 @@ def _about_outlines(entities: Sequence[Entity], contours: Sequence[Contour]) -> 
     if not contours:
         return []
     wanted = {number for contour in contours for number in contour.entity_ids}
-    curves = [drawn_as(each.curve) for each in entities if each.id in wanted]
-    drawn = even_odd([Contour(primitives) for primitives in curves if primitives])
+    curves = [each.curve for each in entities if each.id in wanted]
+    plain = [Contour((curve,)) for curve in curves if isinstance(curve, Line | Circle | Arc) and not _is_nothing(curve)]
+    bent = [_places(curve) for curve in curves if isinstance(curve, Ellipse | Spline)]
+    drawn = even_odd(plain, (), np.concatenate([np.zeros((0, 4)), *(np.hstack([places[:-1], places[1:]]) for places in bent)]))
     made = even_odd(contours)
     moved = sum(float(lengths(contour_rows(contour)).sum()) * contour.deviation for contour in contours)
     starts = [contour.primitives[0].start[0] for contour in contours] + [p.end[0] for contour in contours for p in contour.primitives]
     wide = max(starts) - min(starts)
-    spare = moved + drawn.loose * wide + drawn.length * 2 * _CHORD * any(isinstance(e.curve, Ellipse | Spline) for e in entities)
+    spare = moved + drawn.loose * wide + drawn.length * 2 * _CHORD * bool(bent)
     return differing(drawn, made.area, contours, spare)
 
 
 def drawn_as(curve: Curve) -> tuple[Primitive, ...]:
     """Return a curve as lines and arcs: itself, or the chords of an ellipse or spline."""
-    if isinstance(curve, Line | Circle):
-        return (curve,)
-    if isinstance(curve, Arc):
-        return (curve,) if curve.start != curve.end else ()
-    pieces = pieces_of(curve)
-    marks = np.arange(len(pieces) + 1, dtype=np.float64)
-    for _ in range(_FINEST):
-        points = pieces.at(marks)[0]
-        middles = (marks[1:] + marks[:-1]) / 2
-        between = pieces.at(middles)[0]
-        coarse = np.hypot(*(between - (points[1:] + points[:-1]) / 2).T) > _CHORD
-        coarse |= len(marks) < 2 * len(pieces) + 1  # two chords at least a piece: an S has its middle on its chord
-        if not coarse.any():
-            break
-        marks = np.sort(np.concatenate([marks, middles[coarse]]))
-    ends = [(float(x), float(y)) for x, y in pieces.at(marks)[0]]
+    if isinstance(curve, Line | Circle | Arc):
+        return () if _is_nothing(curve) else (curve,)
+    ends = [(float(x), float(y)) for x, y in _places(curve)]
     return tuple(Line(a, b) for a, b in pairwise(ends) if a != b)
+
+
+def _is_nothing(curve: Primitive) -> bool:
+    return isinstance(curve, Arc) and curve.start == curve.end
+
+
+def _places(curve: Ellipse | Spline) -> Floats:
+    """Return places (n, 2) along an ellipse or spline between which it is measured as chords."""
+    from ..geometry.arcs.chord_kernels import chords
+
+    found, count = chords(np.ascontiguousarray(pieces_of(curve).control), _CHORD, _FINEST)
+    places: Floats = found[:count]
+    return places
 
 
 def about_regions(contours: Sequence[Contour], outlines: Sequence[Contour], nesting: Nesting) -> list[Finding]:

@@ -188,3 +188,17 @@ def test_parallels_of_real_contours_bound_what_is_far_enough(data: Path, name: s
         within, outside = sides(polygon)
         assert_bounds_what_is_far_enough(area_within(offset(contour, away, within)), polygon, away, outward=False)
         assert_bounds_what_is_far_enough(area_within(offset(contour, away, outside)), polygon, away, outward=True)
+
+
+@pytest.mark.parametrize("off", [0.0, 500.0])
+@pytest.mark.parametrize("angle", [17.0, 30.0])
+@pytest.mark.parametrize("spare", [0.01, 0.0, -0.01])
+def test_half_as_far_as_a_slot_is_wide_nothing_is_left_whatever_digits_it_was_drawn_with(angle: float, off: float, spare: float) -> None:
+    turn = np.exp(1j * math.radians(angle))
+    at = [np.round([z.real + off, z.imag + off], 4) for z in turn * np.array([-10 - 1.5875j, 10 - 1.5875j, 10 + 1.5875j, -10 + 1.5875j])]
+    text = " ".join(f"{x!r},{y!r}" for x, y in (each.tolist() for each in [*at, at[0]]))
+    (contour,) = chains(f"line {text}")
+    pieces = chain_parallel(contour, 1.5875 - spare, (off, off))
+    assert bool(pieces) is (spare > 0)
+    if pieces:
+        assert area_within([curve for _, curve in pieces]).area == pytest.approx(0.02 * (20 - 2 * 1.5875 + 0.02), abs=0.003)

@@ -119,6 +119,16 @@ def test_columns_and_lines_that_run_down_are_left_out_by_name(fonts: Path) -> No
     assert dict(left_out(mtext("H" * 10_001)).left_out) == {"MTEXT (of more than 10000 letters)": 1}
 
 
+def test_what_to_do_about_columns_and_lines_that_run_down_is_said() -> None:
+    document = mtext("H", flow_direction=3)
+    document.modelspace().add_mtext_static_columns(["H", "H"], 50, 5, 100)
+    (text,) = [each.text for each in left_out(document).findings if each.text.startswith("Left out")]
+    assert text.endswith("(vertical). To machine them, set texts to no columns and let letters run to the right, or turn them into "
+                         "curves, where they were drawn.")  # fmt: skip
+    (plain,) = [each.text for each in left_out(mtext("H" * 10_001)).findings if each.text.startswith("Left out")]
+    assert plain.endswith("letters).")
+
+
 @pytest.mark.parametrize("content", [
     "\\S", "\\S;", "\\H;H", "{{{H", "}}}H", "\\pi;H", "\\f;H", "\\", "\\H-2x;H", "\\pt;\tH", "\\W0;H", "\\T0;H", "\\Q90;H",
 ])  # fmt: skip

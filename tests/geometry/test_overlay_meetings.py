@@ -223,3 +223,16 @@ def test_a_lost_loop_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     moon = 100 * math.pi - lens(10, 10, 15)
     assert found.counts and found.amount == pytest.approx(moon) and f"{moon:.4f} mm2 too small" in found.text
     assert without_outlines([box(0, 0, 9, 9)], [box(5, 5, 20, 20)]).findings
+
+
+@pytest.mark.parametrize("seeds", [(40, 120), pytest.param((41, 3000), marks=pytest.mark.exhaustive)])
+def test_an_overlay_of_its_own_outcome_changes_nothing_but_by_what_is_merged(seeds: tuple[int, int]) -> None:
+    """Centres of arcs may change in their last digits, and what is just not thinner than WELD may go when it is looked at again.
+
+    By the even-odd rule two areas together are what only one of them has.
+    """
+    for k in range(seeds[1]):
+        once = assert_whole(any_case(np.random.default_rng((seeds[0], k))))
+        again = assert_whole(list(once))
+        both = even_odd([*once, *again])
+        assert both.area <= both.length / 2 * tolerances.WELD

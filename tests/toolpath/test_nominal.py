@@ -9,7 +9,9 @@ import pytest
 
 from app.core.tolerances import NOMINAL
 from app.model.finding import FindingKind
+from app.model.operation import Side
 from app.usecases.bitmap_options import BitmapOptions, BitmapSize
+from app.usecases.machining import Machining
 from app.usecases.make import Made, make
 from app.usecases.options import MakeOptions
 
@@ -20,16 +22,22 @@ def made_with(text: str, diameter: float = WIDTH) -> Made:
     return make("words.draw", text.encode(), MakeOptions(pocket_diameter=diameter, contour_diameter=diameter))
 
 
-def turned(angle: float, x: float, y: float) -> str:
-    """A point turned about zero, degrees, written with four digits."""
+def turned(angle: float, x: float, y: float, off: float = 0.0) -> str:
+    """A point turned about zero, degrees, and moved along both axes, mm, written with four digits."""
     c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
-    return f"{c * x - s * y:.4f},{s * x + c * y:.4f}"
+    return f"{c * x - s * y + off:.4f},{s * x + c * y + off:.4f}"
 
 
-def slot(angle: float) -> str:
+def outline(angle: float, corners: Sequence[tuple[float, float]], off: float = 0.0) -> str:
+    """Lines from corner to corner and back to the first, turned and moved."""
+    points = [turned(angle, x, y, off) for x, y in corners]
+    return "".join(f"line {a} {b}\n" for a, b in zip(points, [*points[1:], points[0]], strict=True))
+
+
+def slot(angle: float, off: float = 0.0) -> str:
     """A slot 20 mm from centre to centre."""
     corners = [(-10, -WIDTH / 2), (10, -WIDTH / 2), (10 + WIDTH / 2, 0), (10, WIDTH / 2), (-10, WIDTH / 2), (-10 - WIDTH / 2, 0)]
-    a, b, c, d, e, f = (turned(angle, x, y) for x, y in corners)
+    a, b, c, d, e, f = (turned(angle, x, y, off) for x, y in corners)
     return f"line {a} {b}\narc {b} {c} {d}\nline {d} {e}\narc {e} {f} {a}\n"
 
 
@@ -52,6 +60,33 @@ def assert_slot_is_cut(angle: float) -> None:
     assert made.coverage.area_mm2 == pytest.approx(20 * WIDTH + math.pi * WIDTH**2 / 4, abs=0.01)
 
 
+@pytest.mark.parametrize("angle", [17.0, 30.0])
+def test_a_slot_as_wide_as_its_tool_far_from_zero(angle: float) -> None:
+    assert_cleared(made_with(slot(angle, 500.0)))
+
+
+@pytest.mark.parametrize(("angle", "off"), [(17.0, 0.0), (30.0, 500.0)])
+def test_rest_machining_goes_into_a_neck_as_wide_as_its_tool(angle: float, off: float) -> None:
+    """The larger tool clears the square; the neck is the smaller one's. What stays are six corners: four of the square, two of the neck."""
+    half = WIDTH / 2
+    neck = [(0, 0), (20, 0), (20, 10 - half), (32, 10 - half), (32, 10 + half), (20, 10 + half), (20, 20), (0, 20)]
+    made = make("words.draw", outline(angle, neck, off).encode(), MakeOptions(pocket_diameter=6.0, contour_diameter=WIDTH))
+    assert made.coverage.reachable_left_mm2 == 0
+    assert made.coverage.unreachable_mm2 == pytest.approx(6 * (1 - math.pi / 4) * half**2, abs=0.02)
+    assert made.clean, [finding.text for finding in made.findings if finding.counts]
+
+
+@pytest.mark.parametrize(("angle", "off"), [(17.0, 0.0), (30.0, 500.0)])
+def test_a_line_as_far_from_a_clamp_as_its_tool_is_wide_is_cut(angle: float, off: float) -> None:
+    half = WIDTH / 2
+    clamp = outline(angle, [(10, half), (30, half), (30, 20), (10, 20)], off)
+    text = f"layer clamps\n{clamp}layer 0\nline {turned(angle, 0, 0, off)} {turned(angle, 40, 0, off)}\n"
+    machining = Machining(side=Side.ON, keep_out=("clamps",), keep_out_height=5.0)
+    made = make("words.draw", text.encode(), MakeOptions(contour_diameter=WIDTH, machining=machining))
+    assert not [finding.text for finding in made.findings if "cuts" in finding.text]
+    assert made.clean, [finding.text for finding in made.findings if finding.counts]
+
+
 @pytest.mark.parametrize("spare", [-9e-4, 0.0, 9e-4])
 def test_a_hole_as_wide_as_its_tool(spare: float) -> None:
     made = made_with(f"circle 0,0 {(WIDTH + spare) / 2!r}\n")
@@ -63,8 +98,7 @@ def test_a_passage_as_wide_as_its_tool(angle: float) -> None:
     half = WIDTH / 2
     low = [(0, 0), (20, 0), (20, 10 - half), (30, 10 - half), (30, 0), (50, 0)]
     corners = [*low, *((x, 20 - y) for x, y in reversed(low))]
-    points = [turned(angle, x, y) for x, y in corners]
-    made = made_with("".join(f"line {a} {b}\n" for a, b in zip(points, [*points[1:], points[0]], strict=True)))
+    made = made_with(outline(angle, corners))
     assert made.coverage.reachable_left_mm2 == 0
     assert made.coverage.unreachable_mm2 == pytest.approx(8 * (1 - math.pi / 4) * half**2, abs=0.02)
 

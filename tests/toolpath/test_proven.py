@@ -74,6 +74,18 @@ def test_nothing_is_in_doubt_round_a_slot_with_arcs_that_go_on_from_lines() -> N
     assert len(uncertain(wanted, [(rows, RADIUS)])) == 0
 
 
+def test_nothing_is_in_doubt_along_the_rim_at_a_corner_of_two_arcs() -> None:
+    """There it is the disc round the corner that covers, and no sector of an arc."""
+    rows = np.array([_arc(0.0, 1.5, 6.0), _arc(1.5, 3.0, 6.0)])
+    joint, turn = rows[0, 2:4], np.array([[0.0, 1.0], [-1.0, 0.0]])
+    for k in (0, 2, 4):
+        rows[1, k:k + 2] = joint + turn @ (rows[1, k:k + 2] - joint)
+    wanted = _swath(rows, RADIUS)
+    squares = uncertain(wanted, [(rows, RADIUS)])
+    beyond = shapely.distance(squares, shapely.Point(joint)) < RADIUS - 0.5  # the bend inside of the corner, which two arcs cover together
+    assert shapely.area(squares[~beyond]).sum() < 0.002
+
+
 @pytest.mark.parametrize("missing", [0.05, 0.5, 3.0])
 def test_a_gap_in_a_circle_stays_in_doubt_and_little_else(missing: float) -> None:
     rows = within_half_turn(np.array([_arc(missing / 10, math.tau - missing / 10, 10.0)]))

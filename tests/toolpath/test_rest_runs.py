@@ -32,6 +32,14 @@ def test_depth_in_what_is_left_is_the_least_of_all_cutters() -> None:
     assert ground.depth(points, 9.0) == pytest.approx([-1.0, 1.0, -0.5, 4.0, 9.0])
 
 
+def test_a_disc_is_held_by_what_one_path_has_cut_and_by_no_two_together() -> None:
+    ground = Ground.of([(line(0, 0, 10, 0), 2.0), (line(0, 5, 10, 5), 0.5), (line(0, 1, 10, 1), 2.0)])
+    points = np.array([[5.0, 1.5], [5.0, 1.4], [5.0, 5.375], [5.0, -1.625], [5.0, 2.6]])
+    assert ground.holds(points, 0.5).tolist() == [True, True, False, False, False]
+    assert ground.holds(points, 0.1).tolist() == [True, True, True, True, True]
+    assert ground.holds(points, 3.0).tolist() == [False] * 5
+
+
 def test_without_paths_all_is_left() -> None:
     ground = Ground.of([])
     assert ground.depth(np.zeros((2, 2)), 3.0) == pytest.approx([3.0, 3.0])

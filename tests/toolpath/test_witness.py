@@ -9,8 +9,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.geometry.arcs.bezier import pieces_of
+from app.geometry.arcs.chord_kernels import chords
 from app.geometry.chaining import chain
 from app.geometry.chaining.chain import Chaining
+from app.geometry.distance import DistanceField
 from app.geometry.overlay import net as overlay_net
 from app.geometry.region import Nesting
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
@@ -227,3 +230,19 @@ def test_a_part_of_many_layers_is_asked_area_by_area() -> None:
     made = sheets.Sheets(job := Job(part, keep_out_layers=("k",)), drawn.drawn(job))
     made.areas()
     assert made.findings == []
+
+
+@pytest.mark.parametrize("finest", [1, 3, 14])
+def test_chords_of_a_curve_end_on_it_and_are_near_it_but_no_finer_than_asked(finest: int) -> None:
+    bow = Spline(3, ((0.0, 0.0), (10.0, 20.0), (30.0, -20.0), (40.0, 0.0), (60.0, 5.0)), (0, 0, 0, 0, 1, 2, 2, 2, 2), (1, 2, 0.5, 1, 1))
+    pieces = pieces_of(bow)
+    places, count = chords(np.ascontiguousarray(pieces.control), 1e-4, finest)
+    assert tuple(places[0]) == bow.start and tuple(places[count - 1]) == bow.end
+    on = pieces.at(np.linspace(0.0, 2.0, 20_001))[0]
+    rows = np.hstack([places[:count - 1], places[1:count], np.zeros((count - 1, 4))])
+    off = DistanceField.of(rows).nearest(on)[0].max()
+    assert DistanceField.of(np.hstack([on[:-1], on[1:], np.zeros((20_000, 4))])).nearest(places[:count])[0].max() < 1e-6
+    if finest < 14:
+        assert count == 2 * 2**finest + 1 and off > 1e-3
+    else:
+        assert 200 < count < 2000 and off < 1.5e-4

@@ -1,4 +1,8 @@
-"""Corners of two curves: rounded by an arc that touches both, made sharp, or cut across. Curves in, curves out."""
+"""Corners of two curves: rounded by an arc that touches both, made sharp, or cut across. Curves in, curves out.
+
+One length is the same as none, WELD. A side that the digits of a drawing leave too short by more is refused and not stretched, unlike a gap
+that a tool fits by its name (`tolerances.NOMINAL`): there a path errs within its tolerance, here the drawing itself would.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +16,10 @@ from .drafting import beside, between, touch_of, way_ahead
 from .split import split
 
 _CLOSE = 1e-9
+"""Radians; an arc that is less than a half turn by less touches curves that lie side by side, where there is no corner."""
+
 _SMOOTH = 1e-3
+"""Radians; the sine of a bend below which two curves go on in one another. Curves are drawn, and written, with such bends."""
 
 Side = Line | Arc | Circle
 Filleted = tuple[Side, Arc, Side]

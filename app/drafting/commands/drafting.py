@@ -13,6 +13,9 @@ from ..curves.meet import foot, has, meets
 from ..curves.shapes import shown
 from .split import split
 
+_WHOLE = 1e-9
+"""Radians of an ellipse's parameter by which a whole turn may be short: an angle, whatever the size, so no length says it."""
+
 
 def trimmed(curve: Curve, at: Point, edges: Iterable[Curve]) -> tuple[Curve, ...]:
     """Return what stays of a curve when the piece at a point is taken out, up to the nearest edges on both sides.
@@ -118,7 +121,7 @@ def parallel(curve: Line | Arc | Circle, away: float, side: Point) -> Curve:
 
 def _closed(curve: Curve) -> bool:
     if isinstance(curve, Ellipse):
-        return curve.end_parameter - curve.start_parameter > math.tau - 1e-9
+        return curve.end_parameter - curve.start_parameter > math.tau - _WHOLE
     return isinstance(curve, Circle)
 
 

@@ -25,11 +25,15 @@ from .moved import Moved, direction
 from .sharp_corners import sharpened
 from .split import split
 
-_NEAR = 1e-8
-"""By so much, mm, a piece may come nearer than the distance."""
+_NEAR = WELD / 100
+"""By so much, mm, a piece may come nearer than the distance: more than a foot is off by rounding a kilometre from zero. Less than WELD,
+as what goes on beyond the place where two parallels cross comes nearer by no more than its length times their bend."""
 
 _SLIGHT = 2e-3
 """A turn, rad, so slight that what two parallels overlap there could not be told from what stays."""
+
+_BACK = 1e-9
+"""A turn, rad, that is less than a half turn by less goes straight back; a length cannot say that, as both sides may be long."""
 
 
 def chain_parallel(contour: Chain, away: float, side: Point, rounded: bool = False) -> list[tuple[int, Line | Arc]]:
@@ -132,7 +136,7 @@ def _raw(pieces: Sequence[Moved], closed: bool, away: float) -> list[Moved]:
         before, after = direction(a.curve, a.curve.end), direction(b.curve, b.curve.start)
         turn = math.atan2((before.conjugate() * after).imag, (before.conjugate() * after).real)
         start, end = _beside(a.curve.end, before, away), _beside(b.curve.start, after, away)
-        if (turn < 0 or abs(turn) > math.pi - 1e-9) and math.dist(start, end) > WELD:
+        if (turn < 0 or abs(turn) > math.pi - _BACK) and math.dist(start, end) > WELD:
             corners.append(Moved(Arc(start, end, a.curve.end, ccw=False), a.source, a.curve.end))
             continue
         if one is None or other is None or k == following or turn > _SLIGHT:
@@ -157,7 +161,7 @@ def _beside(point: Point, way: complex, away: float) -> Point:
 
 def _ends_on(curve: Curve, edge: Curve) -> list[Point]:
     """Return the ends of an edge that lie on a curve: of two that run along one another these are where to cut."""
-    return [p for p in (edge.start, edge.end) if not isinstance(edge, Circle) and math.dist(foot(curve, p), p) < WELD / 10]
+    return [p for p in (edge.start, edge.end) if not isinstance(edge, Circle) and math.dist(foot(curve, p), p) < WELD]
 
 
 def _boxes(curves: Iterable[Curve]) -> NDArray[np.float64]:

@@ -10,6 +10,7 @@ from typing import ClassVar
 
 from ...geometry.affine import ellipse
 from ...model.curves import Arc, Curve, Line, Point, Spline
+from ..dxf.splines import MOST_POINTS
 from .numbers import NUMBER
 
 _NUMBER = re.compile(rf"[\s,]*({NUMBER})")
@@ -45,11 +46,12 @@ def read_path(text: str, most: int) -> Path:
 
     Args:
         text: the attribute d.
-        most: after this many curves the rest is left unread (and the count tells the caller).
+        most: after this many curves the rest is left unread (and the count tells the caller), and so it is as soon as Béziers that follow
+            one another have more than `MOST_POINTS` points.
     """
     text = text.rstrip(" \t\r\n,")
     pen, at, command = _Pen(), 0, ""
-    while at < len(text) and pen.drawn <= most:
+    while at < len(text) and pen.drawn <= most and pen.points <= MOST_POINTS:
         found = _COMMAND.match(text, at)
         if found:
             command, at = found[1], found.end()
@@ -103,6 +105,7 @@ class _Pen:
         self._here = self._first = (0.0, 0.0)
         self._handle: tuple[str, Point] = ("", (0.0, 0.0))
         self.drawn = 0
+        self.points = 0  # of the Béziers of one degree that were drawn last
 
     def do(self, command: str, values: list[float]) -> None:
         kind = command.upper()
@@ -142,6 +145,8 @@ class _Pen:
     def _bezier(self, places: list[Point], _: list[float], __: object) -> None:
         degree = len(places)
         if any(place != self._here for place in places):
+            before = self._run[-1] if self._run else None
+            self.points = (self.points if isinstance(before, Spline) and before.degree == degree else 1) + degree
             self._add(Spline(degree, (self._here, *places), BEZIER_KNOTS[degree]))
         self._handle = ("C" if degree == 3 else "Q", places[-2])
         self._here = places[-1]

@@ -15,7 +15,7 @@ from ...geometry.affine import IDENTITY, Affine, transformed
 from ...model.curves import Circle, Curve, Ellipse, Line, Point, Spline
 from ...model.part import Layer
 from ..drawing_account import MOST_CURVES
-from ..dxf.splines import MOST_POINTS, too_many
+from ..dxf.splines import MOST_POINTS
 from .generator import INKSCAPE, SODIPODI
 from .joined import beziers_joined, joined
 from .numbers import Box, UnreadableError, fitted, transform, view_box
@@ -250,7 +250,7 @@ class Walker:
             sheet.faults.append(Fault(node.line, drawn.why))
         for curve in curves:
             if isinstance(curve, Spline) and len(curve.control_points) > MOST_POINTS:
-                self._refuse(node, too_many(len(curve.control_points), what="curve").rstrip("."))
+                self._refuse(node, f"a curve has more than {MOST_POINTS} points; split it or thin it out in the CAD program")
         if not curves:
             return
         layer = state.layer or "0"

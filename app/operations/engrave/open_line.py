@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core import tolerances
 from ...core.progress import Progress
 from ...geometry.distance import DistanceField
 from ...geometry.primitives import Rows, contour_rows, lengths, points_at, reversed_rows, signed_area
@@ -15,7 +16,7 @@ from ...toolpath.leads.contour_path import Floats, Path
 from ...toolpath.sheets import Sheet
 from ...toolpath.side import ranks
 
-_FINEST = 1e-3
+_FINEST = tolerances.LEVEL
 """mm; how exactly the place is found where a clamp cuts a line off, on the safe side."""
 
 _TELL = 50
@@ -48,8 +49,8 @@ def line_paths(sheet: Sheet, tool: Tool, direction: Direction, progress: Progres
 
 
 def _beside_clamps(path: Path, sheet: Sheet, radius: float) -> tuple[list[Path], list[tuple[float, float, float]]]:
-    """Return (what of a path is clear of clamps, (x, y, length) of what is not)."""
-    row, low, high = clear_parts(path.rows, sheet.distances, radius)
+    """Return (what of a path is clear of clamps, (x, y, length) of what is not): by its name, as tools fit gaps."""
+    row, low, high = clear_parts(path.rows, sheet.distances, radius - tolerances.NOMINAL)
     size = lengths(path.rows)
     begin = path.ends - size
     starts, stops = begin[row] + low * size[row], begin[row] + high * size[row]
@@ -57,12 +58,12 @@ def _beside_clamps(path: Path, sheet: Sheet, radius: float) -> tuple[list[Path],
         return [path], []
     spans: list[tuple[float, float]] = []
     for a, b in zip(starts.tolist(), stops.tolist(), strict=True):
-        if spans and a - spans[-1][1] < 1e-9:
+        if spans and a - spans[-1][1] < tolerances.WELD:
             spans[-1] = spans[-1][0], b
         else:
             spans.append((a, b))
     length = path.length
-    if path.closed and len(spans) > 1 and spans[0][0] < 1e-9 and spans[-1][1] > length - 1e-9:
+    if path.closed and len(spans) > 1 and spans[0][0] < tolerances.WELD and spans[-1][1] > length - tolerances.WELD:
         spans = [*spans[1:-1], (spans[-1][0], length + spans[0][1])]
     elif path.closed and len(spans) == 1 and spans[0] == (0.0, length):
         return [path], []
@@ -100,7 +101,7 @@ def clear_parts(rows: Rows, field: DistanceField, radius: float) -> tuple[NDArra
         inside = field.inside(middle)
         small = half < _FINEST / 2
         both = np.minimum(*(field.nearest(points_at(rows[row], part))[0] for part in (low, high))) - radius
-        clear = inside & ((spare >= half) | (small & (np.minimum(both, spare) >= -1e-9)))
+        clear = inside & ((spare >= half) | (small & (np.minimum(both, spare) >= 0)))
         reach = np.where(inside, -spare, spare + 2 * radius)  # nearer than this nothing is clear
         open_still = ~clear & ~small & (half > reach)
         found.append((row[clear], low[clear], high[clear]))

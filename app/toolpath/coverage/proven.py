@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise, product
+from itertools import pairwise
 
 import numpy as np
 import shapely
@@ -22,7 +22,7 @@ from shapely import Geometry as Shape
 from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
-from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, Rows, sweeps, within_half_turn
+from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, R, Rows, sweeps, within_half_turn
 
 _FINEST = 8
 """The smallest squares' half side on a wall goes so many times into the smallest cutter's radius."""
@@ -60,22 +60,23 @@ def uncertain(wanted: Shape, paths: Sequence[tuple[Rows, float]], progress: Prog
         return np.array([] if wanted.is_empty else [shapely.box(*wanted.bounds)], dtype=object)
     area, least = DistanceField.of(_edges(wanted)), min(each.radius for each in swaths)
     centres, half = _grid(wanted.bounds)
-    kept = []
+    within, kept = np.zeros(len(centres), np.bool_), []
     while len(centres):
         progress.step(0.0, "Measuring what is left")
         q = half * math.sqrt(2)
-        uncut = np.full(len(centres), math.inf)
-        for each in swaths:
-            uncut = np.minimum(uncut, each.field.nearest(centres, each.radius + 2 * q)[0] - each.radius)
-        centres, uncut = centres[uncut > -q], uncut[uncut > -q]
-        states = _states(area, swaths, centres, half)
-        centres, uncut, states = (each[(states != OUTSIDE) & (states != COVERED)] for each in (centres, uncut, states))
+        beside = [each.field.nearest(centres, each.radius + _SLACK + 2 * q) for each in swaths]
+        uncut = np.min([far - each.radius for (far, _), each in zip(beside, swaths, strict=True)], axis=0)
+        doubtful = uncut > -q
+        centres, within, uncut = centres[doubtful], within[doubtful], uncut[doubtful]
+        states = _states(area, [_Beside(each, near[doubtful], far[doubtful]) for (far, near), each in zip(beside, swaths, strict=True)],
+                         _Squares(centres, half, within))  # fmt: skip
+        centres, within, uncut, states = (each[(states != OUTSIDE) & (states != COVERED)] for each in (centres, within, uncut, states))
         left = (uncut >= q) | (half <= least / _SMALLEST)
         if half <= least / _FINEST:
             left |= states != OPEN
         kept.append(_runs(centres[left], half))
         half /= 2
-        centres = quarters(centres[~left], half)
+        centres, within = quarters(centres[~left], half), np.repeat(within[~left], 4)
     return np.concatenate(kept) if kept else np.zeros(0, dtype=object)
 
 
@@ -99,21 +100,58 @@ class _Swath:
         return _Swath(DistanceField.of(parts), radius, _sectors(parts))
 
 
-def _states(area: DistanceField, swaths: Sequence[_Swath], centres: Floats, half: float) -> States:
+@dataclass(frozen=True, eq=False)
+class _Squares:
+    """Squares of one size.
+
+    Attributes:
+        centres: (n, 2). half: their half side, mm.
+        within: (n,) True for those that are known to be wanted as a whole; those that are found to be are written.
+    """
+
+    centres: Floats
+    half: float
+    within: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class _Beside:
+    """A path, its row nearest to each of some squares' centres (n,), -1 for none, and how far that is (n,), mm."""
+
+    swath: _Swath
+    near: Indices
+    far: Floats
+
+
+def _states(area: DistanceField, paths: Sequence[_Beside], squares: _Squares) -> States:
     """Return what of squares is wanted and covered, by numbers of `swath_kernels`: UNCUT is what all paths leave something of."""
-    from .swath_kernels import COVERED, OPEN, OUTSIDE, UNCUT, judge
+    from .swath_kernels import COVERED, OPEN, OUTSIDE, UNCUT
 
-    states = np.empty((len(swaths), len(centres)), np.uint8)
-    bands = np.linspace(0, len(centres), (_BANDS if len(centres) >= _WORTH_TWO_CORES else 1) + 1).astype(int)
+    states = np.full(len(squares.centres), UNCUT, np.uint8)
+    for each in paths:
+        asked = np.flatnonzero((states != COVERED) & (states != OUTSIDE))
+        some = _Squares(squares.centres[asked], squares.half, squares.within[asked])
+        found = _judged(area, _Beside(each.swath, each.near[asked], each.far[asked]), some)
+        squares.within[asked] = some.within
+        states[asked] = np.where((found == UNCUT) & (states[asked] == OPEN), np.uint8(OPEN), found)
+    return states
 
-    def look(work: tuple[int, tuple[int, int]]) -> None:
-        (number, band), each = work, swaths[work[0]]
-        judge(area.rows, area.order, area.nodes, each.field.rows, each.field.order, each.field.nodes, each.sectors, each.radius + _SLACK,
-              centres[slice(*band)], half, states[number, slice(*band)])  # fmt: skip
 
-    list(pool().map(look, product(range(len(swaths)), pairwise(bands.tolist()))))
-    uncut = np.where(np.all(states == UNCUT, axis=0), np.uint8(UNCUT), np.uint8(OPEN))
-    return np.where(np.any(states == COVERED, axis=0), np.uint8(COVERED), np.where(states[0] == OUTSIDE, np.uint8(OUTSIDE), uncut))
+def _judged(area: DistanceField, path: _Beside, squares: _Squares) -> States:
+    """Return what of some squares is wanted and covered by one path."""
+    from .swath_kernels import judge
+
+    count, field, reach = len(squares.centres), path.swath.field, path.swath.radius + _SLACK
+    found = np.empty(count, np.uint8)
+
+    def look(ends: tuple[int, int]) -> None:
+        band = slice(*ends)
+        judge(area.rows, area.order, area.nodes, field.rows, field.order, field.nodes, path.swath.sectors, reach,
+              squares.centres[band], squares.half, path.near[band], path.far[band], squares.within[band], found[band])  # fmt: skip
+
+    bands = np.linspace(0, count, (_BANDS if count >= _WORTH_TWO_CORES else 1) + 1).astype(int)
+    list(pool().map(look, pairwise(bands.tolist())))
+    return found
 
 
 def _edges(area: Shape) -> Rows:
@@ -146,6 +184,8 @@ def _by_run(values: Floats, run: NDArray[np.int64]) -> Floats:
     """Return for each run by how much its values differ."""
     starts = np.flatnonzero(np.diff(run, prepend=-1))
     return np.asarray(np.maximum.reduceat(values, starts) - np.minimum.reduceat(values, starts))
+
+
 def _runs(centres: Floats, half: float) -> NDArray[np.object_]:
     """Return boxes round squares of one size; those side by side share one."""
     if not len(centres):

@@ -33,10 +33,14 @@ def _between(start, way, low, high):
     return max(0.0, min(a, b)), min(1.0, max(a, b))
 
 
-@kernel(f"int64({_TREE}, {_BOX}, float64[:, ::1], int64[::1])", counts=False)
+@kernel(f"UniTuple(int64, 3)({_TREE}, {_BOX}, float64[:, ::1], int64[::1])", counts=False)
 def _cut_edges(edges, order, nodes, box, corners, stack):
-    """Write the ends of what of each edge lies within a box into the corners, and return how many; -1: there is no room."""
-    leaves, count = (len(nodes) + 1) // 2, 0
+    """Write the ends of what of each edge lies within a box into the corners.
+
+    Returns:
+        How many; -1: there is no room. How often edges cross the box's lower side, and its upper one: as `kernels.inside` counts.
+    """
+    leaves, count, below, above = (len(nodes) + 1) // 2, 0, 0, 0
     stack[0], top = 0, 1
     while top > 0:
         top -= 1
@@ -52,6 +56,8 @@ def _cut_edges(edges, order, nodes, box, corners, stack):
             i = order[place]
             if i < 0:  # a leaf that is not full
                 break
+            below += _crosses_between(edges, i, box[1], box[0], box[2])
+            above += _crosses_between(edges, i, box[3], box[0], box[2])
             x, y = edges[i, 0], edges[i, 1]
             dx, dy = edges[i, 2] - x, edges[i, 3] - y
             a, b = _between(x, dx, box[0], box[2])
@@ -60,33 +66,52 @@ def _cut_edges(edges, order, nodes, box, corners, stack):
             if a > b:
                 continue
             if count + 2 > ROOM:
-                return -1
+                return -1, 0, 0
             corners[count, 0], corners[count, 1] = x + a * dx, y + a * dy
             corners[count + 1, 0], corners[count + 1, 1] = x + b * dx, y + b * dy
             count += 2
-    return count
+    return count, below, above
 
 
-@kernel(f"int64({_TREE}, {_BOX}, float64[:, ::1], int64[::1])", counts=False)
-def corners_of(edges, order, nodes, box, corners, stack):
-    """Write the corners of what of an area lies within a box, and return how many; 0: nothing does, -1: there is no room.
+@kernel("int64(float64[:, ::1], int64, float64, float64, float64)", counts=False)
+def _crosses_between(edges, i, y, low, high):
+    """Return 1 where an edge crosses a height between two places, the first included, else 0: half open, as rays are counted."""
+    a, b = edges[i, 1], edges[i, 3]
+    if (a <= y) == (b <= y):
+        return 0
+    x = edges[i, 0] + (y - a) / (b - a) * (edges[i, 2] - edges[i, 0])
+    return 1 if low <= x < high else 0
+
+
+@kernel(f"UniTuple(int64, 2)({_TREE}, {_BOX}, boolean, float64[:, ::1], int64[::1])", counts=False)
+def corners_of(edges, order, nodes, box, within, corners, stack):
+    """Write the corners of what of an area lies within a box.
+
+    Only where edges are near has a corner to be asked by itself, and of two at one height only one: the other differs from it by how
+    often edges cross the side between them.
 
     Args:
         edges, order, nodes: tree of the area's edges, even-odd.
+        within: the box is known to lie in the area.
         corners: (ROOM + 4, 2) room for them. stack: room for DEPTH nodes.
+
+    Returns:
+        How many; 0: nothing does, -1: there is no room. And 1 where the whole box lies in the area, else 0.
     """
-    count = _cut_edges(edges, order, nodes, box, corners, stack)
+    count, below, above = (0, 0, 0) if within else _cut_edges(edges, order, nodes, box, corners, stack)
     if count < 0:
-        return -1
+        return -1, 0
     whole = count == 0
-    for k in range(4):
-        x, y = box[2 * (k % 2)], box[1 + 2 * (k // 2)]
-        if inside(edges, order, nodes, x, y, stack):
-            corners[count, 0], corners[count, 1] = x, y
-            count += 1
-        elif whole:
-            return 0
-    return count
+    if whole and not within and not inside(edges, order, nodes, box[0], box[1], stack):
+        return 0, 0
+    for side in range(2):
+        y, across = box[1 + 2 * side], above if side else below
+        left = whole or inside(edges, order, nodes, box[0], y, stack)
+        for k in range(2):
+            if left != (k == 1 and across % 2 == 1):
+                corners[count, 0], corners[count, 1] = box[2 * k], y
+                count += 1
+    return count, int(whole)
 
 
 @kernel("float64(float64[:, ::1], int64, float64, float64)", counts=False)
@@ -105,6 +130,16 @@ def _nearest_between(corners, count, x, y):
     return math.sqrt(least)
 
 
+@kernel("boolean(float64[:, ::1], int64, float64, float64, float64)", counts=False)
+def _in_disc(corners, count, x, y, reach):
+    """Return whether all corners lie within `reach` of a place: so do all between them."""
+    for k in range(count):
+        dx, dy = corners[k, 0] - x, corners[k, 1] - y
+        if dx * dx + dy * dy > reach * reach:
+            return False
+    return True
+
+
 @kernel("boolean(float64[:, ::1], float64[:, ::1], int64, float64, float64[:, ::1], int64, UniTuple(float64, 4))", counts=False)
 def _holds(rows, sectors, j, reach, corners, count, box):
     """Return whether a cutter along row j covers all corners, and what lies between them."""
@@ -113,6 +148,8 @@ def _holds(rows, sectors, j, reach, corners, count, box):
         for k in range(count):
             farthest = max(farthest, point_distance(rows, j, corners[k, 0], corners[k, 1]))
         return farthest <= reach
+    if _in_disc(corners, count, rows[j, 0], rows[j, 1], reach) or _in_disc(corners, count, rows[j, 2], rows[j, 3], reach):
+        return True
     cx, cy, radius = rows[j, 4], rows[j, 5], rows[j, 6]
     dx, dy = max(box[0] - cx, cx - box[2], 0.0), max(box[1] - cy, cy - box[3], 0.0)
     inner = max(radius - reach, 0.0)
@@ -134,8 +171,8 @@ def _holds(rows, sectors, j, reach, corners, count, box):
     return whole or start + high - low <= sectors[j, 1]
 
 
-@kernel(f"void({_TREE}, {_TREE}, float64[:, ::1], float64, float64[:, ::1], float64, uint8[::1])")
-def judge(edges, edge_order, edge_nodes, rows, order, nodes, sectors, reach, centres, half, states):
+@kernel(f"void({_TREE}, {_TREE}, float64[:, ::1], float64, float64[:, ::1], float64, int64[::1], float64[::1], boolean[::1], uint8[::1])")
+def judge(edges, edge_order, edge_nodes, rows, order, nodes, sectors, reach, centres, half, near, far, within, states):
     """Write what of squares is wanted and covered.
 
     Args:
@@ -144,18 +181,20 @@ def judge(edges, edge_order, edge_nodes, rows, order, nodes, sectors, reach, cen
         sectors: (m, 2) of the rows: from which angle, and how far round, circles are covered by them and their neighbours, radians.
         reach: how far from the path counts as covered, mm.
         centres: (n, 2) of the squares. half: their half side, mm.
+        near, far: (n,) the row nearest to each centre, -1 for none, and how far it is, mm.
+        within: (n,) True for squares that are known to be wanted as a whole; written for those that are found to be.
         states: (n,) OUTSIDE, COVERED, OPEN or UNCUT.
     """
     corners, stack = np.empty((ROOM + 4, 2)), np.empty(DEPTH, np.int64)
-    limit = reach + 2.0 * half
     for i in range(len(centres)):
         x, y = centres[i, 0], centres[i, 1]
         box = (x - half, y - half, x + half, y + half)
-        count = corners_of(edges, edge_order, edge_nodes, box, corners, stack)
+        count, whole = corners_of(edges, edge_order, edge_nodes, box, within[i], corners, stack)
+        within[i] = whole == 1
         if count == 0:
             states[i] = OUTSIDE
             continue
-        row = nearest(rows, order, nodes, x, y, limit)[1]
+        row = near[i] if far[i] < reach + 2.0 * half else -1
         states[i] = OPEN if row >= 0 else UNCUT
         if count < 0 or row < 0:
             continue
@@ -164,5 +203,6 @@ def judge(edges, edge_order, edge_nodes, rows, order, nodes, sectors, reach, cen
                 states[i] = COVERED
                 break
         for k in range(count):
-            if states[i] == OPEN and nearest(rows, order, nodes, corners[k, 0], corners[k, 1], reach)[1] < 0:
+            if states[i] == OPEN and point_distance(rows, row, corners[k, 0], corners[k, 1]) >= reach and \
+                    nearest(rows, order, nodes, corners[k, 0], corners[k, 1], reach)[1] < 0:
                 states[i] = UNCUT

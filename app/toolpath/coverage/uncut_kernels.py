@@ -25,11 +25,15 @@ def widest(radii, order, count):
     return wide
 
 
-@kernel("float64(float64[:, ::1], float64[::1], int64[::1], float64[:, ::1], float64[::1], float64, float64, float64)")
-def beyond(rows, radii, order, nodes, wide, x, y, enough):
-    """Return how far a point is from what cutters sweep along rows, mm: negative = that deep within; may stop at or below `enough`."""
+@kernel("float64(float64[:, ::1], float64[::1], int64[::1], float64[:, ::1], float64[::1], float64, float64, UniTuple(float64, 2))")
+def beyond(rows, radii, order, nodes, wide, x, y, limits):
+    """Return how far a point is from what cutters sweep along rows, mm: negative = that deep within.
+
+    Args:
+        limits: at or below the first it may stop, and beyond the second it is not looked for: that is returned.
+    """
     leaves = (len(nodes) + 1) // 2
-    best = INF
+    enough, best = limits
     stack = np.empty(64, np.int64)
     stack[0], top = 0, 1
     while top > 0 and best > enough:
@@ -98,7 +102,7 @@ def undecided(rows, order, nodes, frame, frame_order, frame_nodes, path, path_or
         reach = _beyond_reach(rows, order, nodes, frame, frame_order, frame_nodes, limits, stack[top])
         if reach > far:
             continue
-        cut = beyond(path, radii, path_order, path_nodes, wide, x, y, -far)
+        cut = beyond(path, radii, path_order, path_nodes, wide, x, y, (-far, INF))
         if cut <= -far:
             continue
         if half <= limits[2] or (cut > far and reach <= -far):

@@ -177,7 +177,7 @@ class _Space:
         groups = self._groups(gaps_of(half, inner, self._radius), reach)
         points = [np.concatenate([uncut, *(gap.points(_CHORD * self._radius) for gap in group)])
                   for group, uncut in zip(groups, self._uncut(groups, half, inner), strict=True)]
-        corners = [shapely.get_coordinates(shapely.convex_hull(shapely.multipoints(each))) for each in points]
+        corners = [shapely.get_coordinates(shapely.convex_hull(shapely.linestrings(each))) for each in points]
         for group, spur in zip(groups, self._spurs(corners), strict=True):
             if spur is not None:
                 trips.append(spur)
@@ -204,14 +204,18 @@ class _Space:
             self._squares(np.concatenate([_along(gap, self._radius / 4) for gap in gaps]), inner.distance - half.distance))  # fmt: skip
         corners = found[:count, None, :2] + found[:count, 2, None, None] * np.array([[-1, -1], [-1, 1], [1, -1], [1, 1]])
         of = owner[found[:count, 3].astype(np.int64)]
-        return [corners[of == k].reshape(-1, 2) for k in range(len(groups))]
+        order = np.argsort(of, kind="stable")
+        return [each.reshape(-1, 2) for each in np.split(corners[order], np.searchsorted(of[order], np.arange(1, len(groups))))]
 
     def _squares(self, points: Floats, reach: float) -> Floats:
         """Return squares (n, 3) of half a radius that hold all within `reach`, at most a radius, of ways along points (m, 2)."""
         size = self._radius / 2
         steps = np.arange(-int(np.ceil((reach + self._radius / 4) / size)), int(np.ceil((reach + self._radius / 4) / size)) + 1)
         around = np.stack(np.meshgrid(steps, steps), -1).reshape(-1, 2)
-        cells = np.unique((np.floor(points / size).astype(np.int64)[:, None] + around).reshape(-1, 2), axis=0)
+        near = (np.floor(points / size).astype(np.int64)[:, None] + around).reshape(-1, 2)
+        first, high = near.min(axis=0), int(near[:, 1].max() - near[:, 1].min()) + 1
+        codes = np.unique((near[:, 0] - first[0]) * high + near[:, 1] - first[1])  # many times as quick as rows
+        cells = np.column_stack([codes // high, codes % high]) + first
         return np.column_stack([(cells + 0.5) * size, np.full(len(cells), size / 2)])
 
     def _groups(self, gaps: list[_Gap], reach: float) -> list[list[_Gap]]:

@@ -87,12 +87,14 @@ def squares_beyond(rows, order, nodes, gaps, gap_order, gap_nodes, path, path_or
         top -= 1
         x, y, half = stack[top, 0], stack[top, 1], stack[top, 2]
         far = half * math.sqrt(2.0)
+        cut = beyond(path, radii, path_order, path_nodes, wide, x, y, (-far, far))  # first: it decides most squares, and is soon found
+        if cut <= -far:
+            continue
         inside = nearest(rows, order, nodes, x, y, math.inf)[0] - limits[0]
         if inside + far < 0.0:
             continue
         gap = nearest(gaps, gap_order, gap_nodes, x, y, max(inside, 0.0) + 2 * far)[1]
-        cut = beyond(path, radii, path_order, path_nodes, wide, x, y, -far) if gap >= 0 else -far
-        if cut <= -far:
+        if gap < 0:
             continue
         if half <= limits[1] or (half <= 4 * limits[1] and cut >= far and inside >= far):
             if count == len(found):
