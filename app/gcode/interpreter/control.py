@@ -116,8 +116,12 @@ class Control:
 
     def state(self) -> int:
         """Return the index of what is in force."""
-        if self.modal is not self._last[0]:
-            self._last = self.modal, self._states.setdefault(self.modal, len(self._states))
+        return self.number_of(self.modal)
+
+    def number_of(self, state: ModalState) -> int:
+        """Return the index of a state."""
+        if state is not self._last[0]:
+            self._last = state, self._states.setdefault(state, len(self._states))
         return self._last[1]
 
     def length(self, block: Block, letter: str) -> float | None:
