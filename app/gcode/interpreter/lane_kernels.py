@@ -66,6 +66,8 @@ _F, _I, _J, _K, _L, _P, _Q, _R, _S, _T, _X = (ord(letter) - 65 for letter in "FI
 _MOTION, _PLANE, _DISTANCE, _ARC_DISTANCE, _FEED_MODE, _ONCE, _RETURN, _STOP, _TOOL, _SPINDLE, _MIST, _FLOOD, _DRY, _SAME = range(14)
 _SLOTS = 14
 """What a block's codes are about; of _SAME are those that change nothing, as far as they are known here."""
+_NEVER_PLAIN = (35, 77, 83, 84, 109, 115, 116)
+"""What lines begin with that are surely more than plain ones: #, M, S, T."""
 _CYCLES = (73, 81, 82, 83, 85, 89)
 _NO_MOTION = 80
 _FASTEST_SPINDLE, _MOST_TOOLS, _LONGEST_DWELL = 1e7, 1e8, 1e6
@@ -303,7 +305,8 @@ def run_lines(data, ints, reals, parameters, columns, records):
     values, waiting, slots = np.zeros(34), np.zeros(34, np.int64), np.zeros(_SLOTS, np.int64)
     old_ints, old_reals = np.zeros(INTS, np.int64), np.zeros(REALS)
     while ints[LINES_LEFT] > 0 and ints[OFFSET] < len(data):
-        _do_plain(ints, reals, data, columns, records[0])
+        if data[ints[OFFSET]] not in _NEVER_PLAIN:
+            _do_plain(ints, reals, data, columns, records[0])
         if ints[LINES_LEFT] <= 0 or ints[OFFSET] >= len(data):
             break
         old_ints[:], old_reals[:] = ints, reals

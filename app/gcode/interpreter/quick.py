@@ -156,8 +156,10 @@ class QuickLane:
     def _modal(self, base: ModalState, row: _Row) -> ModalState:
         """Return a state whose fields are those of a row, and else those of another state; kept, for most come again and again."""
         known, states = self._known
-        if known is not base and not (known is not None and _same_beside(known, base)):
-            self._known = known, states = base, {}
+        if known is not base:
+            if known is None or not _same_beside(known, base):
+                states = {}
+            self._known = base, states
         state = states.get(row)
         if state is None:
             plane, absolute, arc_absolute, spindle, flood, mist, tool, retract, speed = row
