@@ -35,12 +35,13 @@ _Row = tuple[float, ...]
 class QuickLane:
     """Does lines of a control's program in compiled code."""
 
-    def __init__(self, control: Control, text: bytes) -> None:
-        """Stand ready for a program's text."""
+    def __init__(self, control: Control, text: bytes, longest: int) -> None:
+        """Stand ready for a program's text, whose lines may have so many bytes."""
         self._control, self._data = control, np.frombuffer(text, np.uint8)
         self._ints, self._reals = np.zeros(at.INTS, np.int64), np.zeros(at.REALS)
         self._records = np.empty((2 * PORTION + 8, len(at.STATE_FIELDS) + 1)), np.empty((PORTION + 8, 4))
         self._known: tuple[ModalState | None, dict[_Row, ModalState]] = None, {}
+        self._ints[at.LONGEST] = min(LONGEST, longest)
         self._set_habits()
 
     def _set_habits(self) -> None:
@@ -49,7 +50,6 @@ class QuickLane:
         ints[at.COMPUTES] = not habits.fanuc_flow
         ints[at.TOOL_CHANGES] = habits.tool_changes
         ints[at.EXTENDED] = options.dialect is not Dialect.GRBL
-        ints[at.LONGEST] = min(LONGEST, options.limits.line_length)
         reals[at.DWELL_WHOLE], reals[at.DWELL_POINT] = habits.dwell_unit_s, habits.dwell_unit_with_point_s
 
     @property

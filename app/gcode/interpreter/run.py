@@ -58,7 +58,8 @@ class Run:
         self._control = Control(options)
         self._habits = self._control.habits
         self._flow = Flow(Places(self._text), self._control)
-        self._quick = QuickLane(self._control, self._text.data)
+        self._longest = min(options.limits.line_length, self._habits.longest_line - self._text.dropped)
+        self._quick = QuickLane(self._control, self._text.data, self._longest)
         self._kept: dict[int, Parsed | str] = {}
         self._problems: list[Problem] = []
         self._furthest, self._told = -1, 0
@@ -192,8 +193,19 @@ class Run:
             if line:
                 self._check_percent(at)
             return not line
+        behind = self._flow.next.offset
         rest = self._jump(line)
+        self._check_passed(behind)
         return not rest or self._done(self._parse(rest))
+
+    def _check_passed(self, behind: int) -> None:
+        """Refuse a line between a jump's own, which ends at an offset, and where it goes on, if the control cannot even pass over it."""
+        flow = self._flow
+        if behind < flow.next.offset and self._longest < self._options.limits.line_length:
+            found = flow.places.too_long(behind, flow.next.offset, self._longest)
+            if found is not None:
+                flow.here = found
+                raise Fault(f"the line is longer than {self._longest} characters.")
 
     def _done(self, parsed: Parsed) -> bool:
         """Do a line's block; False at the end of the program."""
@@ -213,8 +225,8 @@ class Run:
 
     def _understood(self, at: Cursor) -> Parsed | str:
         """Return a line in words, or its code: "" where there is nothing to do, or what begins with % or is a jump."""
-        if self._text.line_end(at.offset) - at.offset > self._options.limits.line_length:
-            raise Fault(f"the line is longer than {self._options.limits.line_length} characters.")
+        if self._text.line_end(at.offset) - at.offset > self._longest:
+            raise Fault(f"the line is longer than {self._longest} characters.")
         code = code_of(self._text.line(at.offset), nested=self._options.dialect is not Dialect.LINUXCNC)
         if self._options.block_delete and SLASH.match(code) is not None:
             self._control.warn("blocks that begin with a slash are left out.", "/")
