@@ -54,7 +54,10 @@ class Parameters:
         """
         if isinstance(key, int) and 0 < key <= PLAIN:
             number = float(self.plain[key])
-            return 0.0 if math.isnan(number) else number
+            if math.isnan(number):
+                self._system(key)  # which is told that somebody asks for what nobody has set
+                return 0.0
+            return number
         own = self._system(key)
         if own is not None:
             return own

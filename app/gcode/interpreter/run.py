@@ -214,7 +214,8 @@ class Run:
             return self._execute(block)
         line, before, row, said = control.line, control.modal, control.row, block.copy()
         goes_on = self._execute(block)
-        self._watch(Step(line, parsed, said, (before, control.modal), control.motion, control.feed, (row, control.row)))
+        asked, control.asked = tuple(control.asked.items()), {}
+        self._watch(Step(line, parsed, said, (before, control.modal), control.motion, control.feed, (row, control.row), asked))
         return goes_on
 
     def _check_percent(self, at: Cursor) -> None:
