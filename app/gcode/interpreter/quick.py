@@ -134,9 +134,8 @@ class QuickLane:
         if ints[at.CYCLE] == 0:
             control.cycle = None
         elif ints[at.CYCLED]:
-            depth, r, dwell, peck, control.initial = (
-                None if math.isnan(word) else word for word in reals[at.CYCLE_Z : at.INITIAL + 1]
-            )  # type: ignore[assignment]  # the height is a number
+            depth, r, dwell, peck = (None if math.isnan(word) else word for word in reals[at.CYCLE_Z : at.INITIAL])
+            control.initial = reals[at.INITIAL]
             control.cycle = Cycle(
                 f"G{ints[at.CYCLE]}", Plane(ints[at.PLANE]), depth=depth, r=r, dwell=dwell, peck=peck, unit_mm=control.unit
             )
