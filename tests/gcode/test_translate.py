@@ -118,13 +118,13 @@ def test_comments_are_in_the_controls_signs() -> None:
 
 
 REFUSED = [
-    ("fanuc", "G0 X[#5420+1]\nM2\n", "a.ngc:1:4: X[#5420+1]: an expression is not written for Fanuc"),
-    ("fanuc", "#1=2\nG0 X1\nM2\n", "a.ngc:1: parameters (#)"),
-    ("fanuc", "o1 repeat [2]\nG91 G0 X1\no1 endrepeat\nM2\n", "a.ngc:1: subroutines, loops and jumps"),
-    ("fanuc", "M98 P5\nM2\no5\nG0 X1\nM99\n", "a.ngc:1:1: M98: M98 has no counterpart"),
+    ("fanuc", "G0 X[#5420+1]\nM2\n", "a.ngc:1: what #5420 is the program does not say"),
+    ("fanuc", "G0 X1\nG0 Y#<_y>\nM2\n", "a.ngc:2: what #<_y> is the program does not say"),
+    ("fanuc", "G0 X1\nG0 X#100\nM2\n", "a.ngc:2: what #100 is the program does not say"),
+    ("grbl", "o1 if [#5221 gt 0]\nG0 X1\no1 endif\nG0 X2\nM2\n", "a.ngc:1: what #5221 is the program does not say"),
+    ("fanuc", "o1 repeat [2]\n/G0 X2\nG0 X1\no1 endrepeat\nM2\n", "a.ngc:2: a block that may be left out (/)"),
     ("fanuc", "/G0 X1\nG0 X2\nM2\n", "a.ngc:1: a block that may be left out (/)"),
     ("fanuc", "G0 X1\nM2\nG0 X5\n", "a.ngc:3: what stands behind the end"),
-    ("fanuc", "F100\nG41.1 D2\nG1 X5\nG40\nG0 X7\nM2\n", "a.ngc:2:1: G41.1: G41.1 has no counterpart"),
     ("fanuc", "F100\nG2 X0 I1 P3\nM2\n", "a.ngc:2:10: P3: several turns in one block"),
     ("haas", "F100\nG5 I1 J1 P1 Q1 X20\nM2\n", "a.ngc:2:1: G5: G5 has no counterpart"),
     ("haas", "G59.1\nG0 X1\nM2\n", "a.ngc:1:1: G59.1: G59.1 has no counterpart"),
@@ -145,6 +145,48 @@ REFUSED = [
 def test_what_has_no_counterpart_is_named(control: str, text: str, words: str) -> None:
     assert words in told(control, text)
     assert told(control, text).endswith("keep the program for LinuxCNC.")
+
+
+LOOP = "G21 F100 (slots)\nG0 X0 Y0 Z5\n#1=0\no1 while [#1 lt 3]\nG1 X[#1*10] Z-1 (slot)\nG0 Z5\n#1=[#1+1]\no1 endwhile\nM2\n"
+CALLS = "F100\no<s> sub\nG1 X#1 Y#2\nG2 X[#1+2] I1\no<s> endsub\nG0 X0 Y0\no<s> call [5] [3]\no<s> call [15] [4]\nM2\n"
+ROUND = "F100\nG0 X-10 Y0 Z5\nG1 Z-1\nG41.1 D6\nG1 X0 Y0\nY20\nX20\nY0\nG40\nG0 X30\nM2\n"
+FANUC_CALLS = "G21 G90 F100.\nG0 X0. Y0.\n#1=2\nWHILE [#1 GT 0] DO1\nM98 P7 L2\n#1=#1-1\nEND1\nM30\nO7\nG91 G1 X1.\nG90\nM99\n"
+
+
+def test_loops_are_written_as_what_they_do() -> None:
+    assert blocks("fanuc", LOOP)[2:] == [
+        "G0 X0. Y0. Z5.", "G1 X0. Z-1. F100.", "G0 Z5.", "G1 X10. Z-1.", "G0 Z5.", "G1 X20. Z-1.", "G0 Z5.",
+    ]  # fmt: skip
+    made = into("fanuc", LOOP).data
+    assert b"(LOOPS, SUBROUTINES AND JUMPS ARE WRITTEN OUT" in made and b"(PARAMETERS AND EXPRESSIONS" in made
+    assert made.count(b"(SLOT)") == 1, "a comment stands where its line is done first"
+
+
+def test_subroutines_are_written_where_they_are_called() -> None:
+    assert blocks("grbl", CALLS)[-5:] == [
+        "G0 X0.0000 Y0.0000", "G1 X5.0000 Y3.0000 F100", "G2 X7.0000 Y3.0000 I1.0000 J0.0000", "G1 X15.0000 Y4.0000",
+        "G2 X17.0000 Y4.0000 I1.0000 J0.0000",
+    ]  # fmt: skip
+
+
+def test_calls_of_fanuc_are_written_for_linuxcnc() -> None:
+    made = into("linuxcnc", FANUC_CALLS, "fanuc")
+    assert made.program.motions.end[:, 0].tolist() == [0, 1, 2, 3, 4] and b"M98" not in made.data and b"#" not in made.data
+
+
+def test_cutter_compensation_is_written_as_its_path() -> None:
+    """About a square on its left, 3 mm beside it: its outer corners are arcs of that radius."""
+    made = blocks("fanuc", ROUND)
+    assert made[-6:-1] == ["Y20.", "G2 X0. Y23. I3. J0.", "G1 X20.", "G2 X23. Y20. I0. J-3.", "G1 Y0."]
+    assert not any("G41" in line for line in made) and b"CUTTER COMPENSATION IS WRITTEN OUT" in into("fanuc", ROUND).data
+
+
+@pytest.mark.parametrize("control", ["fanuc", "haas", "mach3", "grbl"])
+@pytest.mark.parametrize("text", [LOOP, CALLS, ROUND])
+def test_what_is_written_out_moves_alike(control: str, text: str) -> None:
+    before = read_program(text.encode())
+    made = into(control, text)
+    assert_moves_alike(before, made.program, made.off)
 
 
 @pytest.mark.parametrize("control", CONTROLS)

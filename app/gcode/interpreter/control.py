@@ -24,6 +24,11 @@ from .splines import OpenFanucNurbs, OpenNurbs
 MOST_EVENTS = 1_000_000
 MOST_WARNINGS = 200
 
+_PLACES: dict[Key, int] = {5001: 0, 5002: 1, 5003: 2, 5420: 0, 5421: 1, 5422: 2, "_x": 0, "_y": 1, "_z": 2}
+"""Parameters that say where the tool is along an axis: the program tells that as soon as it has moved it there."""
+_OF_THE_PROGRAM = (5220, 5400)
+"""Numbers of work offset and tool."""
+
 CONTROL_NAMES = {"_vmajor": 2.9, "_vminor": 0.0}
 
 
@@ -46,6 +51,7 @@ class Control:
         compensation: G41 or G42, None = G40. stray: where the tool itself is when that is not where the program takes it to be,
             after G40.
         line: 1-based, of the block that is running. unrolled: blocks that were done again.
+        asked: parameters that the machine tells, or that nobody has set, and the line that read each first.
         columns, splines, events, homeward, warnings: what comes out; a warning is a text, its letter and its line.
     """
 
@@ -75,6 +81,7 @@ class Control:
         self.homeward: list[int] = []
         self.warnings: dict[str, tuple[str, int]] = {}
         self.parameters = Parameters(self.own_parameter, local_numbers=33 if self.habits.fanuc_flow else 30)
+        self.asked: dict[Key, int] = {}
         self._states: dict[ModalState, int] = {}
         self._last: tuple[ModalState | None, int] = (None, 0)
 
@@ -116,8 +123,12 @@ class Control:
 
     def state(self) -> int:
         """Return the index of what is in force."""
-        if self.modal is not self._last[0]:
-            self._last = self.modal, self._states.setdefault(self.modal, len(self._states))
+        return self.number_of(self.modal)
+
+    def number_of(self, state: ModalState) -> int:
+        """Return the index of a state."""
+        if state is not self._last[0]:
+            self._last = state, self._states.setdefault(state, len(self._states))
         return self._last[1]
 
     def length(self, block: Block, letter: str) -> float | None:
@@ -262,6 +273,9 @@ class Control:
 
     def own_parameter(self, key: Key) -> float | None:
         """Return a parameter that the control itself sets, None if it is another; those of tables are in mm."""
+        axis = _PLACES.get(key)
+        if (axis is not None and self.known[axis] < 0) or (axis is None and isinstance(key, int) and key not in _OF_THE_PROGRAM):
+            self.asked.setdefault(key, self.line)
         if isinstance(key, str):
             return self._named(key) if key.startswith("_") else None
         if key < 5001:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
+MANY = 1_000_000_000
+"""More than `ReadLimits` allow."""
+
 
 class Dialect(Enum):
     """The control's language."""
@@ -28,6 +31,8 @@ class Habits:
         dwell_unit_s: what P of G4 counts in, s, where it has no decimal point. dwell_unit_with_point_s: where it has one.
         length_from_tool: G43 without H takes the length of the tool in the spindle.
         tool_changes: M6 is known. splines: "G5" (LinuxCNC), "G6.2" (Fanuc) or "".
+        calls: how deep subroutines may call one another.
+        longest_line: bytes of a line, its end not counted where that is one byte.
         missing: G words that other dialects have and this one refuses.
     """
 
@@ -41,6 +46,8 @@ class Habits:
     length_from_tool: bool = True
     tool_changes: bool = True
     splines: str = "G5"
+    calls: int = MANY
+    longest_line: int = MANY
     missing: frozenset[str] = frozenset()
 
 
@@ -54,7 +61,7 @@ _LINUXCNC_LACKS = frozenset({
 })  # fmt: skip
 
 HABITS: dict[Dialect, Habits] = {
-    Dialect.LINUXCNC: Habits("LinuxCNC", missing=_LINUXCNC_LACKS),
+    Dialect.LINUXCNC: Habits("LinuxCNC", calls=9, longest_line=252, missing=_LINUXCNC_LACKS),
     Dialect.GRBL: Habits("grbl", ngc_flow=False, tool_changes=False, splines="", missing=_GRBL_LACKS),
     Dialect.FANUC: Habits(
         "Fanuc", ngc_flow=False, fanuc_flow=True, least_mm=0.001, least_inch=0.0001, dwell_unit_s=0.001,

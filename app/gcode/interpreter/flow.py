@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from .control import Control
 from .expression import Value, Values, evaluated, whole
 from .fault import Fault
+from .labels import Labels
 from .parameters import Key
 from .places import KEYWORDS, Cursor, Places, Statement, label_of
 
@@ -70,6 +71,7 @@ class Flow:
         self.places, self._control = places, control
         self.next = self.here = Cursor(0, 1)
         self.frames = [Frame()]
+        self._labels = Labels()
         self._seen: dict[int, tuple[object, ...]] = {}
         self._statements: dict[int, tuple[Statement, int]] = {}
         self._conditions: dict[str, Value] = {}
@@ -103,8 +105,9 @@ class Flow:
             count: how often, >= 1.
         """
         label, begin = place
-        if len(self.frames) > self._control.options.limits.calls:
-            raise Fault(f"subroutines call one another more than {self._control.options.limits.calls} deep.")
+        deepest = min(self._control.options.limits.calls, self._control.habits.calls)
+        if len(self.frames) > deepest:
+            raise Fault(f"subroutines call one another more than {deepest} deep.")
         self.frames.append(Frame(label, begin, self.next, count - 1, arguments is not None))
         if arguments is not None:
             self._control.parameters.enter(arguments)
@@ -183,7 +186,9 @@ class Flow:
 
     def _sub(self, statement: Statement, values: Values) -> None:
         """Pass over a subroutine that nobody calls here."""
-        self.next = self.places.after(self._partner(statement, "endsub").at)
+        end = self._partner(statement, "endsub")
+        self._labels.meet_subroutine(statement, self.places.subroutine_between(statement.at.offset, end.at.offset))
+        self.next = self.places.after(end.at)
 
     def _endsub(self, statement: Statement, values: Values) -> None:
         frame = self.frames[-1]
@@ -211,11 +216,13 @@ class Flow:
                         "it into this one.")  # fmt: skip
         if found.keyword != "sub":
             raise Fault(f"O{statement.label} is a subroutine of M98, for it has no sub; call it with M98 P{statement.label}.")
+        found = self._labels.call_subroutine(found)
         arguments: dict[Key, float] = {number: (given[number - 1] if number <= len(given) else 0.0) for number in range(1, 31)}
         self.call((statement.label, self.places.after(found.at)), arguments, 1)
         self.frames[-1].called = True
 
     def _if(self, statement: Statement, values: Values) -> None:
+        self._labels.define(statement, self.frames[-1].label)
         branch, holds = statement, self._condition(values) != 0
         while not holds:
             branch = self._partner(branch, "elseif", "else", "endif")
@@ -236,12 +243,15 @@ class Flow:
 
     def _else(self, statement: Statement, values: Values) -> None:
         """Come to the end of a branch that was taken."""
+        self._labels.need_if(statement, self.frames[-1].label)
         self.next = self.places.after(self._partner(statement, "endif").at)
 
     def _endif(self, statement: Statement, values: Values) -> None:
         """Go on."""
+        self._labels.need_if(statement, self.frames[-1].label)
 
     def _do(self, statement: Statement, values: Values) -> None:
+        self._labels.begin_do(statement, self.frames[-1].label)
         self.frames[-1].loops[statement.label] = Loop(statement)
 
     def _while(self, statement: Statement, values: Values) -> None:
@@ -249,22 +259,34 @@ class Flow:
         open_loop = loops.get(statement.label)
         holds = self._condition(values) != 0
         if open_loop is not None and open_loop.begin.keyword == "do":
+            self._labels.end_do(open_loop.begin, self.frames[-1].label, statement.at.line)
             if holds:
                 self.jump(self.places.after(open_loop.begin.at))
             else:
                 del loops[statement.label]
-        elif holds:
+            return
+        self._labels.define(statement, self.frames[-1].label)
+        if holds:
             loops[statement.label] = Loop(statement)
         else:
             loops.pop(statement.label, None)
-            self.next = self.places.after(self._partner(statement, "endwhile").at)
+            self._pass_over(statement, "endwhile")
 
     def _repeat(self, statement: Statement, values: Values) -> None:
+        self._labels.define(statement, self.frames[-1].label)
         count = self._condition(values)
         if count >= 0.5:
             self.frames[-1].loops[statement.label] = Loop(statement, round(count) - 1)
         else:
-            self.next = self.places.after(self._partner(statement, "endrepeat").at)
+            self._pass_over(statement, "endrepeat")
+
+    def _pass_over(self, statement: Statement, keyword: str) -> None:
+        """Go on behind a loop that is not done at all."""
+        end = self._partner(statement, keyword, "else", "elseif")
+        if end.keyword != keyword:
+            self.here = end.at
+            self._labels.need_if(end, self.frames[-1].label)
+        self.next = self.places.after(end.at)
 
     def _end_loop(self, statement: Statement, values: Values) -> None:
         """Come to endwhile or endrepeat."""

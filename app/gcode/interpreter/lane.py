@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from .columns import Columns
 
 _PORTION = 8192
+LONGEST = 1000
+"""Bytes of a line that the lane reads; the core is for longer ones."""
 
 
 @dataclass(slots=True)
@@ -69,7 +71,7 @@ def plain_blocks(data: NDArray[np.uint8], at: tuple[int, int], plain: Plain, col
         portion = min(most_lines, _PORTION)
         columns.reserve(portion)
         modes = (offset, line, columns.count, plain.motion, portion, plain.plane, plain.state,
-                 plain.absolute, plain.arc_absolute, plain.semicolon_comments)  # fmt: skip
+                 plain.absolute, plain.arc_absolute, plain.semicolon_comments, LONGEST)  # fmt: skip
         places = plain.position, plain.shift, plain.known
         first = line
         offset, line, columns.count, plain.motion, plain.feed = run_plain(

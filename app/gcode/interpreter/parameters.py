@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
+import numpy as np
+
+from ...model.motion import Floats
 from .fault import Fault
 
 Key = int | str
@@ -11,14 +15,19 @@ System = Callable[[Key], float | None]
 """What the control says of a parameter of its own; None = it is none."""
 
 LARGEST = 99_999
+PLAIN = 5000
+"""Up to this number no parameter is the control's own."""
 MOST = 200_000
 """So many parameters may be set; a real program sets some hundred."""
+
+_Kept = tuple[dict[str, float], Floats]
 
 
 class Parameters:
     """Values by number or name.
 
     Attributes:
+        plain: (5001,) values by number, NaN = not set; compiled code reads and writes them, too.
         changes: how often a value became another one; alike at two times = nothing has changed between.
     """
 
@@ -29,10 +38,12 @@ class Parameters:
             system: asked first.
             local_numbers: #1 to this one belong to the subroutine that is running.
         """
-        self._system, self._local_numbers = system, local_numbers
+        self._system = system
+        self._local = slice(1, local_numbers + 1)
+        self.plain: Floats = np.full(PLAIN + 1, math.nan)
         self._everywhere: dict[Key, float] = {}
-        self._here: dict[Key, float] = {}
-        self._callers: list[dict[Key, float]] = []
+        self._here: dict[str, float] = {}
+        self._callers: list[_Kept] = []
         self.changes = 0
 
     def get(self, key: Key) -> float:
@@ -41,6 +52,12 @@ class Parameters:
         Raises:
             Fault: a name that was never set, or a number out of range.
         """
+        if isinstance(key, int) and 0 < key <= PLAIN:
+            number = float(self.plain[key])
+            if math.isnan(number):
+                self._system(key)  # which is told that somebody asks for what nobody has set
+                return 0.0
+            return number
         own = self._system(key)
         if own is not None:
             return own
@@ -53,7 +70,7 @@ class Parameters:
             raise Fault(f"there is no parameter #{key}; use 1 to {LARGEST}.")
         return 0.0
 
-    def exists(self, key: Key) -> bool:
+    def exists(self, key: str) -> bool:
         """Tell whether a named parameter has a value."""
         return self._system(key) is not None or key in self._place(key)
 
@@ -67,6 +84,11 @@ class Parameters:
             raise Fault(f"there is no parameter #{key} to set; use 1 to {LARGEST}.")
         if isinstance(key, str) and self._system(key) is not None:
             raise Fault(f"#<{key}> is the control's own and cannot be set.")
+        if isinstance(key, int) and key <= PLAIN:
+            if self.plain[key] != value:
+                self.changes += 1
+                self.plain[key] = value
+            return
         place = self._place(key)
         if place.get(key) != value:
             self.changes += 1
@@ -76,19 +98,29 @@ class Parameters:
 
     def values(self) -> tuple[tuple[Key, float], ...]:
         """Return every parameter that the program has set and can use here."""
-        return (*self._everywhere.items(), *self._here.items())
+        numbers = np.flatnonzero(~np.isnan(self.plain))
+        plain = zip(numbers.tolist(), self.plain[numbers].tolist(), strict=True)
+        return (*plain, *self._everywhere.items(), *self._here.items())
 
     def enter(self, arguments: dict[Key, float]) -> None:
-        """Begin a subroutine with parameters of its own."""
-        self._callers.append(self._here)
-        self._here = dict(arguments)
+        """Begin a subroutine with parameters of its own.
+
+        Args:
+            arguments: their values, by numbers that belong to the subroutine.
+        """
+        self._callers.append((self._here, self.plain[self._local].copy()))
+        self._here = {}
+        self.plain[self._local] = math.nan
+        for key, value in arguments.items():
+            assert isinstance(key, int)
+            self.plain[key] = value
         self.changes += 1
 
     def leave(self) -> None:
         """Go back to the caller's parameters."""
-        self._here = self._callers.pop()
+        self._here, self.plain[self._local] = self._callers.pop()
         self.changes += 1
 
     def _place(self, key: Key) -> dict[Key, float]:
-        local = 0 < key <= self._local_numbers if isinstance(key, int) else not key.startswith("_")
-        return self._here if local else self._everywhere
+        named_here = isinstance(key, str) and not key.startswith("_")
+        return self._here if named_here else self._everywhere  # type: ignore[return-value]  # names alone are kept here

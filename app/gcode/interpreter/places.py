@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass
+
+import numpy as np
 
 from .fault import Fault
 from .text import Text, code_of
@@ -27,6 +29,7 @@ _DO_END = re.compile(rb"^[ \t]*(?:n[ \t]*[0-9]+[ \t]*)?(?:while[^\n(]*\]do|(end)
 
 
 MOST_PLACES = 500_000
+_LINE_END = 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +58,8 @@ class Places:
         self._by_label: dict[str, list[Statement]] | None = None
         self._numbers: dict[int, list[Cursor]] | None = None
         self._loops: list[tuple[Cursor, bool, int]] | None = None
+        self._subroutines: list[Statement] | None = None
+        self._long: list[Cursor] | None = None
 
     def end_at(self, offset: int) -> None:
         """Look no farther than to an offset: what stands behind a program's closing per cent sign no control reads."""
@@ -77,6 +82,32 @@ class Places:
     def subroutine(self, label: str) -> Statement | None:
         """Return where a subroutine begins: an O word with sub, or with nothing (a program number)."""
         return next((each for each in self._statements(label) if each.keyword in ("sub", "")), None)
+
+    def subroutine_between(self, begin: int, end: int) -> Statement | None:
+        """Return the first sub between two offsets, both excluded."""
+        if self._subroutines is None:
+            self._statements("")
+            subs = (each for own in (self._by_label or {}).values() for each in own if each.keyword == "sub")
+            self._subroutines = sorted(subs, key=lambda each: each.at.offset)
+        first = bisect_right(self._subroutines, begin, key=lambda each: each.at.offset)
+        found = next(iter(self._subroutines[first : first + 1]), None)
+        return found if found is not None and found.at.offset < end else None
+
+    def too_long(self, begin: int, end: int, longest: int) -> Cursor | None:
+        """Return the first line between two offsets, the first one of which begins a line, that has more bytes than a control reads.
+
+        Args:
+            begin, end: offsets, the latter excluded.
+            longest: bytes without the line's end, always the same.
+        """
+        if self._long is None:
+            ends = np.flatnonzero(np.frombuffer(self._text.data, np.uint8) == _LINE_END)
+            begins = np.concatenate([[0], ends[:-1] + 1])
+            lines = np.flatnonzero(ends - begins > longest)
+            self._long = [Cursor(offset, line + 1) for offset, line in zip(begins[lines].tolist(), lines.tolist(), strict=True)]
+        first = bisect_left(self._long, begin, key=lambda line: line.offset)
+        found = next(iter(self._long[first : first + 1]), None)
+        return found if found is not None and found.offset < end else None
 
     def number(self, number: int, behind: int) -> Cursor | None:
         """Return the line with an N word: the first one behind an offset, else the first of the text."""

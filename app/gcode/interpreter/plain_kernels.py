@@ -17,7 +17,7 @@ _RAPID, _LINE, _CW, _CCW = range(4)
 _ABSENT, _WHOLE, _POINT = range(3)  # how a number is written; _WHOLE: without a decimal point
 _POWERS = np.array([float(f"1e{k}") for k in range(23)])  # exact, so that digits / power rounds once, as float(text) does
 _DIGITS_BOUND = 10**15  # whole numbers below it are exact as floats
-_LONGEST_LINE, _LARGEST_NUMBER = 1000, 999_999_999
+_LARGEST_NUMBER = 999_999_999
 _FARTHEST, _FASTEST = 1e6, 1e7  # mm, mm/min
 _LEAST_RADIUS, _RADII_ALIKE, _SLACK = 0.01, 0.0045, 1e-6  # mm; no control asks for more
 
@@ -86,8 +86,8 @@ def _column(c):
     return _R if c == 82 else _F if c == 70 else -1
 
 
-@kernel("UniTuple(int64, 2)(Array(uint8, 1, 'C', True), int64, boolean, float64[::1], int64[::1])")
-def _read_line(data, start, semicolons, words, given):
+@kernel("UniTuple(int64, 2)(Array(uint8, 1, 'C', True), int64, int64, boolean, float64[::1], int64[::1])")
+def _read_line(data, start, longest, semicolons, words, given):
     """Read a line into words and how each is written; return (offset of the next line, G number or -1); (-1, -1): not plain."""
     given[:] = _ABSENT
     motion, i, seen = -1, start, False
@@ -111,7 +111,7 @@ def _read_line(data, start, semicolons, words, given):
             i, words[column], given[column] = _number(data, i + 1)
             if given[column] == _ABSENT:
                 return -1, -1
-        if i < 0 or i - start > _LONGEST_LINE:
+        if i < 0 or i - start > longest:
             return -1, -1
         seen = seen or (c != 32 and c != 9)
     return min(i + 1, len(data)), motion
@@ -167,7 +167,7 @@ def _write(columns, row, start, end, centre, feed, numbers):
 
 
 @kernel(
-    "Tuple((int64, int64, int64, int64, float64))(Array(uint8, 1, 'C', True), UniTuple(float64, 3), UniTuple(int64, 10), "
+    "Tuple((int64, int64, int64, int64, float64))(Array(uint8, 1, 'C', True), UniTuple(float64, 3), UniTuple(int64, 11), "
     f"Tuple((float64[::1], float64[::1], int64[::1])), {_COLUMNS})"
 )
 def run_plain(data, factors, modes, places, columns):
@@ -175,18 +175,19 @@ def run_plain(data, factors, modes, places, columns):
 
     Args:
         factors: mm per unit of numbers with a decimal point, of others, and the feed in mm/min (NaN = not known).
-        modes: offset, line, count of motions, motion, most lines, plane, state, absolute, arc_absolute, semicolons.
+        modes: offset, line, count of motions, motion, most lines, plane, state, absolute, arc_absolute, semicolons,
+            bytes that a line may have.
         places: position and shift, mm; (6,) first row that commands each axis, by an absolute word and, where none has yet, by an
             incremental one. Position and rows are changed.
         columns: of the motions, with room for a motion a line.
     """
     scale, bare_scale, feed = factors
-    offset, line, count, motion, lines_left, plane, state, absolute, arc_absolute, semicolons = modes
+    offset, line, count, motion, lines_left, plane, state, absolute, arc_absolute, semicolons, longest = modes
     position, shift, known = places
     words, lengths, given = np.zeros(8), np.zeros(8), np.zeros(8, np.int64)
     end, centre = np.zeros(3), np.zeros(3)
     while lines_left > 0 and offset < len(data):
-        following, named = _read_line(data, offset, semicolons != 0, words, given)
+        following, named = _read_line(data, offset, longest, semicolons != 0, words, given)
         moves = given[_X] + given[_Y] + given[_Z] != _ABSENT
         round_words = given[_I] + given[_J] + given[_K] + given[_R] != _ABSENT
         kind = named if named >= 0 else motion

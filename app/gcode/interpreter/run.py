@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import re
 
-import numpy as np
-
 from ...core.errors import MOST_QUOTED, shortened
 from ...core.progress import Progress
 from .block import SLASH, Block, Parsed, block_of, parse
@@ -15,14 +13,14 @@ from .dialect import Dialect
 from .fault import Fault
 from .flow import MOST_KEPT, Flow
 from .foreign import adapt, call_macro, is_leader, warn_of_numbers
-from .lane import Plain, plain_blocks
 from .macro import call_or_return, is_macro, obey_macro
 from .moves import move
 from .notes import notes
 from .options import ReadOptions
 from .places import Cursor, Places
 from .polar import check_polar, turn_polar_into_axes
-from .program import EventKind, FeedMode, NcProgram, Problem, Severity
+from .program import EventKind, NcProgram, Problem, Severity
+from .quick import QuickLane
 from .settings import before_motion, set_once
 from .steps import Step, Watch
 from .text import Text, code_of, column_of
@@ -36,15 +34,14 @@ PLAIN_LINES_A_BLOCK = 16
 LEADER = 4096
 """Bytes before the per cent sign that may be something else."""
 
-_PLAIN = re.compile(rb"(?:[ \txyzijkrfnXYZIJKRFN0-9.+\-]+|[gG][ \t]*0?[0-3](?![ \t]*[0-9.]))*+(?:[(;][^\n]*)?\n")
-"""A line that the lane may know how to do."""
+_NOT_QUICK = b"oO%/:"
+"""What a line begins with that the compiled lane does not do."""
 
 _LEADER = re.compile(rb"[ \t\n\v\f\0]*%")
 _CLOSED = re.compile(rb"^[ \t]*%[ \t]*$", re.MULTILINE)
 _PERCENT = re.compile(rb"^[ \t]*%", re.MULTILINE)
 _O_WORD = re.compile(r"/?(?:n[0-9.]+)?[o:]")
 _PROGRAM_NUMBER = re.compile(r"^(/?(?:n[0-9.]+)?)[o:]")
-_MOTIONS = ("G0", "G1", "G2", "G3")
 _ENDS = ("M2", "M30")
 
 
@@ -61,8 +58,8 @@ class Run:
         self._control = Control(options)
         self._habits = self._control.habits
         self._flow = Flow(Places(self._text), self._control)
-        self._bytes = np.frombuffer(self._text.data, np.uint8)
-        self._plain = Plain()
+        self._longest = min(options.limits.line_length, self._habits.longest_line - self._text.dropped)
+        self._quick = QuickLane(self._control, self._text.data, self._longest)
         self._kept: dict[int, Parsed | str] = {}
         self._problems: list[Problem] = []
         self._furthest, self._told = -1, 0
@@ -151,8 +148,7 @@ class Run:
             self.stopped, self.inside = True, flow.nested
             return False
         self._count()
-        longest = flow.next.offset + self._options.limits.line_length + 1
-        if self._watch is None and _PLAIN.match(self._text.data, flow.next.offset, longest) is not None and self._plain_lines():
+        if self._watch is None and self._quick_lines():
             return True
         flow.here, self._control.line = flow.next, flow.next.line
         flow.next = Cursor(self._text.line_end(flow.here.offset) + 1, flow.here.line + 1)
@@ -170,33 +166,18 @@ class Run:
             self._told = 0
             self._progress.step(at.offset / len(self._text.data), "Reading NC")
 
-    def _plain_lines(self) -> bool:
-        """Let the lane do what it can; False where that is nothing."""
-        control, plain, flow = self._control, self._plain, self._flow
-        modal = control.modal
-        if control.curve is not None or control.compensation is not None or control.stray is not None:
+    def _quick_lines(self) -> bool:
+        """Let the compiled lane do what it can; False where that is nothing."""
+        flow, begin = self._flow, self._flow.next
+        if self._text.data[begin.offset] in _NOT_QUICK or not self._quick.ready:
             return False
-        if modal.feed_mode is not FeedMode.PER_MINUTE or modal.rotation != 0.0:
+        behind = self._quick.run(begin, self._stop)
+        if behind.line == begin.line:
             return False
-        room = self._options.limits.motions - control.columns.count
-        plain.position[:], plain.feed, plain.known[:] = control.at, control.feed, control.known
-        plain.motion = _MOTIONS.index(control.motion) if control.motion in _MOTIONS else -1
-        plain.scale, plain.bare_scale = control.unit, control.unit * control.least
-        plain.absolute, plain.arc_absolute, plain.plane = modal.absolute, modal.arc_absolute, int(modal.plane)
-        plain.shift[:], plain.state = modal.shift, control.state()
-        begin = flow.next
-        text = self._bytes if begin.offset > self._stop else self._bytes[: self._stop]
-        offset, line = plain_blocks(text, (begin.offset, begin.line), plain, control.columns, min(room, LINES_A_STEP))
-        if line == begin.line:
-            return False
-        x, y, z = plain.position.tolist()
-        control.at, control.feed, control.known = (x, y, z), plain.feed, plain.known.tolist()
-        if plain.motion >= 0:
-            control.motion, control.cycle = _MOTIONS[plain.motion], None
-        flow.here, flow.next = begin, Cursor(offset, line)
-        self._told += line - begin.line - 1
+        flow.here, flow.next = begin, behind
+        self._told += behind.line - begin.line - 1
         if begin.offset < self._furthest:
-            control.unroll((line - begin.line) // PLAIN_LINES_A_BLOCK)
+            self._control.unroll((behind.line - begin.line) // PLAIN_LINES_A_BLOCK)
         return True
 
     def _obey(self, at: Cursor) -> bool:
@@ -212,8 +193,19 @@ class Run:
             if line:
                 self._check_percent(at)
             return not line
+        behind = self._flow.next.offset
         rest = self._jump(line)
+        self._check_passed(behind)
         return not rest or self._done(self._parse(rest))
+
+    def _check_passed(self, behind: int) -> None:
+        """Refuse a line between a jump's own, which ends at an offset, and where it goes on, if the control cannot even pass over it."""
+        flow = self._flow
+        if behind < flow.next.offset and self._longest < self._options.limits.line_length:
+            found = flow.places.too_long(behind, flow.next.offset, self._longest)
+            if found is not None:
+                flow.here = found
+                raise Fault(f"the line is longer than {self._longest} characters.")
 
     def _done(self, parsed: Parsed) -> bool:
         """Do a line's block; False at the end of the program."""
@@ -222,7 +214,8 @@ class Run:
             return self._execute(block)
         line, before, row, said = control.line, control.modal, control.row, block.copy()
         goes_on = self._execute(block)
-        self._watch(Step(line, parsed, said, (before, control.modal), control.motion, control.feed, (row, control.row)))
+        asked, control.asked = tuple(control.asked.items()), {}
+        self._watch(Step(line, parsed, said, (before, control.modal), control.motion, control.feed, (row, control.row), asked))
         return goes_on
 
     def _check_percent(self, at: Cursor) -> None:
@@ -233,8 +226,8 @@ class Run:
 
     def _understood(self, at: Cursor) -> Parsed | str:
         """Return a line in words, or its code: "" where there is nothing to do, or what begins with % or is a jump."""
-        if self._text.line_end(at.offset) - at.offset > self._options.limits.line_length:
-            raise Fault(f"the line is longer than {self._options.limits.line_length} characters.")
+        if self._text.line_end(at.offset) - at.offset > self._longest:
+            raise Fault(f"the line is longer than {self._longest} characters.")
         code = code_of(self._text.line(at.offset), nested=self._options.dialect is not Dialect.LINUXCNC)
         if self._options.block_delete and SLASH.match(code) is not None:
             self._control.warn("blocks that begin with a slash are left out.", "/")

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from .block import Block, Parsed
+from .parameters import Key
 from .program import ModalState
 
 
@@ -20,6 +21,7 @@ class Step:
         motion: the G word that bare axis words obey behind it.
         feed: behind it, mm/min, mm a revolution or 1/min, by the feed mode; NaN = not said.
         rows: the first motion that it made, and the one behind its last.
+        asked: parameters whose values the machine tells, and the lines that read them, since the block before.
     """
 
     line: int
@@ -29,6 +31,7 @@ class Step:
     motion: str
     feed: float
     rows: tuple[int, int]
+    asked: tuple[tuple[Key, int], ...] = ()
 
 
 Watch = Callable[[Step], None]

@@ -19,6 +19,7 @@ class Text:
     Attributes:
         data: the bytes with line feeds for all line ends; the last line has one too.
         encoding: "ascii", "utf-8" or "latin-1".
+        dropped: bytes of each line end that are not there any more.
     """
 
     def __init__(self, data: bytes) -> None:
@@ -26,6 +27,7 @@ class Text:
         if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
             data = data.decode("utf-16", "replace").encode()
         data = data.removeprefix(codecs.BOM_UTF8)
+        self.dropped = int(b"\r\n" in data)
         if b"\r" in data:
             data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
         self.data = data if data.endswith(b"\n") or not data else data + b"\n"

@@ -24,6 +24,8 @@ _SAID_OTHERWISE = ("G61.1", "G64", "G90.1", "G97", "G98", "G99", "G187")
 """Of these only what they mean is written, so that it is nothing whether the other control has the word."""
 WRITTEN_OUT = ("G73", "G81", "G82", "G83", "G85", "G89")
 """Cycles that can be written as moves and dwells; in the others the spindle stops or turns back."""
+WRITTEN_AS_MOTIONS = frozenset({"G41", "G42", "G41.1", "G42.1", "G65", "M97", "M98", "M99"})
+"""Cutter compensation and calls: what they make of the path is written."""
 TABLE_LETTERS = frozenset("lpxyz")
 
 
@@ -73,11 +75,9 @@ def check_step(step: Step, source: Source) -> None:
         InputError: it names line, word and why.
     """
     title = source.post.title
-    if step.parsed.settings:
-        raise source.refusal(step.line, f"parameters (#) are not written for {title}")
-    for word in step.parsed.words:
-        if not isinstance(word.value, float):
-            raise source.refusal(step.line, f"an expression is not written for {title}", (word.begin, word.end))
+    for key, line in step.asked:
+        named = f"#{key}" if isinstance(key, int) else f"#<{key}>"
+        raise source.refusal(line, f"what {named} is the program does not say, so what it makes of it cannot be written for {title}")
     for code in [*step.block.codes.values(), *step.block.coolant, *step.block.unknown]:
         why = _missing(code, step, source)
         if why:
@@ -93,9 +93,9 @@ def _missing(code: str, step: Step, source: Source) -> str:
         return "" if habits.tool_changes else f"{post.title} changes no tools, so each needs a file of its own"
     if code in CYCLES:
         return "" if code in WRITTEN_OUT else f"{code} has no counterpart on {post.title} that is known to do the same"
-    if code in habits.missing and code not in _SAID_OTHERWISE:
+    if code in habits.missing and code not in _SAID_OTHERWISE and code not in WRITTEN_AS_MOTIONS:
         return f"{post.title} has no {code}"
-    if code in ALIKE or code in ("G43", "G95"):
+    if code in ALIKE or code in WRITTEN_AS_MOTIONS or code in ("G43", "G95"):
         return ""
     special = _SPECIAL.get(code)
     if special is not None and special(step, source):

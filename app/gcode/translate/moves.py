@@ -31,7 +31,7 @@ class Mover:
         self._sheet, self._program = sheet, program
         self._motions: Motions = program.motions
         self._arcs: ArcPaths = arc_paths(program.motions)
-        self._initial = 0.0
+        self._initial = self._feed = 0.0
         self._dwells = {(event.line, event.before): event.value for event in program.events if event.kind is EventKind.DWELL}
 
     @property
@@ -55,7 +55,12 @@ class Mover:
             self._cycle(step)
         else:
             for row in range(*step.rows):
-                self._row(step, row, "".join(letter for letter in "XYZ" if step.block.has(letter.lower())))
+                self._row(step, row, self._letters(step, row))
+
+    def _letters(self, step: Step, row: int) -> str:
+        """Return the axes that a block names, and those along which its motion goes without: cutter compensation has moved it."""
+        start, end = self._place(row, self._motions.start[row]), self._place(row, self._motions.end[row])
+        return "".join(letter for k, letter in enumerate("XYZ") if step.block.has(letter.lower()) or start[k] != end[k])
 
     def _said(self, step: Step, letters: str) -> list[str]:
         """Return length words of a block as they stand there."""
@@ -100,6 +105,7 @@ class Mover:
 
     def _row(self, step: Step, row: int, letters: str) -> None:
         """Write one motion; of a line with the axes that are named."""
+        self._feed = float(self._motions.feed[row])
         kind = MotionKind(self._motions.kind[row])
         start, end = self._place(row, self._motions.start[row]), self._place(row, self._motions.end[row])
         if kind in (MotionKind.RAPID, MotionKind.LINE):
@@ -126,7 +132,7 @@ class Mover:
         sheet.leave_cycle()
         motion = sheet.post.words.motion[kind]
         head = [] if motion == sheet.motion and sheet.post.words.modal_motion and not length else [motion]
-        feed = "" if kind is MotionKind.RAPID else sheet.feed_word(step)
+        feed = "" if kind is MotionKind.RAPID else sheet.feed_word(step, self._feed)
         body = [letter + words[letter] for letter in "XYZIJK" if letter in words]
         sheet.emit(" ".join([*head, *([length] if length else []), *body, *([feed] if feed else [])]))
         sheet.motion = motion
@@ -212,7 +218,7 @@ class Mover:
         (_, _, top), (x, y, z) = self._place(row, motions.start[row]), self._place(row, motions.end[row])
         values = (("X", x, "X"), ("Y", y, "Y"), ("Z", z, "Z"), ("R", top, "Z"))
         body = [letter + self._numeral(count, self._digits(like)) for letter, count, like in values]
-        feed = sheet.feed_word(step)
+        feed = sheet.feed_word(step, float(motions.feed[row]))
         sheet.emit(" ".join([words.to_r if state.retract_to_r else words.to_initial, words.drill, *body, *([feed] if feed else [])]))
         sheet.cycle, sheet.motion, self._initial = words.drill, "", initial
         return True

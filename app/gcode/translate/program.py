@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from ...model.part import Units
 from ..checks.elsewhere import elsewhere, read_elsewhere
 from ..interpreter.codes import Group
 from ..interpreter.dialect import HABITS
+from ..interpreter.macro import is_macro
 from ..interpreter.options import PATIENT, ReadOptions
 from ..interpreter.program import NcProgram
 from ..interpreter.reader import read_program, read_steps
@@ -33,6 +34,8 @@ _LINES_A_STEP = 1000
 _COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
 _COMMENT = re.compile(r"\(([^()]*)\)|;(.*)$")
 _NUMBER = re.compile(r"(?:/|n[0-9.]+)*[o:]([0-9]+)$")
+_O_WORD = re.compile(r"(?:/|n[0-9.]+)*o")
+_COMPENSATION = frozenset({"G41", "G42", "G41.1", "G42.1"})
 _STALE = re.compile(
     r"hitofude for |hitofude: blend_mm|hitofude smooth:|proven on the path|the control may add|"
     r"(?:tolerance|largest bend|effective points)\b.*(?:proven|after|corrected)", re.IGNORECASE,
@@ -59,7 +62,8 @@ class Translated:
 def translated(name: str, data: bytes, read: ReadOptions, post: Post, progress: Progress = NO_PROGRESS) -> Translated:
     """Return a program in the words of a post, proven by reading it back as that post's control would.
 
-    Comments stay, as the control takes them. Cycles that it has not, or that its own settings change, are moves; a length that
+    Comments stay, as the control takes them. Loops, subroutines, jumps, expressions and cutter compensation are written as the motions that
+    they make, and the head says so. Cycles that it has not, or that its own settings change, are moves; a length that
     its G43 takes up by moving stands with the next move along Z.
 
     Args:
@@ -81,33 +85,89 @@ def translated(name: str, data: bytes, read: ReadOptions, post: Post, progress: 
 
 
 def _written(source: Source, program: NcProgram, steps: tuple[Step, ...], progress: Progress) -> bytes:
-    """Return the text; every line of the first one in its order."""
-    by_line = {step.line: step for step in reversed(steps)}
-    times = Counter(step.line for step in steps)
+    """Return the text: every line of the first one in its order, or, where it jumps, every block in the order of doing."""
+    jumps = _jumps(source, steps)
     units = program.states[0].units
     sheet = Sheet(source, units if units is Units.INCH else Units.MM, _number(source))
     sheet.comment(f"Hitofude for {source.post.title}, out of a program for {HABITS[source.dialect].title}")
-    head = next((step.line for step in steps), len(source.lines) + 1)
-    mover, last = Mover(sheet, program), max(by_line, default=0)
-    for line, text in enumerate(source.lines, 1):
-        if line % _LINES_A_STEP == 0:
-            progress.step(line / len(source.lines), f"Writing for {source.post.title}")
-        if line == head:
+    for remark in _remarks(jumps, steps):
+        sheet.comment(remark)
+    writer = _Writer(source, sheet, Mover(sheet, program), jumps)
+    for k, step in enumerate(steps):
+        if k % _LINES_A_STEP == 0:
+            progress.step(k / len(steps), f"Writing for {source.post.title}")
+        writer.pass_to(step.line)
+        if k == 0:
             sheet.begin()
-        for comment in _comments(text):
-            sheet.comment(comment)
-        step = by_line.get(line)
-        if step is None:
-            _check_rest(source, line, last)
-        else:
-            if times[line] > 1:
-                raise source.refusal(line, f"lines that are done more than once are not written for {source.post.title}")
-            check_step(step, source)
-            sheet.modes(step)
-            mover.write(step)
-            _stop(sheet, step)
+        writer.write(step)
+    writer.pass_rest(begun=bool(steps))
     sheet.end()
     return ("\n".join(sheet.lines) + "\n").encode("ascii", "replace")
+
+
+class _Writer:
+    """Writes block by block, and the comments of the lines that it comes to first."""
+
+    def __init__(self, source: Source, sheet: Sheet, mover: Mover, jumps: bool) -> None:
+        self._source, self._sheet, self._mover, self._jumps = source, sheet, mover, jumps
+        self._next = 1
+
+    def pass_to(self, line: int) -> None:
+        """Come to a line: write the comments up to it that were not written yet."""
+        self._pass(line, ends=False)
+        if line == self._next:
+            self._comment(line)
+            self._next = line + 1
+
+    def write(self, step: Step) -> None:
+        """Write what a block does."""
+        check_step(step, self._source)
+        self._sheet.modes(step)
+        self._mover.write(step)
+        _stop(self._sheet, step)
+
+    def pass_rest(self, begun: bool) -> None:
+        """Write the comments behind the last block; `begun`: there was one."""
+        if not begun:
+            self._pass(len(self._source.lines), ends=True)
+            self._sheet.begin()
+        self._pass(len(self._source.lines) + 1, ends=True)
+
+    def _pass(self, line: int, ends: bool) -> None:
+        for k in range(self._next, line):
+            self._comment(k)
+            _check_rest(self._source, k, ends, self._jumps)
+        self._next = max(self._next, line)
+
+    def _comment(self, line: int) -> None:
+        for comment in _comments(self._source.lines[line - 1]):
+            self._sheet.comment(comment)
+
+
+def _jumps(source: Source, steps: tuple[Step, ...]) -> bool:
+    """Tell whether a program is done in another order than its lines stand in, or not all of it."""
+    lines = [step.line for step in steps]
+    if any(after <= before for before, after in pairwise(lines)):
+        return True
+    done = set(lines)
+    return any(k not in done and _is_jump(source, k) for k in range(1, max(lines, default=0)))
+
+
+def _is_jump(source: Source, line: int) -> bool:
+    code = _code(source.lines[line - 1])
+    habits = HABITS[source.dialect]
+    return bool(code) and ((habits.ngc_flow and _O_WORD.match(code) is not None) or (habits.fanuc_flow and is_macro(code)))
+
+
+def _remarks(jumps: bool, steps: tuple[Step, ...]) -> list[str]:
+    """Return what the head has to say of how the program was written anew."""
+    computed = any(step.parsed.settings or any(not isinstance(word.value, float) for word in step.parsed.words) for step in steps)
+    compensated = any(code in _COMPENSATION for step in steps for code in step.block.codes.values())
+    return [
+        *(["Loops, subroutines and jumps are written out as what they do"] if jumps else []),
+        *(["Parameters and expressions are written as the numbers that they give"] if computed else []),
+        *(["Cutter compensation is written out: the path is that of the tool's centre, so G40 throughout"] if compensated else []),
+    ]
 
 
 def _number(source: Source) -> int:
@@ -129,17 +189,22 @@ def _comments(line: str) -> list[str]:
     return [text for text in found if text and not _STALE.match(text)]
 
 
-def _check_rest(source: Source, line: int, last: int) -> None:
-    """Refuse a line that was not done as a block, but where it is empty, the tape's mark or the program's number."""
+def _check_rest(source: Source, line: int, ends: bool, jumps: bool) -> None:
+    """Refuse a line that was not done as a block, but where it is empty, the tape's mark, the program's number or passed over by a jump.
+
+    Args:
+        source: the program. line: 1-based.
+        ends: whether the line stands behind the last one that was done.
+        jumps: whether the program does.
+    """
     code = _code(source.lines[line - 1])
     title = source.post.title
-    if not code or code.startswith("%") or (_NUMBER.match(code) and line <= last and HABITS[source.dialect].fanuc_flow):
+    if not code or code.startswith("%") or (_NUMBER.match(code) and not ends and HABITS[source.dialect].fanuc_flow):
         return
     if code.startswith("/") or re.match(r"n[0-9.]+/", code):
         raise source.refusal(line, f"a block that may be left out (/) is not read, so it cannot be written for {title}")
-    if line > last:
+    if not jumps:
         raise source.refusal(line, f"what stands behind the end is not read, so it cannot be written for {title}")
-    raise source.refusal(line, f"subroutines, loops and jumps are not written for {title}")
 
 
 def _stop(sheet: Sheet, step: Step) -> None:

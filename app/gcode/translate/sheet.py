@@ -214,15 +214,16 @@ class Sheet:
         self.length, self.waiting = self.waiting, None
         return length_word(self.length)
 
-    def feed_word(self, step: Step) -> str:
-        """Return the F word of a motion, "" where it is in force.
+    def feed_word(self, step: Step, feed: float) -> str:
+        """Return the F word of a motion of some feed, mm/min, "" where it is in force.
 
         Raises:
             InputError: the control has too few digits for it.
         """
         inverse = self.modal.feed_mode is FeedMode.INVERSE_TIME
-        value = step.feed / (1.0 if inverse else self.modal.units.value)
-        digits = self.post.digits(self.modal.units).F if self.modal.feed_mode is FeedMode.PER_MINUTE else RARE_DIGITS
+        per_minute = self.modal.feed_mode is FeedMode.PER_MINUTE
+        value = (feed if per_minute else step.feed) / (1.0 if inverse else self.modal.units.value)
+        digits = self.post.digits(self.modal.units).F if per_minute else RARE_DIGITS
         if abs(round(value, digits) - value) * self.modal.units.value > MOST_FEED_OFF:
             digits = RARE_DIGITS
         text = plain(value, digits)

@@ -85,7 +85,7 @@ def test_nothing_is_read_behind_the_end() -> None:
         ("N1 G0 X1.\nGOTO 1\n", Dialect.FANUC, "a.ngc:2: this goes on for ever"),
         ("#1=0\no1 while [1]\n#1=[#1+1]\no1 endwhile\n", Dialect.LINUXCNC, "a.ngc:2: loops, calls and cycles repeat more than"),
         ("O1\nM98 P1\nM99\n", Dialect.FANUC, "subroutines call one another more than 10 deep"),
-        ("o1 sub\no1 call\no1 endsub\no1 call\n", Dialect.LINUXCNC, "subroutines call one another more than 10 deep"),
+        ("o1 sub\no1 call\no1 endsub\no1 call\n", Dialect.LINUXCNC, "subroutines call one another more than 9 deep"),
         ("F100\nG81 G91 X1 Z-1 R1 L99999999\n", Dialect.LINUXCNC, "a.ngc:2: loops, calls and cycles repeat more than"),
         ("o1 if [0]\nG0 X1\n", Dialect.LINUXCNC, "a.ngc:1: O1 if has no elseif or else or endif"),
         ("G0 X1\no5 call\n", Dialect.LINUXCNC, "a.ngc:2: there is no subroutine O5"),
