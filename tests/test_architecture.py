@@ -13,7 +13,7 @@ import pytest
 from tests.conftest import ROOT
 
 APP = ROOT / "app"
-LEAVES = {"errors", "progress", "tolerances", "resources", "pool", "jit", "atomic", "settings", "toml_tables", "graphics", "mesh"}
+LEAVES = {"errors", "progress", "tolerances", "resources", "pool", "jit", "atomic", "settings", "toml_tables", "graphics", "mesh", "memory"}
 KNOWS = {
     "model": set(),
     "geometry": {"model", "fit"},
