@@ -23,6 +23,9 @@ LEAST = 1_000_000
 _UNITS = {"": 1, "K": 10**3, "M": 10**6, "G": 10**9, "T": 10**12}
 _SIZE = re.compile(r"\s*(\d{1,15}(?:\.\d{1,9})?)\s*([KMGT]?)(?:I?B)?\s*", re.IGNORECASE)
 _OPTION = re.compile(r" \(--[^)]*\)")
+_ITSELF = 100 * 10**6
+"""Bytes of the program's own code and tables that are loaded as they are wanted, most of them after a command has begun."""
+
 _UNKNOWN = 4 * 10**9
 """Bytes that are taken to be there where the system does not tell."""
 
@@ -46,8 +49,8 @@ class MemoryShortError(ParameterError):
         return wanted if wanted <= 0.9 * machine_memory() else 0
 
     def in_window(self) -> str:
-        """Return the sentence for somebody who knows no options."""
-        return _OPTION.sub("", self._sentence(" in the menu Edit"))
+        """Return the sentence for somebody who has menus instead of options."""
+        return _OPTION.sub("", self._sentence(" in the menu Compute, Memory of a job"))
 
     def _sentence(self, how: str) -> str:
         more = f", or allow more{how}" if self.limit else ""
@@ -60,11 +63,11 @@ class Budget:
 
     Attributes:
         limit: bytes, for the data of the job: the program itself, its libraries among it, is not counted.
-        before: bytes that the process had when the job began.
+        before: bytes that the process had when the job began, or at least what the program itself takes once it is loaded.
     """
 
     limit: int
-    before: int = field(default_factory=lambda: resident())
+    before: int = field(default_factory=lambda: max(_ITSELF, resident()))
 
     def taken(self) -> int:
         """Return the bytes that the process has taken since."""
@@ -99,14 +102,14 @@ def ask(needed: float, what: str, remedy: str) -> None:
         raise MemoryShortError(what, remedy, needed, there)
 
 
-def portion(each: float, share: float = 0.5) -> int:
-    """Return how many things may be worked on at a time, at least one.
+def portion(each: float, least: int = 4096) -> int:
+    """Return how many things may be worked on at a time: half of what may be taken is for them, but a few are worked on in any case.
 
     Args:
         each: bytes that one takes.
-        share: of what may be taken, in (0, 1].
+        least: that are worth working on.
     """
-    return max(1, int(share * room() / each))
+    return max(least, int(room() / 2 / each))
 
 
 @contextmanager
@@ -121,6 +124,15 @@ def within(limit: int | None) -> Iterator[None]:
         yield
     finally:
         _BUDGET.reset(token)
+
+
+def allow(limit: int) -> None:
+    """Give what this context does from now on a budget, and what is begun in copies of it.
+
+    Args:
+        limit: bytes.
+    """
+    _BUDGET.set(Budget(limit))
 
 
 def read_size(text: str) -> int:
@@ -203,10 +215,11 @@ def _group_limits(proc: Path, groups: Path) -> Iterator[int]:
 
 
 def resident() -> int:
-    """Return the bytes of memory that this process holds; 0 where the system does not tell."""
+    """Return the bytes of memory that this process holds for its data, without pages of files; 0 where the system does not tell."""
     try:
         with open("/proc/self/statm", encoding="ascii") as file:
-            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+            _, pages, of_files = map(int, file.read().split()[:3])
+            return (pages - of_files) * os.sysconf("SC_PAGE_SIZE")
     except (OSError, IndexError, ValueError):
         return 0
 
@@ -225,5 +238,5 @@ def free_memory() -> int | None:
         return None
 
 
-_USUAL = Budget(half_of_machine(), 0)
+_USUAL = Budget(half_of_machine(), _ITSELF)
 _BUDGET = ContextVar("budget", default=_USUAL)

@@ -19,6 +19,7 @@ import shapely
 from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
+from ...core.memory import portion
 from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
@@ -41,6 +42,9 @@ _SAME = 1e-4
 
 _BANDS, _WORTH_TWO_CORES = 4, 500
 
+_AT_A_TIME, _SQUARE_BYTES = 1 << 20, 250
+"""Squares that are looked at together, few enough to be stopped between them, and what one takes meanwhile."""
+
 Floats = NDArray[np.float64]
 States = NDArray[np.uint8]
 
@@ -59,9 +63,12 @@ def uncertain(wanted: Shape, paths: Sequence[tuple[Rows, float]], progress: Prog
     if wanted.is_empty or not swaths:
         return np.array([] if wanted.is_empty else [shapely.box(*wanted.bounds)], dtype=object)
     area, least = DistanceField.of(_edges(wanted)), min(each.radius for each in swaths)
-    centres, half = _grid(wanted.bounds)
-    kept = []
-    while len(centres):
+    kept, waiting = [], [_grid(wanted.bounds)]
+    while waiting:
+        centres, half = waiting.pop()
+        if len(centres) > (most := min(_AT_A_TIME, portion(_SQUARE_BYTES))):
+            waiting += [(centres[first : first + most], half) for first in range(0, len(centres), most)]
+            continue
         progress.step(0.0, "Measuring what is left")
         q = half * math.sqrt(2)
         uncut = np.full(len(centres), math.inf)
@@ -74,8 +81,8 @@ def uncertain(wanted: Shape, paths: Sequence[tuple[Rows, float]], progress: Prog
         if half <= least / _FINEST:
             left |= states != OPEN
         kept.append(_runs(centres[left], half))
-        half /= 2
-        centres = quarters(centres[~left], half)
+        if not left.all():
+            waiting.append((quarters(centres[~left], half / 2), half / 2))
     return np.concatenate(kept) if kept else np.zeros(0, dtype=object)
 
 

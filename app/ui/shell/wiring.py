@@ -42,6 +42,7 @@ from .inspecting import Inspecting
 from .keys_window import KeysWindow
 from .main_window import MainWindow
 from .memory import choose_theme
+from .memory_choice import MemoryChoice
 from .palette import Palette
 from .recovering import Recovering
 from .shortcuts import Shortcuts
@@ -88,6 +89,7 @@ class Wiring(QObject):
         self.recovering = Recovering(window, self.showing, self.files, self.log)
         self.tools = ToolExchange(window, self.log)
         self.tabbing, self.unit_choice, self.underlaying = Tabbing(window), UnitChoice(window), Underlaying(window)
+        self.memory_choice = MemoryChoice(window)
         self.language = LanguageWiring(window, self.showing)
         self.what_is_this = WhatIsThis(window, self.language.help)
         self.files.saving.beside.watch(self.underlaying, self.language.control)
