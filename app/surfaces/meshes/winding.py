@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .corners import crosses, numbered
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
@@ -64,12 +66,18 @@ class Edges:
     @staticmethod
     def of(triangles: Floats) -> Edges:
         """Return the edges of triangles (n, 3, 3); corners at exactly the same place are one."""
-        _, corner = np.unique(triangles.reshape(-1, 3) + 0.0, axis=0, return_inverse=True)  # + 0.0: there is one zero only
-        corners = corner.reshape(-1, 3)
-        start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
-        both = np.minimum(start, end) * (int(corner.max(initial=0)) + 1) + np.maximum(start, end)
-        _, edge, count = np.unique(both, return_inverse=True, return_counts=True)
-        return Edges(edge.ravel(), np.asarray(start < end), count)
+        start = numbered(triangles.reshape(-1, 3))
+        end = np.roll(start.reshape(-1, 3), -1, axis=1).ravel()
+        both = np.minimum(start, end) * (int(start.max(initial=0)) + 1) + np.maximum(start, end)
+        forward = np.asarray(start < end)
+        del start, end
+        order = np.argsort(both, kind="stable")
+        both = both[order]
+        first = np.flatnonzero(np.concatenate([[True], both[1:] != both[:-1]])) if len(both) else order
+        count = np.diff(np.append(first, len(both)))
+        edge = np.empty(len(both), np.int64)
+        edge[order] = np.repeat(np.arange(len(first)), count)
+        return Edges(edge, forward, count)
 
     def open_uses(self) -> Ints:
         """Return the uses of edges that belong to an odd number of triangles: there the surface ends."""
@@ -103,11 +111,11 @@ def right_side_out(triangles: Floats) -> Wound:
 
 def _counting(corners: Floats) -> NDArray[np.bool_]:
     """Return which triangles are part of a surface: those with an area, but for pairs at the same place, as where bodies touch."""
-    _, number = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
-    sides = np.sort(number.reshape(-1, 3), axis=1)
+    sides = np.sort(numbered(corners.reshape(-1, 3)).reshape(-1, 3), axis=1)
     flat = (sides[:, 0] == sides[:, 1]) | (sides[:, 1] == sides[:, 2])
-    _, alike, many = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
-    alike = alike.ravel()
+    alike = numbered(sides.astype(np.float64))  # numbers of corners are exact as coordinates
+    del sides
+    many = np.bincount(alike)
     order = np.argsort(alike, kind="stable")
     last = np.zeros(len(corners), np.bool_)
     last[order[np.cumsum(many) - 1]] = True
@@ -155,7 +163,7 @@ def _outward(triangles: Floats, edges: Edges, patch: Ints, against: NDArray[np.b
 
     Patches that meet at edges of four triangles and more keep the turn to one another that most of their area has in the file.
     """
-    area = np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1)
+    area = crosses(triangles)
     size = np.bincount(patch, area, len(patch))
     turned = against ^ (np.bincount(patch, area * against, len(patch)) > size / 2)[patch]
     forward = edges.forward ^ np.repeat(turned, 3)
@@ -210,7 +218,7 @@ def _shells(edges: Edges, patch: Ints, forward: NDArray[np.bool_]) -> Ints:
 
 def _holds(outer: Floats, inner: Floats) -> bool:
     """Return whether a closed surface holds all of another one: its largest triangle's middle, and corners of triangles all over it."""
-    size = np.linalg.norm(np.cross(inner[:, 1] - inner[:, 0], inner[:, 2] - inner[:, 0]), axis=1)
+    size = crosses(inner)
     spread = inner[:: max(1, len(inner) // _ASKED)].reshape(-1, 3)
     places = [inner[int(np.argmax(size))].mean(axis=0), *spread]
     return all(abs(winding_number(outer, place)) > _WITHIN for place in places)
