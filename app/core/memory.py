@@ -20,6 +20,9 @@ from .errors import InputError, ParameterError
 LEAST = 1_000_000
 """Bytes; with less nothing can be done."""
 
+_SMALL = 4_000_000
+"""Bytes; so little is not refused, whatever is left."""
+
 _UNITS = {"": 1, "K": 10**3, "M": 10**6, "G": 10**9, "T": 10**12}
 _SIZE = re.compile(r"\s*(\d{1,15}(?:\.\d{1,9})?)\s*([KMGT]?)(?:I?B)?\s*", re.IGNORECASE)
 _OPTION = re.compile(r" \(--[^)]*\)")
@@ -98,7 +101,7 @@ def ask(needed: float, what: str, remedy: str) -> None:
         MemoryShortError: there is not as much.
     """
     there = room()
-    if needed > there:
+    if needed > max(there, _SMALL):
         raise MemoryShortError(what, remedy, needed, there)
 
 
@@ -164,13 +167,24 @@ def _asked(size: int) -> str:
     return f"{math.ceil(count * 10) / 10:g}{unit}" if count < 10 else f"{math.ceil(count):d}{unit}"
 
 
+def fitting(needed: float) -> float:
+    """Return the share of a piece of work for which the budget is enough where a job is begun anew, in (0, 1].
+
+    Args:
+        needed: bytes that it would take beside what is taken already.
+    """
+    taken, free = _BUDGET.get().taken(), free_memory()
+    whole = _BUDGET.get().limit if free is None else min(_BUDGET.get().limit, taken + free)
+    return min(1.0, max(whole, 1) / max(needed + taken, 1.0))
+
+
 def fewer(count: int, needed: float, power: float = 1.0) -> int:
     """Return how many of things would fit of which `count` would take `needed` bytes, rounded down to two figures; at least one.
 
     Args:
         power: memory grows with the count's power: 2 for the cells along one side of a square.
     """
-    fits = count * (max(room(), 1) / needed) ** (1 / power) if needed > 0 else count
+    fits = count * fitting(needed) ** (1 / power)
     step = 10 ** max(0, math.floor(math.log10(max(fits, 1))) - 1)
     return max(1, int(fits // step) * step)
 

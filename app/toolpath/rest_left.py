@@ -15,7 +15,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from ..core.memory import ask, portion, room
+from ..core.memory import ask, fitting, portion
 from ..core.progress import Progress
 from ..geometry.distance import DistanceField
 from ..geometry.primitives import Indices, Rows, points_at, within_half_turn
@@ -107,7 +107,7 @@ class Reach:
         Raises:
             MemoryShortError: there is not as much.
         """
-        larger = f"{2 * self.radius * math.sqrt(needed / max(room(), 1)) * 1.05:.2g}"
+        larger = f"{2 * self.radius / math.sqrt(fitting(needed)) * 1.05:.2g}"
         ask(needed, f"Clearing what is left with a tool of {2 * self.radius:g} mm",
             f"use one of {larger} mm or more (--contour-tool {larger}), or a smaller one before it (--pocket-tool)")
 

@@ -9,7 +9,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.memory import ask, room
+from ...core.memory import ask, fitting
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -63,7 +63,7 @@ class Planes:
         """
         count = len(self.offsets)
         apart = (self.offsets[-1] - self.offsets[0]) / max(count - 1, 1)
-        larger = f"{apart * max(needed / max(room(), 1), 1) * 1.05:.2g}"
+        larger = f"{apart / fitting(needed) * 1.05:.2g}"
         ask(needed, f"Passes on {count:,} planes", f"set them {larger} mm apart or more (pitch = {larger} in the scene)")
 
 
