@@ -51,6 +51,10 @@ def main(argv: Sequence[str]) -> int:
             except MemoryError:
                 where = f", at: {stopped.stage}" if stopped.stage else ""
                 raise out_of_memory(where) from None  # what the frames of the error hold is let go of
+            except Exception as error:
+                if stopped.is_set():  # a compiled loop's door makes a SystemError of what is raised while it closes
+                    raise Stopped(stopped.number) from error
+                raise
     except Stopped as stop:
         _say("cancelled; no file was written")
         return stop.status

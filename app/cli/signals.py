@@ -40,10 +40,11 @@ class Stopping(threading.Event):
 
     Attributes:
         stage: what the command has told last of what it does; "" = nothing yet.
+        number: the signal that asked for it.
         tick: is called about once a second, on the thread that listens beside the job.
     """
 
-    stage = ""
+    stage, number = "", int(signal.SIGINT)
     tick: Callable[[], None] | None = None
 
 
@@ -59,6 +60,7 @@ def stoppable() -> Iterator[Stopping]:
     stopped = Stopping()
 
     def stop(number: int, frame: FrameType | None) -> NoReturn:
+        stopped.number = number
         stopped.set()
         raise Stopped(number)
 

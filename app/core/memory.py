@@ -185,7 +185,7 @@ def fewer(count: int, needed: float, power: float = 1.0) -> int:
         power: memory grows with the count's power: 2 for the cells along one side of a square.
     """
     fits = count * fitting(needed) ** (1 / power)
-    step = 10 ** max(0, math.floor(math.log10(max(fits, 1))) - 1)
+    step = int(10.0 ** max(0, math.floor(math.log10(max(fits, 1))) - 1))
     return max(1, int(fits // step) * step)
 
 
