@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import threading
 import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -12,6 +11,7 @@ from ..core.atomic import read_whole, sweep
 from ..core.errors import InputError
 from ..core.progress import Progress
 from .output import on_terminal, say, show
+from .signals import Stopping
 
 EVERY = 5.0
 """Seconds between lines that tell how far a job is, where they are no terminal's."""
@@ -71,20 +71,46 @@ def identity(path: Path) -> object:
     return (status.st_dev, status.st_ino)
 
 
-def shown_progress(quiet: bool, stopped: threading.Event) -> Progress:
-    """Return a progress that shows itself on stderr: on a terminal all the time, elsewhere in a line every EVERY seconds."""
-    if quiet:
-        return Progress(None, stopped)
-    alone = on_terminal()
-    shown = [0.0 if alone else time.monotonic()]
+def shown_progress(quiet: bool, stopped: Stopping) -> Progress:
+    """Return a progress that shows itself on stderr: on a terminal all the time, elsewhere in a line every EVERY seconds.
+
+    A line comes as often where the job tells nothing, from a compiled loop for instance.
+    """
+    shown = _Shown(on_terminal())
 
     def told(fraction: float, text: str) -> None:
-        if time.monotonic() - shown[0] > (0.1 if alone else EVERY) or (alone and fraction >= 1):
-            shown[0] = time.monotonic()
-            if not alone:
-                say(f"hitofude: {fraction:.0%} {text}".rstrip())
-                return
-            end = "\r\x1b[K" if fraction >= 1 else ""
-            show(f"\r\x1b[K{fraction:4.0%} {text}{end}")
+        stopped.stage = text or stopped.stage
+        if not quiet:
+            shown.told(fraction, text)
 
+    stopped.tick = None if quiet else shown.tick
     return Progress(told, stopped)
+
+
+class _Shown:
+    """How far a job is, as its user is told."""
+
+    def __init__(self, alone: bool) -> None:
+        self._alone = alone
+        self._fraction, self._text, self._at = 0.0, "", 0.0 if alone else time.monotonic()
+
+    def told(self, fraction: float, text: str) -> None:
+        """Show it, if it is time to."""
+        self._fraction, self._text = fraction, text
+        if self._is_time() or (self._alone and fraction >= 1):
+            self._show()
+
+    def tick(self) -> None:
+        """Show once more what was told last, if nothing was shown for so long; a terminal shows it still."""
+        if not self._alone and self._text and self._fraction < 1 and self._is_time():
+            self._show()
+
+    def _is_time(self) -> bool:
+        return time.monotonic() - self._at > (0.1 if self._alone else EVERY)
+
+    def _show(self) -> None:
+        self._at = time.monotonic()
+        if self._alone:
+            show(f"\r\x1b[K{self._fraction:4.0%} {self._text}" + ("\r\x1b[K" if self._fraction >= 1 else ""))
+        else:
+            say(f"hitofude: {self._fraction:.0%} {self._text}".rstrip())

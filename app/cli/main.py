@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import threading
 import traceback
 from collections.abc import Sequence
 
@@ -12,8 +11,9 @@ from ..core.atomic import sweep
 from ..core.errors import Cancelled, HitofudeError, shortened
 from ..core.progress import told_waits
 from ..core.settings import config_folder, state_folder
+from .memory import budgeted, out_of_memory
 from .output import WaitLine, say, tell
-from .signals import Stopped, stoppable
+from .signals import Stopped, Stopping, stoppable
 
 DONE, WITH_FINDINGS, BAD_INPUT, CANCELLED = 0, 1, 2, 130
 HELP = """\
@@ -45,8 +45,16 @@ def main(argv: Sequence[str]) -> int:
     """
     try:
         sweep(state_folder(), config_folder())
-        with stoppable() as stopped, WaitLine("--quiet" in argv) as line, told_waits(line.show, everywhere=True):
-            return _command(list(argv), stopped)
+        with budgeted(argv), stoppable() as stopped, WaitLine("--quiet" in argv) as line, told_waits(line.show, everywhere=True):
+            try:
+                return _command(list(argv), stopped)
+            except MemoryError:
+                where = f", at: {stopped.stage}" if stopped.stage else ""
+                raise out_of_memory(where) from None  # what the frames of the error hold is let go of
+            except Exception as error:
+                if stopped.is_set():  # a compiled loop's door makes a SystemError of what is raised while it closes
+                    raise Stopped(stopped.number) from error
+                raise
     except Stopped as stop:
         _say("cancelled; no file was written")
         return stop.status
@@ -64,7 +72,7 @@ def main(argv: Sequence[str]) -> int:
         return BAD_INPUT
 
 
-def _command(argv: list[str], stopped: threading.Event) -> int:
+def _command(argv: list[str], stopped: Stopping) -> int:
     name, rest = (argv[0], argv[1:]) if argv else ("", [])
     if name in ("", "-h", "--help", "help"):
         tell(HELP.rstrip())

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import NoReturn
 
 from ..core.errors import InputError
+from ..core.memory import read_size
 from ..drafting.expressions.errors import CommandError
 from ..drafting.expressions.numbers import length
 from ..model.job import LARGEST_JOIN
@@ -17,6 +18,9 @@ from ..model.machine import Machine
 
 MACHINE_HELP = ("the machine that the program has to fit and is timed on: router, bench_mill, vmc, one of your own in the settings' folder "
                 "machines, or a TOML file (default: timed on a router, held against none)")
+
+MEMORY_HELP = ("memory that the job may take beside the program itself, such as 4G or 512M: what would not fit is done in parts, or "
+               "refused before it is begun (default half of the machine's)")
 
 PHRASES = (
     (r"^argument ([^:]*/)?([^:]*): ", r"\2 "),
@@ -41,6 +45,7 @@ class OptionParser(argparse.ArgumentParser):
         """
         super().__init__(prog=f"hitofude {name}", allow_abbrev=False, description=description, epilog=epilog, formatter_class=HelpFormatter)
         self._words = {"name": name, "input": inputs[0], "inputs": inputs[1]}
+        self.add_argument("--memory", metavar="SIZE", type=typed(read_size), help=MEMORY_HELP)
 
     def error(self, message: str) -> NoReturn:
         """Raise the error instead of printing the usage."""

@@ -1,7 +1,14 @@
-"""Ctrl+C, TERM and HUP: stop a command anywhere but while its files take their places."""
+"""Ctrl+C, TERM and HUP: stop a command anywhere but while its files take their places.
+
+The interpreter hears a signal between two of its own steps, and a compiled loop or a library's call may take long. So a thread beside
+the job hears it at once, from the pipe that the system's own handler writes to, and ends the process where the job does not.
+"""
 
 from __future__ import annotations
 
+import atexit
+import os
+import select
 import signal
 import sys
 import threading
@@ -9,6 +16,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 from typing import Any, NoReturn
+
+from .output import say
 
 
 class Stopped(KeyboardInterrupt):
@@ -26,20 +35,102 @@ class Stopped(KeyboardInterrupt):
         self.status = 128 + number
 
 
+class Stopping(threading.Event):
+    """Is set when the user wants a command to stop.
+
+    Attributes:
+        stage: what the command has told last of what it does; "" = nothing yet.
+        number: the signal that asked for it.
+        tick: is called about once a second, on the thread that listens beside the job.
+    """
+
+    stage, number = "", int(signal.SIGINT)
+    tick: Callable[[], None] | None = None
+
+
+GRACE_S = 1.0
+"""Seconds in which a command that was stopped may come to its end by itself."""
+
 _ENDS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 
 
 @contextmanager
-def stoppable() -> Iterator[threading.Event]:
-    """Let a signal raise Stopped, and set the event, for the case that a library swallows the exception."""
-    stopped = threading.Event()
+def stoppable() -> Iterator[Stopping]:
+    """Let a signal raise Stopped, and set the event, for the case that a library swallows the exception; end what hears neither."""
+    stopped = Stopping()
 
     def stop(number: int, frame: FrameType | None) -> NoReturn:
+        stopped.number = number
         stopped.set()
         raise Stopped(number)
 
-    with _on_interrupt(stop), _silent_where_unheard():
+    with _on_interrupt(stop), _silent_where_unheard(), _ended_where_deaf(stopped):
         yield stopped
+
+
+class _Watch:
+    """A thread that hears signals while the interpreter does not."""
+
+    def __init__(self, stopped: Stopping) -> None:
+        self._stopped = stopped
+        self._hears, self._told = os.pipe()
+        os.set_blocking(self._told, False)
+        self._over = threading.Event()
+        self._ending = threading.Lock()
+        self._before = signal.set_wakeup_fd(self._told, warn_on_full_buffer=False)
+        self._thread = threading.Thread(target=self._listen, name="signals", daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        """Leave the command to itself: it is over."""
+        signal.set_wakeup_fd(self._before)
+        self._over.set()
+        with self._ending:
+            os.close(self._told)  # which ends the reading
+        self._thread.join()
+        os.close(self._hears)
+
+    def _listen(self) -> None:
+        while True:
+            if not select.select([self._hears], [], [], _TICK_S)[0]:
+                if self._stopped.tick is not None:
+                    self._stopped.tick()
+                continue
+            heard = os.read(self._hears, 1)
+            if not heard:
+                return
+            if heard[0] in _ENDS and not self._over.wait(GRACE_S):
+                self._end(heard[0])
+
+    def _end(self, number: int) -> None:
+        """End the process, but not while its files take their places."""
+        with self._ending:
+            while signal.getsignal(number) == signal.SIG_IGN:
+                if self._over.wait(_LOOK_S):
+                    return
+            if self._over.is_set():
+                return
+            say("hitofude: cancelled; no file was written")
+            last = threading.Timer(GRACE_S / 2, os._exit, [128 + number])
+            last.daemon = True
+            last.start()
+            atexit._run_exitfuncs()
+            os._exit(128 + number)
+
+
+_LOOK_S, _TICK_S = 0.02, 1.0
+
+
+@contextmanager
+def _ended_where_deaf(stopped: Stopping) -> Iterator[None]:
+    if threading.current_thread() is not threading.main_thread() or sys.platform == "win32":
+        yield
+        return
+    watch = _Watch(stopped)
+    try:
+        yield
+    finally:
+        watch.close()
 
 
 @contextmanager

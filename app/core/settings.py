@@ -33,6 +33,14 @@ class ShownUnits(Enum):
     INCH = "inch"
 
 
+class JobMemory(Enum):
+    """How much of the machine's memory a job of the window may take."""
+
+    QUARTER = "quarter"
+    HALF = "half"
+    MOST = "most"
+
+
 class Phosphor(Enum):
     """Which light the 1986 session's tube gives."""
 
@@ -65,6 +73,7 @@ class Settings:
         snaps: words of the kinds of points that the mouse snaps to. tracking: points it rested on draw it.
         polar_on: rays at multiples of `polar_step` degrees draw it.
         tour: "" until the tour was seen or skipped.
+        memory: what a job may take.
     """
 
     theme: ThemeChoice = ThemeChoice.SYSTEM
@@ -83,6 +92,7 @@ class Settings:
     polar_on: bool = True
     polar_step: str = "45"
     tour: str = ""
+    memory: JobMemory = JobMemory.HALF
 
     def with_recent_file(self, path: Path) -> Settings:
         """Return the settings with this file as the latest one."""

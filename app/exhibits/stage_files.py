@@ -15,8 +15,10 @@ import numpy as np
 from ..core.progress import NO_PROGRESS, Progress
 from ..model.finding import Finding, worst_first
 from ..raster.codes import PixelCode, Plane
+from ..raster.frame import STAGES_BYTES
 from ..raster.steps import STEPS, Stage, StageObserver
 from ..usecases.bitmap_job import BitmapJob, bitmap_job
+from ..usecases.bitmap_options import is_picture
 from ..usecases.bitmap_way import BitmapProgram, compute_on_bitmap
 from ..usecases.options import MakeOptions
 from ..usecases.report import as_values
@@ -142,6 +144,7 @@ def run_stages(name: str, data: bytes, asked: tuple[MakeOptions, Variant], progr
     options, variant = asked
     progress.step(0.0, f"Reading {name}")
     ready = bitmap_job(name, data, options)
+    ready.part.frame.ask_memory(STAGES_BYTES, is_picture(name))
     made = compute_on_bitmap(ready.job, ready.part, progress.part(0.1, 0.8))
     last: dict[int, Stage] = {}
     turns: list[Turn] = []

@@ -8,11 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.errors import ParameterError
+from ..core.memory import ask, fewer
 
 Floats = NDArray[np.float64]
 
 POINTS = 400
 """Rows and columns of the workstation's display."""
+
+
+PATH_BYTES, STAGES_BYTES = 26, 90
+"""Of a pixel: what paths on pixels take at a time (labels, distances and those of the squares, codes), and all stages with their files."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +58,23 @@ class Frame:
         pitch = longest / (size - 2 * margin_px) if longest > 0 else 0.25
         half = size * pitch / 2
         return cls(size, size, pitch, (x0 + x1) / 2 - half, (y0 + y1) / 2 - half)
+
+    def ask_memory(self, each: int, picture: bool = False) -> None:
+        """Ask for the memory of what is kept of all pixels.
+
+        Args:
+            each: bytes of a pixel.
+            picture: they are those of a picture, as many as it has.
+
+        Raises:
+            MemoryShortError: there is not as much.
+        """
+        needed, longer = self.rows * self.cols * each, max(self.rows, self.cols)
+        fits = fewer(longer, needed, 2)
+        pitch = f"{self.pitch * longer / fits:.2g}"
+        remedy = (f"make the picture smaller, at most {fits} px along its longer side" if picture else
+                  f"use at most {fits} px along a side (--bitmap {fits}), or pixels of {pitch} mm or more (--pitch {pitch})")  # fmt: skip
+        ask(needed, f"A bitmap of {self.cols} x {self.rows} px", remedy)
 
     def to_px(self, points: Floats) -> Floats:
         """Return (n, 2) image coordinates (column, row from the top) of points (n, 2) in mm; px (r, c) spans [c, c+1) x [r, r+1)."""

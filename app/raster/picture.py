@@ -9,6 +9,8 @@ from enum import Enum
 import numpy as np
 
 from ..core.errors import InputError, ParameterError
+from ..core.memory import ask, fewer
+from .frame import PATH_BYTES
 from .picture_file import MM_PER_INCH, Density, Gray, decoded, density_of, picture_size
 from .walls import Mask
 
@@ -96,7 +98,8 @@ def read_picture(name: str, data: bytes, options: PictureOptions) -> Picture:
     Raises:
         InputError: it is none of these, damaged, too large, or nobody says how large a pixel is.
     """
-    _check_size(name, picture_size(name, data))
+    _check_size(name, size := picture_size(name, data))
+    _ask_memory(name, size)
     gray, density = decoded(name, data), density_of(data)
     pitch = _pitch(name, density, options)
     square = gray if density is None else _squared(name, gray, density)
@@ -108,6 +111,14 @@ def _check_size(name: str, size: tuple[int, int]) -> None:
     if max(size) > LARGEST_SIDE or cols * rows > LARGEST_AREA:
         raise InputError(f"{name}: the picture has {cols} x {rows} px; {LARGEST_SIDE} px a side and {LARGEST_AREA // 10**6} million in all "
                          "are the most, so make it smaller.")
+
+
+def _ask_memory(name: str, size: tuple[int, int]) -> None:
+    """Ask for what reading a picture takes, and making paths of its pixels."""
+    cols, rows = size
+    needed = cols * rows * PATH_BYTES
+    fits = fewer(max(size), needed, 2)
+    ask(needed, f"{name}, a picture of {cols} x {rows} px,", f"make it smaller, at most {fits} px along its longer side")
 
 
 def _squared(name: str, gray: Gray, density: Density) -> Gray:

@@ -8,13 +8,14 @@ a larger tool has followed are clean, and are not looked at again.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from ..core.memory import ask, fitting, portion
 from ..core.progress import Progress
 from ..geometry.distance import DistanceField
 from ..geometry.primitives import Indices, Rows, points_at, within_half_turn
@@ -29,6 +30,15 @@ _SAME = 5e-4
 """mm by which a cutter's rim may go beyond what a path has cut and still cut nothing."""
 
 _CHORD = 1e-3
+
+_WORTH_ASKING = 1e8
+"""Bytes from which on it is worth to look how many squares will really be found."""
+
+_AT_A_TIME, _SQUARE_BYTES = 1 << 20, 150
+"""Squares that are looked at together, few enough to be stopped between them, and what one takes meanwhile."""
+
+CELL_BYTES, CHUNK_BYTES = 100, 250
+"""What a cell in which metal is left takes until it is cleared, and a short row of a ring."""
 
 Floats = NDArray[np.float64]
 
@@ -100,6 +110,16 @@ class Reach:
         """From a cell's centre to its corners, mm."""
         return self.cell * math.sqrt(2)
 
+    def ask_memory(self, needed: float) -> None:
+        """Ask for the memory, bytes, of cells and rings as fine as the tool wants them: both grow with the square of its fineness.
+
+        Raises:
+            MemoryShortError: there is not as much.
+        """
+        larger = f"{2 * self.radius / math.sqrt(fitting(needed)) * 1.05:.2g}"
+        ask(needed, f"Clearing what is left with a tool of {2 * self.radius:g} mm",
+            f"use one of {larger} mm or more (--contour-tool {larger}), or a smaller one before it (--pocket-tool)")
+
 
 @dataclass(frozen=True, eq=False)
 class Suspects:
@@ -123,22 +143,49 @@ def suspects(ground: Ground, reach: Reach, progress: Progress) -> Suspects:
     whole = shapely.multipolygons(shapes)
     shapely.prepare(whole)
     last = 2 * reach.cell
-    centres, half = _grid(whole.bounds, last)
-    while True:
+    found = [np.zeros((0, 3)), *_sifted(ground, reach, whole, progress)]
+    centres, walls = np.split(np.concatenate(found), [2], axis=1)
+    q, near = last * math.sqrt(2), walls[:, 0]
+    core = near + q >= reach.closest
+    return Suspects(centres[core], centres[near - q < reach.closest], last, float(near.max(initial=0.0)) + q)
+
+
+def _sifted(ground: Ground, reach: Reach, whole: shapely.MultiPolygon, progress: Progress) -> Iterator[Floats]:
+    """Yield the centres (n, 2) of squares of the last size, and how far from the walls they are, part after part from left to right."""
+    last, found = 2 * reach.cell, 0
+    waiting = [_grid(whole.bounds, last)]
+    while waiting:
+        centres, half = waiting.pop()
+        most = min(_AT_A_TIME, portion(_SQUARE_BYTES))
+        if len(centres) > most:
+            waiting += [(centres[first : first + most], half) for first in reversed(range(0, len(centres), most))]
+            continue
         progress.step(0.0, "Looking for what is left")
-        q = half * math.sqrt(2)
-        centres = centres[~ground.holds(centres, q)]
-        walls = reach.sheet.distances.nearest(centres)[0]
-        alone = walls > q  # all of such a square lies on one side of the walls
-        keep = ~alone
-        keep[alone] = shapely.contains_xy(whole, centres[alone])
-        centres, walls = centres[keep], walls[keep]
+        kept = _sieved(ground, reach, whole, (centres, half))
         if half <= last:
-            break
-        half /= 2
-        centres = (centres[:, None] + np.array([[-half, -half], [half, -half], [-half, half], [half, half]])).reshape(-1, 2)
-    core = walls + q >= reach.closest
-    return Suspects(centres[core], centres[walls - q < reach.closest], half, float(walls.max(initial=0.0)) + q)
+            found += len(kept)
+            reach.ask_memory(CELL_BYTES * found)
+            yield kept
+        elif len(kept):
+            half /= 2
+            around = np.array([[-half, -half], [half, -half], [-half, half], [half, half]])
+            waiting.append(((kept[:, None, :2] + around).reshape(-1, 2), half))
+
+
+def _sieved(ground: Ground, reach: Reach, whole: shapely.MultiPolygon, squares: tuple[Floats, float]) -> Floats:
+    """Return the squares (centres (n, 2), half side) that may hold metal that is left: their centres, and how far from the walls."""
+    centres, half = squares
+    q = half * math.sqrt(2)
+    centres = centres[~ground.holds(centres, q)]
+    walls = reach.sheet.distances.nearest(centres)[0]
+    alone = walls > q  # all of such a square lies on one side of the walls
+    keep = ~alone
+    keep[alone] = shapely.contains_xy(whole, centres[alone])
+    bytes_each = CELL_BYTES * (half / reach.cell) ** 2
+    if np.count_nonzero(keep & alone) * bytes_each > _WORTH_ASKING:
+        untouched = np.count_nonzero(ground.depth(centres[keep & alone], 4 * q) > q)  # all cells of such a square will be found
+        reach.ask_memory(float(untouched) * bytes_each)
+    return np.column_stack([centres[keep], walls[keep]])
 
 
 def _grid(bounds: tuple[float, float, float, float], last: float) -> tuple[Floats, float]:

@@ -14,7 +14,7 @@ from ..geometry.primitives import boxes, contour_rows, pack
 from ..model.part import Region
 from ..raster.codes import Plane
 from ..raster.draw import draw
-from ..raster.frame import Frame
+from ..raster.frame import PATH_BYTES, Frame
 from ..raster.peel import frame_pixels
 from ..raster.walls import Mask, free_pixels, wall_rows
 from .bitmap_options import BitmapSize
@@ -54,6 +54,7 @@ def part_of_regions(regions: Sequence[Region], size: BitmapSize) -> BitmapPart:
     around = boxes(rows)
     low, high = around[:, :2].min(axis=0), around[:, 2:].max(axis=0)
     frame = size.frame((float(low[0]), float(low[1]), float(high[0]), float(high[1])))
+    frame.ask_memory(PATH_BYTES)
     free = free_pixels(frame, rows)
     if not free.any():
         raise ParameterError(f"Nothing of the drawing is as wide as a pixel of {frame.pitch:.3g} mm; "

@@ -38,7 +38,7 @@ __all__ = ["CELLS", "CutOptions", "CutProgram", "CutSetup", "Engine", "cut"]
 CELLS = 1024
 """Along the stock's longer side, as on the text's screen."""
 
-TRIM_BYTES_A_CELL, BYTES_A_CELL = 16, 64
+TRIM_BYTES_A_CELL, BYTES_A_CELL = 18, 64
 """What cutting alone takes, and with judging: heights, owners, bounds, wanted heights, masks, labels."""
 
 GRAPHICS = Graphics()

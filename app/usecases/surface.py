@@ -120,7 +120,9 @@ def compute(scene: Scene, sources: Sources, progress: Progress = NO_PROGRESS) ->
     grid = scene.out_units.value * 10.0 ** -min(digits.X, digits.Y, digits.Z)
     origin = tuple(round(value / grid) * grid for value in origin_of(scene, stock))
     wanted = [passes for passes in scene.passes if passes.enabled]
-    families = []
+    tools, families = [_tool(scene, passes) for passes in wanted], []
+    progress.step(0.15, "Looking for holes")
+    found = tuple(scene_findings(built, facets.facets, stock, tools))
     for number, passes in enumerate(wanted):
         share = progress.part(0.15 + 0.75 * number / len(wanted), 0.15 + 0.75 * (number + 1) / len(wanted))
         families.append(_family(scene, facets, passes, (grid, sources, stock), share).numbered(numbers))
@@ -129,8 +131,7 @@ def compute(scene: Scene, sources: Sources, progress: Progress = NO_PROGRESS) ->
     moves = surface_moves([_milling(family) for family in families], top + scene.safe_z, top + scene.retract_z)
     trimmed, uncut = (replace(each, owner=numbers[each.owner]) for each in (facets.facets, facets.uncut))
     own = SceneFacets(trimmed, uncut, {order[number]: area for number, area in facets.areas.items()})
-    tools = [family.tool for family in families]
-    found = (*scene_findings(built, facets.facets, stock, tools), *moves_findings(moves, stock, tools))
+    found += tuple(moves_findings(moves, stock, tools))
     return Computed(scene, built, own, tuple(families), moves, stock, (origin[0], origin[1], origin[2]), grid, found)
 
 
@@ -157,13 +158,8 @@ def _family(scene: Scene, facets: SceneFacets, passes: Passes, rest: tuple[float
     """Compute one family of passes; `rest` is the grid, what reads files, and the stock."""
     grid, sources, stock = rest
     tool = _tool(scene, passes)
-    if passes.pitch is not None:
-        planes = even_planes(passes.origin, passes.angle, passes.pitch, facets.facets.triangles[:, :, :2].reshape(-1, 2))
-    else:
-        planes = scallop_planes(facets.facets, tool, passes.scallop or 0.0, passes.origin, passes.angle)
-    overrun, places = _overrun(passes, tool, stock), facets.facets.triangles[:, :, :2].reshape(-1, 2)
-    if overrun.far > 0:
-        planes = widened(planes, places, overrun.far, _step(passes, tool))
+    overrun = _overrun(passes, tool, stock)
+    planes = _planes(facets.facets, passes, tool, overrun.far)
     below = facets.facets if passes.floor is None else _with_floor(facets.facets, passes.floor, len(scene.surfaces), overrun.far)
     follower = Follower(below, tool, FollowOptions(passes.stock_to_leave, passes.chord_tolerance, grid))
     path = cutter_path(follower, planes, _area(passes.boundary, tool, sources), progress.part(0.0, 0.7), overrun)
@@ -172,6 +168,16 @@ def _family(scene: Scene, facets: SceneFacets, passes: Passes, rest: tuple[float
         raise GeometryError(f"passes {name} touch no surface; check their boundary and the surfaces' trims.")
     surface = compound_surface(facets.uncut, path.planes, passes.chord_tolerance, facets.areas, progress.part(0.7, 1.0))
     return Family(passes, tool, surface, path, follower)
+
+
+def _planes(facets: Facets, passes: Passes, tool: Tool, far: float) -> Planes:
+    """Return the planes of passes, those within `far` mm beside the surfaces among them."""
+    places = facets.triangles[:, :, :2].reshape(-1, 2)
+    if passes.pitch is not None:
+        planes = even_planes(passes.origin, passes.angle, passes.pitch, places)
+    else:
+        planes = scallop_planes(facets, tool, passes.scallop or 0.0, passes.origin, passes.angle)
+    return widened(planes, places, far, _step(passes, tool)) if far > 0 else planes
 
 
 def _overrun(passes: Passes, tool: Tool, stock: StockBox) -> Overrun:

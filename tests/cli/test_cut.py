@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -18,7 +19,6 @@ import pytest
 from scipy.integrate import quad
 
 from app.cli.main import main
-from app.simulation.field.workpiece import free_memory
 from app.simulation.heights_file import read_heights
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -279,11 +279,14 @@ def test_the_published_method_states_its_error(slot: Path, tmp_path: Path) -> No
 
 
 def test_more_cells_than_memory_holds_are_told_before(slot: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    cells, part = math.isqrt((free_memory() or 0) // 40), solid(tmp_path / "part.stl", [[0, 0, -10], [50, 20, -1]])
-    if not 0 < cells <= 30_000:
-        pytest.skip("this machine has more memory than the largest grid takes, or does not tell")
-    assert cut(slot, "--stock=0,0,-10,50,50,0", "--tool=1=flat:6", "--against", part, "--grid", cells) == 2
-    assert f"A grid of {cells} x {cells} cells takes" in capsys.readouterr().err
+    part = solid(tmp_path / "part.stl", [[0, 0, -10], [50, 20, -1]])
+    command = (slot, "--stock=0,0,-10,50,50,0", "--tool=1=flat:6", "--against", part)
+    assert cut(*command, "--grid=2000", "--memory=50M") == 2
+    said = capsys.readouterr().err
+    assert re.fullmatch(r"hitofude: A grid of 2000 x 2000 cells would take \d+ MB of memory, and [45]\d(\.\d)? MB may be taken; use at "
+                        r"most \d+ cells along its longer side \(--grid \d+\), or allow more with --memory \S+\.\n", said)
+    cells = re.search(r"--grid (\d+)", said)
+    assert cells is not None and cut(*command, f"--grid={cells[1]}", "--memory=50M") in (0, 1)
 
 
 def test_no_window_library_is_needed(slot: Path, tmp_path: Path) -> None:

@@ -150,3 +150,18 @@ def test_quotations_are_cut_and_sentences_are_not() -> None:
     assert shortened(said) == said
     assert shortened(f"'{'a b ' * 40}' is no word.") == f"'{('a b ' * 40)[:MOST_QUOTED]}...' is no word."
     assert shortened("x" * 61) == "x" * 60 + "..." and shortened("x" * 60) == "x" * 60
+
+
+def test_a_signal_that_a_library_turns_into_its_own_error_is_still_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+                                                                       capsys: pytest.CaptureFixture[str]) -> None:  # fmt: skip
+    def turned(*_: object, **__: object) -> None:
+        try:
+            os.kill(os.getpid(), signal.SIGTERM)
+            time.sleep(1.0)
+        except Stopped as stop:
+            raise SystemError("returned a result with an exception set") from stop
+
+    monkeypatch.setattr("app.cli.commands.check.examine", turned)
+    (tmp_path / "a.ngc").write_text(RING)
+    assert main(["check", str(tmp_path / "a.ngc")]) == 143
+    assert capsys.readouterr().err == "hitofude: cancelled; no file was written\n"

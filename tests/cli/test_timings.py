@@ -12,6 +12,7 @@ import pytest
 
 from app.cli import files as cli_files
 from app.cli.main import main
+from app.cli.signals import Stopping
 from app.cli.timings import StageTimes
 from app.core.progress import Progress
 
@@ -56,11 +57,26 @@ def test_without_the_option_a_report_is_the_same_each_time(tmp_path: Path) -> No
 def test_a_pipe_gets_a_line_now_and_then(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     clock = [100.0]
     monkeypatch.setattr("app.cli.files.time.monotonic", lambda: clock[0])
-    progress = cli_files.shown_progress(quiet=False, stopped=threading.Event())
+    progress = cli_files.shown_progress(quiet=False, stopped=Stopping())
     for second, fraction in ((101.0, 0.1), (104.9, 0.2), (105.1, 0.3), (109.0, 0.4), (110.2, 0.5)):
         clock[0] = second
         progress.step(fraction, "Link rings")
     assert capsys.readouterr().err == "hitofude: 30% Link rings\nhitofude: 50% Link rings\n"
+
+
+def test_a_pipe_hears_of_a_stage_that_tells_nothing(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    clock, stopped = [100.0], Stopping()
+    monkeypatch.setattr("app.cli.files.time.monotonic", lambda: clock[0])
+    progress = cli_files.shown_progress(quiet=False, stopped=stopped)
+    assert stopped.tick is not None
+    progress.step(0.3, "Link rings")
+    for clock[0] in (104.0, 106.0, 107.0, 112.0):
+        stopped.tick()
+    progress.step(1.0)
+    clock[0] = 120.0
+    stopped.tick()
+    assert capsys.readouterr().err == "hitofude: 30% Link rings\n" * 2
+    assert stopped.stage == "Link rings"
 
 
 def test_a_short_job_says_nothing_of_it_on_a_pipe(tmp_path: Path) -> None:

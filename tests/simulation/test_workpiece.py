@@ -8,6 +8,7 @@ import pytest
 import trimesh
 
 from app.core.errors import InputError, ParameterError
+from app.core.memory import MemoryShortError, within
 from app.model.motion import Floats
 from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
@@ -47,12 +48,13 @@ def test_cells_beside_a_box_have_no_metal() -> None:
         BoxStock(StockBox(0, 0, 0, 4, 2))
 
 
-def test_what_does_not_fit_into_memory_is_told_before(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workpiece, "free_memory", lambda: 1_000_000)
-    with pytest.raises(ParameterError, match=r"1000 x 1000 cells takes 0\.0 GB"):
-        BoxStock(StockBox(0, 0, -1, 1, 1)).over(Grid.over((0, 0, 1, 1), 1000))
-    monkeypatch.undo()
-    ensure_memory(Grid.over((0, 0, 1, 1), 1000), 4)
+def test_what_does_not_fit_into_memory_is_told_before() -> None:
+    with within(4_000_000), pytest.raises(MemoryShortError, match=r"2000 x 2000 cells would take 16 MB of memory.*--grid (\d+)") as told:
+        BoxStock(StockBox(0, 0, -1, 1, 1)).over(Grid.over((0, 0, 1, 1), 2000))
+    fits = int(str(told.value).rpartition("--grid ")[2].split(")")[0])
+    assert 800 <= fits <= 1000  # 1000 x 1000 cells of 4 bytes are 4 MB
+    with within(40_000_000):
+        ensure_memory(Grid.over((0, 0, 1, 1), 2000), 4)
 
 
 def test_heights_on_another_grid_are_those_of_the_cell_beneath() -> None:

@@ -5,9 +5,11 @@ import threading
 import time
 import weakref
 
+import numpy as np
 import pytest
 
 from app.core.errors import InputError
+from app.core.memory import ask, within
 from app.core.progress import Progress
 from app.ui.framework.worker import Worker
 
@@ -128,3 +130,18 @@ def test_a_job_that_is_done_holds_nothing(qtbot):
     del heavy, job
     gc.collect()
     assert gone() is None
+
+
+def test_what_is_too_much_memory_is_a_sentence_without_options(qtbot, worker):
+    with within(50_000_000), qtbot.waitSignal(worker.failed) as caught:
+        worker.start(lambda progress: ask(2e9, "A grid of 9 x 9 cells", "use fewer cells (--grid 4)"), 1)
+    error = caught.args[0].error
+    assert error.startswith("A grid of 9 x 9 cells would take 2 GB of memory, and 50 MB may be taken; use fewer cells")
+    assert "--" not in error and "\n" not in error
+
+
+def test_memory_that_runs_out_is_no_mistake_of_the_program(qtbot, worker, capsys):
+    with qtbot.waitSignal(worker.failed) as caught:
+        worker.start(lambda progress: np.empty(1 << 55), 1)
+    assert "ran out" in caught.args[0].error and "menu Compute" in caught.args[0].error
+    assert capsys.readouterr().err == ""

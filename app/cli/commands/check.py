@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import threading
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -19,7 +18,7 @@ from ...usecases.examine import CONTROLS, Examined, ExamineOptions, compared, ex
 from ..files import check_outputs, read_input, shown_progress
 from ..output import helped, tell
 from ..parser import MACHINE_HELP, OptionParser, machine_named, typed
-from ..signals import undisturbed
+from ..signals import Stopping, undisturbed
 
 TOLD = 20
 """Problems and differences that are printed; the report has all."""
@@ -30,7 +29,7 @@ Prints each problem with its place, then extent, length and time. Exit status 0:
 """
 
 
-def check_command(argv: Sequence[str], stopped: threading.Event) -> int:
+def check_command(argv: Sequence[str], stopped: Stopping) -> int:
     """Run `check` and return its exit status: 0 clean, 1 with problems or differences.
 
     Args:

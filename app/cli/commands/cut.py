@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import threading
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -28,10 +27,10 @@ from ..cut_options import Corners, cut_parser, read_arguments
 from ..files import check_outputs, read_input, shown_progress
 from ..output import REMARKS, finding_lines, helped, tell
 from ..reading_options import reading
-from ..signals import undisturbed
+from ..signals import Stopping, undisturbed
 
 
-def cut_command(argv: Sequence[str], stopped: threading.Event) -> int:
+def cut_command(argv: Sequence[str], stopped: Stopping) -> int:
     """Run `cut` and return its exit status: 0 clean, 1 with findings.
 
     Args:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -15,7 +14,7 @@ from ...exhibits.figure_eleven import FigureOptions, figure_eleven
 from ..files import check_outputs, shown_progress
 from ..output import helped, tell
 from ..parser import OptionParser, typed
-from ..signals import undisturbed
+from ..signals import Stopping, undisturbed
 
 LEAST_CELLS, MOST_CELLS, MOST_RUNS = 16, 4096, 100
 _USUAL = FigureOptions()
@@ -26,7 +25,7 @@ times; ratios between the columns suffer less. Exit status 0: done; 2: something
 """
 
 
-def figure11_command(argv: Sequence[str], stopped: threading.Event) -> int:
+def figure11_command(argv: Sequence[str], stopped: Stopping) -> int:
     """Run `figure11` and return its exit status, 0.
 
     Args:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import threading
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -15,11 +14,11 @@ from ...usecases.options import MakeOptions
 from ..files import check_outputs, identity, read_input, shown_progress
 from ..make_options import make_options, make_parser, read_arguments
 from ..output import finding_lines, helped, tell
-from ..signals import undisturbed
+from ..signals import Stopping, undisturbed
 from ..timings import StageTimes
 
 
-def make_command(argv: Sequence[str], stopped: threading.Event) -> int:
+def make_command(argv: Sequence[str], stopped: Stopping) -> int:
     """Run `make` and return its exit status: 0 clean, 1 with findings.
 
     Args:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import math
-import threading
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -19,7 +18,7 @@ from ..effective_options import add_effective_options, effective_method
 from ..files import check_outputs, read_input, shown_progress
 from ..output import REMARKS, finding_lines, helped, tell
 from ..parser import OptionParser, number, typed
-from ..signals import undisturbed
+from ..signals import Stopping, undisturbed
 
 EPILOG = """\
 What is written is read back and proven: nowhere are curve and moves farther apart than T, both ways and in order. Corners, feeds,
@@ -27,7 +26,7 @@ spindle, tools and comments stay in place. Exit status 0: done; 1: a stretch cou
 """
 
 
-def smooth_command(argv: Sequence[str], stopped: threading.Event) -> int:
+def smooth_command(argv: Sequence[str], stopped: Stopping) -> int:
     """Run `smooth` and return its exit status: 0 done, 1 with findings.
 
     Args:

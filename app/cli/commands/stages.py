@@ -6,7 +6,6 @@ import argparse
 import json
 import os
 import re
-import threading
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -24,7 +23,7 @@ from ..make_options import stepover
 from ..output import finding_lines, helped, tell
 from ..parser import OptionParser, join_tolerance, number, typed
 from ..reading_options import add_reading_options, reading
-from ..signals import undisturbed
+from ..signals import Stopping, undisturbed
 
 _OWN = re.compile(rf"(?:{TURNS}/)?\d\d_\d{{3}}(?:_r\d+_t\d+)?\.(?:png|npy|txt)", re.IGNORECASE)
 """Names of the files that the stages are written to, seen from their folder."""
@@ -39,7 +38,7 @@ Codes: 0 empty, 1 contour or area, 2 traced, 3 R, 4 I, 5 processed, 6 outermost 
 """
 
 
-def stages_command(argv: Sequence[str], stopped: threading.Event) -> int:
+def stages_command(argv: Sequence[str], stopped: Stopping) -> int:
     """Run `stages` and return its exit status: 0 clean, 1 with findings.
 
     Args:

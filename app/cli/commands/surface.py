@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import threading
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -20,7 +19,7 @@ from ...usecases.surface_report import surface_report
 from ..files import check_outputs, read_input, shown_progress
 from ..output import finding_lines, helped, tell
 from ..parser import OptionParser, number
-from ..signals import undisturbed
+from ..signals import Stopping, undisturbed
 
 EPILOG = """\
 The scene tells surfaces, stock, tools and families of passes; resources/docs/scene.md explains every key. On each cutting plane the
@@ -30,7 +29,7 @@ beside it. Exit status 0: done and proven; 1: with findings, or a move could not
 """
 
 
-def surface_command(argv: Sequence[str], stopped: threading.Event) -> int:
+def surface_command(argv: Sequence[str], stopped: Stopping) -> int:
     """Run `surface` and return its exit status: 0 done and proven, 1 with findings.
 
     Args:

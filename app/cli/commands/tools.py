@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import threading
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -20,7 +19,7 @@ from ..files import check_outputs, read_input, shown_progress
 from ..output import finding_lines, helped, tell
 from ..parser import OptionParser, join_tolerance, number, typed
 from ..reading_options import add_reading_options, reading
-from ..signals import undisturbed
+from ..signals import Stopping, undisturbed
 
 TOLD = 12
 """Regions that are printed; the report has all."""
@@ -32,7 +31,7 @@ Exit status 0: done; 1: with findings about the drawing; 2: something cannot be 
 """
 
 
-def tools_command(argv: Sequence[str], stopped: threading.Event) -> int:
+def tools_command(argv: Sequence[str], stopped: Stopping) -> int:
     """Run `tools` and return its exit status: 0 clean, 1 with findings.
 
     Args:

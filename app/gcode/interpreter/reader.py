@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...core.memory import ask, fewer
 from ...core.progress import NO_PROGRESS, Progress
 from .options import ReadOptions
 from .program import NcProgram
@@ -24,6 +25,10 @@ def read_steps(data: bytes, options: ReadOptions, progress: Progress = NO_PROGRE
     return program, tuple(steps)
 
 
+LINE_BYTES = 400
+"""What a line takes at a time, with the motion that it makes."""
+
+
 def read_program(data: bytes, options: ReadOptions = DEFAULT, progress: Progress = NO_PROGRESS) -> NcProgram:
     """Return what a control does with a program.
 
@@ -35,8 +40,10 @@ def read_program(data: bytes, options: ReadOptions = DEFAULT, progress: Progress
         options: dialect, tool table, limits.
 
     Raises:
-        Cancelled: the job was asked to stop.
+        MemoryShortError: it has more lines than there is memory for. Cancelled: the job was asked to stop.
     """
     from .run import Run  # compiled code: loaded where it is used
 
+    lines = data.count(b"\n") + 1
+    ask(LINE_BYTES * lines, f"A program of {lines:,} lines", f"cut it in parts of at most {fewer(lines, LINE_BYTES * lines)} lines")
     return Run(data, options, progress).read()

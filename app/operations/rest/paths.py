@@ -19,7 +19,7 @@ from ...toolpath.coverage.flat import move_rows
 from ...toolpath.linking.chain_net import Corridor
 from ...toolpath.linking.chains import chains
 from ...toolpath.linking.rest_runs import Cells, Chunks, Run, all_runs, runs
-from ...toolpath.rest_left import Floats, Ground, Reach, core_cells, left_of, rim_cells, suspects
+from ...toolpath.rest_left import CHUNK_BYTES, Floats, Ground, Reach, core_cells, left_of, rim_cells, suspects
 from ...toolpath.setting import Setting, emit
 from ...toolpath.sheets import Sheet
 from .sides import sensed
@@ -151,6 +151,7 @@ class Clearing:
         step = max(self.within / 4, reach.radius / _FINEST)
         deepest = float(reach.sheet.distances.nearest(np.concatenate([core, rim]))[0].max())
         count = 1 + int(max(0.0, deepest + step - reach.closest) / step)
+        reach.ask_memory(CHUNK_BYTES * count * float(len(chunks.rows)))
         chunks = self._chunks([reach.closest + k * step for k in range(count)], progress.part(0.3, 0.6))
         return chunks, self._choose(chunks, (core, rim), progress.part(0.6, 1.0))
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
+from ...core.memory import ask, fewer
 from ...model.stock_box import StockBox
 
 Heights = NDArray[np.float32]
@@ -167,26 +167,11 @@ class HeightStock:
 
 
 def ensure_memory(grid: Grid, bytes_a_cell: int) -> None:
-    """Tell before it is taken whether a field would not fit into the memory that is free.
+    """Ask for the memory of a field before it is taken.
 
     Raises:
-        ParameterError: it would not.
+        MemoryShortError: there is not as much.
     """
-    needed, free = grid.rows * grid.cols * bytes_a_cell, free_memory()
-    if free is not None and needed > free:
-        raise ParameterError(f"A grid of {grid.cols} x {grid.rows} cells takes {needed / 1e9:.1f} GB and {free / 1e9:.1f} GB are free; "
-                             "use fewer cells.")
-
-
-def free_memory() -> int | None:
-    """Return the bytes of memory that the system can give; None where it does not tell."""
-    try:
-        with open("/proc/meminfo", encoding="ascii") as lines:
-            kilobytes = next(line.split()[1] for line in lines if line.startswith("MemAvailable"))
-        return int(kilobytes) * 1024
-    except (OSError, StopIteration, ValueError):
-        pass
-    try:
-        return os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
-    except (AttributeError, OSError, ValueError):
-        return None
+    needed, longer = grid.rows * grid.cols * bytes_a_cell, max(grid.rows, grid.cols)
+    fits = fewer(longer, needed, 2)
+    ask(needed, f"A grid of {grid.cols} x {grid.rows} cells", f"use at most {fits} cells along its longer side (--grid {fits})")

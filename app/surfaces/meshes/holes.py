@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from .corners import doubled_areas
 from .winding import Edges
 
 Floats = NDArray[np.float64]
@@ -44,7 +45,8 @@ def holes(triangles: Floats) -> tuple[Hole, ...]:
     A ring of open edges is a hole where most of its length has its triangles outside of the ring, or upright above it, as where a
     pocket's floor is missing; the rim of a sheet has them inside, that of a cup below.
     """
-    corners = triangles[np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1) > 0]
+    some = doubled_areas(triangles) > 0
+    corners = triangles if some.all() else triangles[some]
     uses = Edges.of(corners).open_uses() if len(corners) else np.zeros(0, np.int64)
     if not len(uses):
         return ()

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .rows import numbered
+from .corners import doubled_areas, numbered, numbered_rows
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -26,6 +26,9 @@ _WITHIN = 0.75
 
 _ASKED = 64
 """Triangles of a shell whose corners are asked whether they are in another one; bodies that go through one another are each metal."""
+
+_PART = 1 << 16
+"""Triangles that are looked at together."""
 
 _NOTHING = 1e-9
 """Of the extent cubed: a surface that encloses no more is folded flat."""
@@ -75,12 +78,15 @@ class Edges:
     @staticmethod
     def of(triangles: Floats) -> Edges:
         """Return the edges of triangles (n, 3, 3); corners at exactly the same place are one."""
-        corner = numbered(triangles.reshape(-1, 3) + 0.0)  # + 0.0: there is one zero only
-        corners = corner.reshape(-1, 3)
-        start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
-        both = np.minimum(start, end) * (int(corner.max(initial=0)) + 1) + np.maximum(start, end)
-        _, edge, count = np.unique(both, return_inverse=True, return_counts=True)
-        return Edges(edge.ravel().astype(np.int32), np.asarray(start < end), count)
+        return Edges.between(numbered(triangles.reshape(-1, 3)))
+
+    @staticmethod
+    def between(start: Ints) -> Edges:
+        """Return the edges of triangles by the numbers (3 n,) of their corners."""
+        end = np.roll(start.reshape(-1, 3), -1, axis=1).ravel()
+        both = np.minimum(start, end) * (int(start.max(initial=0)) + 1) + np.maximum(start, end)
+        edge = numbered_rows(both[:, None])
+        return Edges(edge, np.asarray(start < end), np.bincount(edge))
 
     def open_uses(self) -> Ints:
         """Return the uses of edges that belong to an odd number of triangles: there the surface ends."""
@@ -96,14 +102,16 @@ def right_side_out(triangles: Floats) -> Wound:
     from .sew import sewn
 
     corners, turned = triangles + 0.0, np.zeros(len(triangles), np.bool_)
-    rows = np.flatnonzero(_counting(corners))
+    number = numbered(triangles.reshape(-1, 3))
+    rows = np.flatnonzero(_counting(number))
     solid = corners[rows] if len(rows) < len(corners) else corners
     if not len(solid):
         return Wound(corners, turned, "its triangles enclose nothing")
-    edges = Edges.of(solid)
+    edges = Edges.between(number.reshape(-1, 3)[rows].ravel())
+    del number
     loose = edges.open_uses()
     if len(loose) and (mended := sewn(solid)) is not None:
-        some = _counting(mended.triangles)
+        some = _counting(numbered(mended.triangles.reshape(-1, 3)))
         solid, rows = mended.triangles[some], rows[mended.origin[some]]
         edges, loose = Edges.of(solid), loose[:0]
     if len(loose):
@@ -148,16 +156,19 @@ def _less_than_nothing(wound: Floats, edges: Edges, patch: Ints) -> int:
     return -1
 
 
-def _counting(corners: Floats) -> NDArray[np.bool_]:
-    """Return which triangles are part of a surface: those with an area, but for pairs at the same place, as where bodies touch."""
-    sides = np.sort(numbered(corners.reshape(-1, 3)).reshape(-1, 3), axis=1)
+def _counting(number: Ints) -> NDArray[np.bool_]:
+    """Return which triangles are part of a surface: those with an area, but for pairs at the same place, as where bodies touch.
+
+    Args:
+        number: (3 n,) of their corners.
+    """
+    sides = np.sort(number.reshape(-1, 3), axis=1)
     flat = (sides[:, 0] == sides[:, 1]) | (sides[:, 1] == sides[:, 2])
-    alike = numbered(sides)
+    alike = numbered_rows(sides)
     many = np.bincount(alike)
-    order = np.argsort(alike, kind="stable")
-    last = np.zeros(len(corners), np.bool_)
-    last[order[np.cumsum(many) - 1]] = True
-    return np.asarray(~flat & last & (many[alike] % 2 == 1))
+    last = np.zeros(len(many), np.int64)
+    last[alike] = np.arange(len(alike))  # the last one that is written stays
+    return np.asarray(~flat & (last[alike] == np.arange(len(alike))) & (many[alike] % 2 == 1))
 
 
 def _touching(triangles: Floats, edges: Edges, patch: Ints) -> NDArray[np.bool_]:
@@ -243,7 +254,7 @@ def _outward(triangles: Floats, edges: Edges, patch: Ints, against: NDArray[np.b
 
     Patches that meet at edges of four triangles and more keep the turn to one another that most of their area has in the file.
     """
-    area = np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1)
+    area = doubled_areas(triangles)
     size = np.bincount(patch, area, len(patch))
     turned = against ^ (np.bincount(patch, area * against, len(patch)) > size / 2)[patch]
     forward = edges.forward ^ np.repeat(turned, 3)
@@ -262,15 +273,12 @@ def _turned_shells(triangles: Floats, turned: NDArray[np.bool_], shell: Ints) ->
     _, first = np.unique(shell[order], return_index=True)
     rows = np.split(order, first[1:])
     wound = _turned_over(triangles, turned)
-    middle = wound.reshape(-1, 3).mean(axis=0)
-    a, b, c = (wound[:, k] - middle for k in range(3))
-    volume = np.add.reduceat(np.einsum("ij,ij->i", a, np.cross(b, c))[order] / 6.0, first)
-    del a, b, c
+    volume = np.add.reduceat(_volumes(wound)[order], first)
     low, high = np.minimum.reduceat(wound.min(axis=1)[order], first), np.maximum.reduceat(wound.max(axis=1)[order], first)
     hollow = np.abs(volume) <= _NOTHING * np.max(high - low, axis=1) ** 3
     if hollow.all():
         return turned, int(3 * order[0])
-    turned, shapes = turned.copy(), [wound[each] for each in rows]
+    turned, shapes = turned.copy(), [wound[each] for each in rows] if len(rows) > 1 else [wound]
     for k in np.flatnonzero(~hollow).tolist():
         around = np.all((low <= low[k]) & (high >= high[k]), axis=1) & ~hollow
         around[k] = False
@@ -285,11 +293,20 @@ def _turned_over(triangles: Floats, turned: NDArray[np.bool_]) -> Floats:
     return np.where(turned[:, None, None], triangles[:, ::-1], triangles) if turned.any() else triangles
 
 
+def _volumes(triangles: Floats) -> Floats:
+    """Return the volume (n,) between each triangle and the middle of all corners, mm3, by part of them."""
+    middle, volume = triangles.reshape(-1, 3).mean(axis=0), np.empty(len(triangles))
+    for first in range(0, len(triangles), _PART):
+        own = triangles[first : first + _PART] - middle
+        volume[first : first + _PART] = np.einsum("ij,ij->i", own[:, 0], np.cross(own[:, 1], own[:, 2])) / 6.0
+    return volume
+
+
 def _shells(edges: Edges, patch: Ints, forward: NDArray[np.bool_]) -> Ints:
     """Return a number by triangle for what is closed: a patch, or several that only close together, at edges of four and more."""
-    face = np.arange(len(edges.edge)) // 3
-    keys, at = np.unique(edges.edge.astype(np.int64) * len(patch) + patch[face], return_inverse=True)
-    loose = np.bincount(at.ravel(), np.where(forward, 1, -1), len(keys)) != 0
+    uses = np.flatnonzero(edges.count[edges.edge] != 2)  # an edge of two triangles is closed within its patch
+    keys, at = np.unique(edges.edge[uses].astype(np.int64) * len(patch) + patch[uses // 3], return_inverse=True)
+    loose = np.bincount(at.ravel(), np.where(forward[uses], 1, -1), len(keys)) != 0
     shell = np.arange(len(patch))
     edge, number = np.divmod(keys[loose], len(patch))
     while len(edge):
@@ -305,7 +322,7 @@ def _shells(edges: Edges, patch: Ints, forward: NDArray[np.bool_]) -> Ints:
 
 def _holds(outer: Floats, inner: Floats) -> bool:
     """Return whether a closed surface holds all of another one: its largest triangle's middle, and corners of triangles all over it."""
-    size = np.linalg.norm(np.cross(inner[:, 1] - inner[:, 0], inner[:, 2] - inner[:, 0]), axis=1)
+    size = doubled_areas(inner)
     spread = inner[:: max(1, len(inner) // _ASKED)].reshape(-1, 3)
     places = [inner[int(np.argmax(size))].mean(axis=0), *spread]
     return all(abs(winding_number(outer, place)) > _WITHIN for place in places)

@@ -41,6 +41,10 @@ _SHORT = 0.05
 """mm; shorter stretches beside the surfaces are none."""
 
 
+_THEN = 1.5
+"""Times the memory of points as they are followed that all passes take at a time: what is made of them is held beside them."""
+
+
 @dataclass(frozen=True, slots=True)
 class Overrun:
     """How a cutter's centre leaves the box round the surfaces, to reach their feet.
@@ -203,9 +207,14 @@ def _followed(follower: Follower, planes: Planes, jobs: Sequence[tuple[int, Stre
     """Return the rows of points of each stretch of a plane."""
     waiting = [pool().submit(follower.along, planes, plane, part) for plane, part in jobs]
     rows: list[Floats] = []
+    held, look = 0, 4
     try:
         for n, each in enumerate(waiting):
             rows.append(each.result())
+            held += rows[-1].nbytes
+            if n + 1 == look:
+                look *= 4
+                planes.ask_memory(_THEN * held * len(waiting) / (n + 1) - held)
             progress.step((n + 1) / len(waiting), "Following the surfaces")
     except BaseException:
         for each in waiting:

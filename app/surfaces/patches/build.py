@@ -43,6 +43,8 @@ from .step_faces import step_triangles
 from .sweep import TOLERANCE, following_sweep, parallel_sweep
 
 Floats = NDArray[np.float64]
+_PART = 1 << 16
+"""Triangles that are placed together."""
 
 _ANALYTIC = {
     PlaneShape: shapes.plane, SphereShape: shapes.sphere, CylinderShape: shapes.cylinder, ConeShape: shapes.cone,
@@ -99,13 +101,21 @@ def build_surface(surface: Surface, sources: Sources) -> Built:
         built = _shaped(surface, sources)
         turn, move = rotation(surface.rotate_deg), np.array(surface.move)
         splines = tuple(replace(each, points=each.points @ turn.T + move) for each in built.splines)
-        triangles = None if built.triangles is None else np.ascontiguousarray(built.triangles @ turn.T + move)
+        triangles = None if built.triangles is None else _placed(built.triangles, turn, move)
         trims = tuple(BuiltTrim(regions_of(trim, sources), trim.keep) for trim in surface.trims)
     except InputError:
         raise
     except HitofudeError as error:
         raise GeometryError(f"Surface {surface.name}: {error}") from error
     return replace(built, splines=splines, triangles=triangles, trims=trims)
+
+
+def _placed(triangles: Floats, turn: Floats, move: Floats) -> Floats:
+    """Return triangles (n, 3, 3), turned and moved, part by part."""
+    placed = np.empty(triangles.shape)
+    for first in range(0, len(triangles), _PART):
+        placed[first : first + _PART] = triangles[first : first + _PART] @ turn.T + move
+    return placed
 
 
 def rotation(angles_deg: tuple[float, float, float]) -> Floats:
@@ -162,7 +172,8 @@ def triangles_of(shape: MeshShape, sources: Sources) -> Floats:
     Raises:
         InputError: the file cannot be read, or there are none in it.
     """
-    triangles: Floats = read_mesh(shape.file, sources.data(shape.file)) * shape.scale
+    triangles = read_mesh(shape.file, sources.data(shape.file))
+    triangles *= shape.scale
     return triangles
 
 

@@ -20,6 +20,8 @@ LEAF = 4
 """Facets of a leaf."""
 NONE = -1
 """Patch of a facet that is the surface itself, as those of meshes are."""
+_PART = 1 << 16
+"""Facets that are looked at together: what is needed meanwhile stays near the processor, and small."""
 _BITS = 16
 _STEEP = 4.0
 
@@ -112,6 +114,8 @@ def joined_parts(parts: Sequence[Facets], patches: Patches) -> Facets:
     def every(name: str) -> NDArray[Any]:
         return np.concatenate([getattr(part, name) for part in parts])
 
+    if len(parts) == 1:
+        return replace(parts[0], patches=patches)
     return Facets(every("triangles"), every("owner"), every("patch"), every("corners"), every("error"), every("bulge"), patches)
 
 
@@ -155,11 +159,19 @@ def _tree(facets: Facets) -> Tree:
     levels = [_merged(boxes.reshape(leaves, LEAF, 5))]
     while len(levels[-1]) > 1:
         levels.append(_merged(levels[-1].reshape(-1, 2, 5)))
-    planes = np.concatenate([_planes(facets.triangles[order], error[order], len(level)) for level in levels[::-1]])
+    triangles = np.ascontiguousarray(facets.triangles.reshape(-1, 9)[order])
+    error = _taken(error, order)
+    slopes, counts = _slopes(triangles.reshape(-1, 3, 3)), [len(level) for level in levels[::-1]]
+    planes = np.concatenate([_planes(triangles.reshape(-1, 3, 3), error, slopes, count) for count in counts])
     patch = np.where(np.append(facets.patches.whole, False)[facets.patch], facets.patch, NONE)
-    return Tree(np.column_stack([np.concatenate(levels[::-1]), planes]), np.ascontiguousarray(facets.triangles.reshape(-1, 9)[order]),
-                np.ascontiguousarray(facets.corners.reshape(-1, 6)[order]), patch[order], error[order],
-                facets.bulge[order], facets.owner[order], order, facets.patches.control)  # fmt: skip
+    return Tree(np.column_stack([np.concatenate(levels[::-1]), planes]), triangles,
+                np.ascontiguousarray(_taken(facets.corners.reshape(-1, 6), order)), patch[order], error,
+                _taken(facets.bulge, order), facets.owner[order], order, facets.patches.control)  # fmt: skip
+
+
+def _taken(values: Floats, order: Ints) -> Floats:
+    """Return values in another order; zeros alone, as meshes have them, are given anew: what nobody writes takes no memory."""
+    return values[order] if values.any() else np.zeros((len(order), *values.shape[1:]))
 
 
 def _merged(boxes: Floats) -> Floats:
@@ -167,17 +179,25 @@ def _merged(boxes: Floats) -> Floats:
     return np.concatenate([boxes[:, :, :2].min(axis=1), boxes[:, :, 2:].max(axis=1)], axis=1)
 
 
-def _planes(triangles: Floats, error: Floats, nodes: int) -> Floats:
-    """Return planes (nodes, 3) that nothing of equal shares of the facets is above: slopes along X and Y, height at the origin."""
+def _planes(triangles: Floats, error: Floats, slopes: Floats, nodes: int) -> Floats:
+    """Return planes (nodes, 3) that nothing of equal shares of the facets is above: slopes along X and Y, height at the origin.
+
+    Args:
+        slopes: of each facet (n, 2).
+    """
     share = _padded(len(triangles)) // nodes
     starts = np.arange(0, len(triangles), share)
-    slopes = np.add.reduceat(_slopes(triangles), starts) / np.diff([*starts, len(triangles)])[:, None]
-    own = np.repeat(slopes, np.diff([*starts, len(triangles)]), axis=0)
-    above = (triangles[:, :, 2] - np.einsum("nc,nkc->nk", own, triangles[:, :, :2])).max(axis=1)
-    above += error * np.sqrt(1 + (own**2).sum(axis=1))
+    mean = np.add.reduceat(slopes, starts) / np.diff([*starts, len(triangles)])[:, None]
     planes = np.full((nodes, 3), -np.inf)
     planes[:, :2] = 0.0
-    planes[: len(starts)] = np.column_stack([slopes, np.maximum.reduceat(above, starts)])
+    planes[: len(starts), :2] = mean
+    above = np.empty(len(triangles))
+    for first in range(0, len(triangles), _PART):
+        some = slice(first, first + _PART)
+        own = mean[np.arange(first, min(first + _PART, len(triangles))) // share]
+        over = (triangles[some, :, 2] - np.einsum("nc,nkc->nk", own, triangles[some, :, :2])).max(axis=1)
+        above[some] = over + error[some] * np.sqrt(1 + (own**2).sum(axis=1))
+    planes[: len(starts), 2] = np.maximum.reduceat(above, starts)
     return planes
 
 
@@ -188,10 +208,14 @@ def _padded(count: int) -> int:
 
 def _slopes(triangles: Floats) -> Floats:
     """Return how steeply facets rise along X and Y (n, 2); upright ones count as of a slope of _STEEP."""
-    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    up = np.where(normal[:, 2] < 0, -1.0, 1.0)[:, None] * normal
-    least = np.hypot(up[:, 0], up[:, 1]) / _STEEP
-    return np.asarray(-up[:, :2] / np.maximum(np.maximum(up[:, 2], least), 1e-300)[:, None])
+    slopes = np.empty((len(triangles), 2))
+    for first in range(0, len(triangles), _PART):
+        some = triangles[first : first + _PART]
+        normal = np.cross(some[:, 1] - some[:, 0], some[:, 2] - some[:, 0])
+        up = np.where(normal[:, 2] < 0, -1.0, 1.0)[:, None] * normal
+        least = np.hypot(up[:, 0], up[:, 1]) / _STEEP
+        slopes[first : first + _PART] = -up[:, :2] / np.maximum(np.maximum(up[:, 2], least), 1e-300)[:, None]
+    return slopes
 
 
 def _interleaved(places: Floats) -> NDArray[np.uint64]:

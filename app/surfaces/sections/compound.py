@@ -9,6 +9,8 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.memory import ask, fitting
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
@@ -52,6 +54,17 @@ class Planes:
         """Return x, y of a place on a plane, so far along it, mm."""
         (x, y), (c, s), offset = self.origin, self.along, self.offsets[plane]
         return x + distance * c - offset * s, y + distance * s + offset * c
+
+    def ask_memory(self, needed: float) -> None:
+        """Ask for the memory, bytes, of what grows with the number of planes.
+
+        Raises:
+            MemoryShortError: there is not as much.
+        """
+        count = len(self.offsets)
+        apart = (self.offsets[-1] - self.offsets[0]) / max(count - 1, 1)
+        larger = f"{apart / fitting(needed) * 1.05:.2g}"
+        ask(needed, f"Passes on {count:,} planes", f"set them {larger} mm apart or more (pitch = {larger} in the scene)")
 
 
 @dataclass(frozen=True, eq=False)

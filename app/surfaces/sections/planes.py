@@ -18,14 +18,22 @@ Stretch = tuple[float, float]
 
 MOST_PLANES = 100_000
 _NEAR = 1e-9
+_PART = 1 << 17
 
 
 def extent_on(planes: Planes, places: Floats) -> tuple[Stretch, Stretch]:
     """Return the stretch along the planes, and across them, in which places (n, 2) lie, mm."""
+    ends = [_extent(planes, places[first : first + _PART]) for first in range(0, len(places), _PART)]
+    low, high = np.min([low for low, _ in ends], axis=0), np.max([high for _, high in ends], axis=0)
+    return (float(low[0]), float(high[0])), (float(low[1]), float(high[1]))
+
+
+def _extent(planes: Planes, places: Floats) -> tuple[Floats, Floats]:
+    """Return (low, high), each along and across the planes, mm."""
     c, s = planes.along
     dx, dy = places[:, 0] - planes.origin[0], places[:, 1] - planes.origin[1]
-    along, across = dx * c + dy * s, dy * c - dx * s
-    return (float(along.min()), float(along.max())), (float(across.min()), float(across.max()))
+    both = np.stack([dx * c + dy * s, dy * c - dx * s])
+    return both.min(axis=1), both.max(axis=1)
 
 
 def even_planes(origin: tuple[float, float], angle: float, pitch: float, places: Floats) -> Planes:

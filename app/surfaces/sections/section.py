@@ -24,6 +24,10 @@ _GAP = 1e-9
 _JUMP = 1e-8
 
 
+_PIECE_BYTES = 300
+"""What each meeting of a plane and a facet takes at a time: its piece as it is made, joined, put in order."""
+
+
 @dataclass(frozen=True, eq=False)
 class _Pieces:
     """Pieces of section curves on one plane, by where they begin.
@@ -109,6 +113,7 @@ def _pairs(facets: Facets, planes: Planes) -> tuple[Ints, Ints]:
     slack = facets.error + 1e-9
     first = np.searchsorted(offsets, across.min(axis=1) - slack, "left")
     count = np.maximum(np.searchsorted(offsets, across.max(axis=1) + slack, "right") - first, 0)
+    planes.ask_memory(_PIECE_BYTES * float(count.sum()))
     facet = np.repeat(np.arange(len(facets)), count)
     plane = np.repeat(first, count) + np.arange(len(facet)) - np.repeat(np.cumsum(count) - count, count)
     order = np.argsort(plane, kind="stable")

@@ -19,6 +19,7 @@ import shapely
 from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
+from ...core.memory import portion
 from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
@@ -41,6 +42,9 @@ _SAME = 1e-4
 
 _BANDS, _WORTH_TWO_CORES = 4, 500
 
+_AT_A_TIME, _SQUARE_BYTES = 1 << 20, 250
+"""Squares that are looked at together, few enough to be stopped between them, and what one takes meanwhile."""
+
 Floats = NDArray[np.float64]
 States = NDArray[np.uint8]
 
@@ -59,9 +63,14 @@ def uncertain(wanted: Shape, paths: Sequence[tuple[Rows, float]], progress: Prog
     if wanted.is_empty or not swaths:
         return np.array([] if wanted.is_empty else [shapely.box(*wanted.bounds)], dtype=object)
     area, least = DistanceField.of(_edges(wanted)), min(each.radius for each in swaths)
+    kept: list[NDArray[np.object_]] = []
     centres, half = _grid(wanted.bounds)
-    within, kept = np.zeros(len(centres), np.bool_), []
-    while len(centres):
+    waiting = [(centres, half, np.zeros(len(centres), np.bool_))]
+    while waiting:
+        centres, half, within = waiting.pop()
+        if len(centres) > (most := min(_AT_A_TIME, portion(_SQUARE_BYTES))):
+            waiting += [(centres[first : first + most], half, within[first : first + most]) for first in range(0, len(centres), most)]
+            continue
         progress.step(0.0, "Measuring what is left")
         q = half * math.sqrt(2)
         beside = [each.field.nearest(centres, each.radius + _SLACK + 2 * q) for each in swaths]
@@ -75,8 +84,8 @@ def uncertain(wanted: Shape, paths: Sequence[tuple[Rows, float]], progress: Prog
         if half <= least / _FINEST:
             left |= states != OPEN
         kept.append(_runs(centres[left], half))
-        half /= 2
-        centres, within = quarters(centres[~left], half), np.repeat(within[~left], 4)
+        if not left.all():
+            waiting.append((quarters(centres[~left], half / 2), half / 2, np.repeat(within[~left], 4)))
     return np.concatenate(kept) if kept else np.zeros(0, dtype=object)
 
 

@@ -8,6 +8,7 @@ import threading
 import time
 import traceback
 from collections.abc import Callable
+from contextvars import copy_context
 from dataclasses import dataclass
 from functools import partial
 
@@ -15,6 +16,7 @@ from PySide6.QtCore import QObject, Qt, Signal, Slot
 from shiboken6 import isValid
 
 from ...core.errors import Cancelled, HitofudeError
+from ...core.memory import MemoryShortError, budget_limit, in_words, within
 from ...core.progress import Progress, told_waits
 
 HEAD_START_S = 0.04
@@ -78,6 +80,7 @@ class _Runner(threading.Thread):
     def __init__(self, work: _Work, worker: Worker) -> None:
         super().__init__(name=f"job {work.job_id}", daemon=True)
         self._work: _Work | None = work
+        self._context = copy_context()
         self._worker, self._told, self._fraction = worker, 0.0, 0.0
         self._head_start = worker.head_start_s
 
@@ -85,7 +88,7 @@ class _Runner(threading.Thread):
         """Run the function and answer; nothing may escape from here. What the function holds is let go of with it."""
         work, self._work = self._work, None
         if work is not None and not work.cancelled.wait(self._head_start):
-            self._run(work)
+            self._context.run(self._run, work)
 
     def _tell(self, job_id: int, fraction: float, text: str) -> None:
         self._fraction, now = fraction, time.monotonic()
@@ -97,10 +100,17 @@ class _Runner(threading.Thread):
         value, error = None, None
         try:
             progress = Progress(partial(self._tell, work.job_id), work.cancelled)
-            with _NO_COLLECTOR, told_waits(lambda text: progress.step(self._fraction, text)):
+            waits = told_waits(lambda text: progress.step(self._fraction, text))
+            with _NO_COLLECTOR, within(budget_limit()), waits:
                 value = work.function(progress)
         except Cancelled:
             return
+        except MemoryShortError as short:
+            error = short.in_window()
+        except MemoryError:
+            limit = in_words(budget_limit())
+            error = (f"The memory that a job may take ({limit}) ran out; allow more in the menu Compute, Memory of a job, "
+                     "or ask for less: a larger tool, fewer cells, a coarser bitmap. Your drawing is safe.")
         except HitofudeError as sentence:
             error = str(sentence)
         except Exception as fault:

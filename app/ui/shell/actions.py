@@ -183,6 +183,9 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         Spec("scene_cut", "Show the scene's c&ut"),
         Spec("stages_again", "Compute the &stages"),
         SEPARATOR,
+        Spec("memory_quarter", "A &quarter of the machine's", group="memory", checkable=True, under="&Memory of a job"),
+        Spec("memory_half", "&Half of the machine's", group="memory", checkable=True, under="&Memory of a job"),
+        Spec("memory_most", "&Three quarters of the machine's", group="memory", checkable=True, under="&Memory of a job"),
         Spec("findings", "&Findings", "Ctrl+Shift+F"),
     )),
     ("&NC", (

@@ -42,6 +42,7 @@ from .inspecting import Inspecting
 from .keys_window import KeysWindow
 from .main_window import MainWindow
 from .memory import choose_theme
+from .memory_choice import MemoryChoice
 from .palette import Palette
 from .recovering import Recovering
 from .shortcuts import Shortcuts
@@ -86,7 +87,7 @@ class Wiring(QObject):
         self.drawing_export = DrawingExport(window, self.log)
         self.drawing_export.failed.connect(self._say_error)
         self.recovering = Recovering(window, self.showing, self.files, self.log)
-        self.tools = ToolExchange(window, self.log)
+        self.tools, self.memory_choice = ToolExchange(window, self.log), MemoryChoice(window)
         self.tabbing, self.unit_choice, self.underlaying = Tabbing(window), UnitChoice(window), Underlaying(window)
         self.language = LanguageWiring(window, self.showing)
         self.what_is_this = WhatIsThis(window, self.language.help)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from ....core.errors import ParameterError
 from ....core.progress import NO_PROGRESS, Progress
 from ....model.job import Job
+from ....raster.frame import STAGES_BYTES
 from ....usecases.bitmap_options import BitmapSize
 from .film import Film, film_of
 
@@ -78,7 +79,7 @@ def reel_of(wish: Wish, before: Reel | None = None, progress: Progress = NO_PROG
     else:
         progress.step(0.0, "Drawing the pixels")
         part, films = wish.pixels or _drawn(wish), {}
-        _check(part)
+        _check(part, wish.pixels is not None)
         made = compute_on_bitmap(wish.job, part, progress.part(0.02, 0.6))
     variant = Variant.PUBLISHED if wish.published else Variant.SETTLED
     films[wish.published] = film_of(stages(wish.job, part, made.paths, variant), _about(part, made), progress.part(0.6, 1.0))
@@ -91,7 +92,7 @@ def _drawn(wish: Wish) -> BitmapPart:
     return drawn_job(wish.job, wish.size).part
 
 
-def _check(part: BitmapPart) -> None:
+def _check(part: BitmapPart, picture: bool) -> None:
     """Refuse a bitmap whose stages would not fit in memory.
 
     Raises:
@@ -101,6 +102,7 @@ def _check(part: BitmapPart) -> None:
     if frame.rows * frame.cols > MOST_PX:
         raise ParameterError(f"The bitmap has {frame.cols} x {frame.rows} px; up to {MOST_PX / 1e6:.1f} million are shown stage by stage, "
                              "so use a larger pitch, or a smaller picture.")
+    frame.ask_memory(STAGES_BYTES, picture)
 
 
 def _about(part: BitmapPart, made: BitmapProgram) -> int:
