@@ -92,9 +92,7 @@ class Interpreter:
             case s.Repeat():
                 return self._repeat(statement, session)
             case s.Choose():
-                while not (holds := self._holds(statement, session)) and len(statement.other) == 1 and isinstance(statement.other[0], s.Choose):
-                    statement = statement.other[0]
-                return Outcome(self._all(statement.body if holds else statement.other, session), "If", "Yes." if holds else "No.")
+                return self._choose(statement, session)
             case s.Units():
                 return self._in_units(statement, session)
             case s.Define():
@@ -118,6 +116,14 @@ class Interpreter:
         if (drawn := len(after.part.entities) + len(after.part.notes)) > MOST_CURVES:
             raise wrong(f"The drawing would have {drawn} curves; a text draws at most {MOST_CURVES}.", written.place)
         return Outcome(_labelled(written, session, after), command.name, command.reply)
+
+    def _choose(self, statement: s.Choose, session: Session) -> Outcome:
+        while not (holds := self._holds(statement, session)) and len(statement.other) == 1:
+            (further,) = statement.other
+            if not isinstance(further, s.Choose):
+                break
+            statement = further
+        return Outcome(self._all(statement.body if holds else statement.other, session), "If", "Yes." if holds else "No.")
 
     def _holds(self, statement: s.Choose, session: Session) -> bool:
         self._effort.value(statement.left.place)
