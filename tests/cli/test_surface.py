@@ -106,7 +106,8 @@ def test_surfaces_then_cut_then_smooth_then_cut_is_clean_and_keeps_the_boundarie
     before, after = files["ngc"].read_text(), smooth.read_text()
     marks = re.compile(r"\(Surface .*\)")
     assert marks.findall(after) == marks.findall(before)
-    assert len(after.splitlines()) < len(before.splitlines()) / 3
+    moves = [sum(not line.startswith("(") for line in text.splitlines()) for text in (after, before)]
+    assert moves[0] < moves[1] / 2.5, "boundaries are marked as often in both, and the passes were thinned when they were made"
 
 
 @pytest.mark.exhaustive
