@@ -81,7 +81,8 @@ class Polyline:
         sizes = np.abs(both)
         self.ahead: Places = np.where(sizes > 1e-6, both / np.maximum(sizes, 1e-6), np.append(ways, ways[-1]))
         self.along: Floats = np.concatenate([[0.0], np.cumsum(np.abs(steps))])
-        self.turns: Floats = np.minimum(np.concatenate([[0.0], np.abs(np.angle(ways[1:] / ways[:-1])), [0.0]]), _bends(self.points, reach, step))
+        chords = np.concatenate([[0.0], np.abs(np.angle(ways[1:] / ways[:-1])), [0.0]])
+        self.turns: Floats = np.minimum(chords, _bends(self.points, reach, step))
 
     def joints(self, chain: Chain) -> Places:
         """Return the places (m + 1,) of a chain's joints."""
