@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,8 @@ Box = tuple[float, float, float, float]
 
 _STEP = math.radians(2)
 _SPAN_POINTS = 12
+_KNOWN = 4096
+"""Boxes of ellipses and splines that are kept: picking by windows asks for the same ones again and again."""
 
 
 def sample(curve: Curve) -> Points:
@@ -63,13 +66,19 @@ def bounds(curve: Curve) -> Box:
     (x0, y0), (x1, y1) = curve.start, curve.end
     if isinstance(curve, Line):
         return (min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1))
-    points = [curve.start, curve.end]
-    if isinstance(curve, Arc):
-        points += _quadrants_within(curve)
-    else:
-        points += [(float(x), float(y)) for x, y in sample(curve)]
-    xs, ys = [p[0] for p in points], [p[1] for p in points]
+    return _round_bounds(curve) if isinstance(curve, Arc) else _sampled_bounds(curve)
+
+
+def _round_bounds(arc: Arc) -> Box:
+    xs, ys = zip(arc.start, arc.end, *_quadrants_within(arc), strict=True)
     return (min(xs), min(ys), max(xs), max(ys))
+
+
+@lru_cache(_KNOWN)
+def _sampled_bounds(curve: Ellipse | Spline) -> Box:
+    points = np.concatenate([[curve.start, curve.end], sample(curve)])
+    (x0, y0), (x1, y1) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+    return (x0, y0, x1, y1)
 
 
 def union(boxes: list[Box]) -> Box | None:

@@ -78,8 +78,9 @@ def wanted_over(part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...],
         reach = ~left
         if left.any() and cutters:
             lowest = reach_of(part.solid, part.leave, stock.box, cutters, progress)
-            sure, possible = (height <= target.high + np.float32(part.tolerance) for height in lowest.over(grid))
-            reach |= reachable(left, sure, possible, max(3, math.ceil(3 * lowest.grid.pitch / grid.pitch)))
+            *heights, over_part = lowest.over(grid)
+            sure, possible = (height <= target.high + np.float32(part.tolerance) for height in heights)
+            reach |= reachable(left, sure, possible, over_part <= part.tolerance, max(3, math.ceil(3 * lowest.grid.pitch / grid.pitch)))
     return Wanted(replace(target, low=np.minimum(target.low, cut.before.heights)), reach, solid)
 
 

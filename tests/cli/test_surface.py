@@ -102,11 +102,12 @@ def test_surfaces_then_cut_then_smooth_then_cut_is_clean_and_keeps_the_boundarie
         cut = json.loads(path.read_text())
         assert cut["gouge"]["count"] == 0 and cut["rapids_in_material"] == []
         assert cut["removed_mm3"] > 1000
-        assert cut["left"]["reachable_mm2"] < 6.0  # beside the upright sides of the spheres, where reach is told by cells
+        assert cut["left"]["reachable_mm2"] < 6.0  # an exact closing, on points 0.01 mm apart, finds 3.06 there
     before, after = files["ngc"].read_text(), smooth.read_text()
     marks = re.compile(r"\(Surface .*\)")
     assert marks.findall(after) == marks.findall(before)
-    assert len(after.splitlines()) < len(before.splitlines()) / 3
+    moves = [sum(not line.startswith("(") for line in text.splitlines()) for text in (after, before)]
+    assert moves[0] < moves[1] / 2.5, "boundaries are marked as often in both, and the passes were thinned when they were made"
 
 
 @pytest.mark.exhaustive

@@ -1,12 +1,15 @@
 """Names, functions, blocks and commands of one's own: what a text of the shape language draws."""
 
+import contextlib
 import math
+import time
 
 import pytest
 
 from app.core.errors import Cancelled, InputError
 from app.core.progress import Progress
-from app.drafting.document import Document
+from app.drafting import effort
+from app.drafting.document import Document, drawn
 from app.drafting.expressions.errors import CommandError
 from app.model.curves import Circle, Curve, Line
 
@@ -140,6 +143,57 @@ def test_what_is_wrong_is_told_with_line_and_column(text: str, line: int, column
         document.run_script(text, "plate.draw")
     assert str(caught.value).startswith(f"plate.draw:{line}: column {column}: "), caught.value
     assert says in str(caught.value)
+
+
+TOO_MUCH = [
+    "repeat 600 as k\nline 0,0 1,k+1\nend",
+    "repeat 600 as k\nguide k,0 45\nend",
+    "repeat 100\nif " + "1+" * 900 + "1 > 0\nend\nend",
+    "repeat 100\nrepeat 0*(" + "1+" * 900 + "1)\nend\nend",
+    "define f(n)\nif n > 0\nf n-1\nf n-1\nline 0,0 n,1\nend\nend\nf 12",
+    "repeat 30\nspline degree 20 " + " ".join(f"{k},{k % 3}" for k in range(40)) + "\nend",
+    "circle 0,0 1\nselect all\nrepeat 100\nmeasure\nend",
+    "spline 0,0 1,1 2,0\nrepeat 600\nselect crossing 0,0 9,9\nend",
+    "spline 0,0 1,1 2,0\nrepeat 90 as k\nline 0.5+k/90,-3 0.5+k/90,3 as v\ntrim v 0.5+k/90,2\nend",
+    "line 0,0 1,1\nrepeat 900\nselect chain 1\nend",
+    "line 0,0 1,1\nrepeat 900\nmove @1,0 1\nend",
+    "line 0,0 1,1\nrepeat 900\nheal 0.1\nend",
+    "line 0,0 0,1\nline 0,1 1,1\nrepeat 900\nfillet 0.001 1 2\nend",
+]
+
+
+@pytest.mark.parametrize("text", TOO_MUCH)
+def test_what_is_repeated_is_counted(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every kind of statement counts where it stands in a block, and none that is written out."""
+    monkeypatch.setattr(effort, "MOST_WORK", 20_000)
+    with pytest.raises(InputError, match=r"^a\.draw:\d: column \d+: What this text repeats is too much work; repeat fewer times"):
+        drawn(text, "a.draw")
+
+
+def test_what_is_written_out_is_drawn_however_much_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A limit on what is repeated refuses no drawing that was saved line by line."""
+    monkeypatch.setattr(effort, "MOST_WORK", 20)
+    saved = "\n".join("spline degree 9 " + " ".join(f"{k + n},{k % 3}" for k in range(10)) for n in range(40))
+    assert len(drawn(saved).entities) == 40
+    with pytest.raises(InputError, match="too much work"):
+        drawn("repeat 40\n" + saved.partition("\n")[0] + "\nend")
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("text", [
+    "repeat 60000 as k; line 0,0 1,k+1; end", "repeat 60000 as k; point k,0; end",
+    "repeat 1000 as k; line 0,k 1,k; end; repeat 1000; select all; measure; end",
+    "repeat 1000 as k; spline k,0 k+1,0 k,3; end; repeat 300; select crossing 0,0 100,100; end",
+    "repeat 400 as k; spline 0,k 30,k 60,k 100,k; end; repeat 100 as k; line k/2,-1 k/2,500 as v; trim v k/2,0.5; end",
+    "repeat 20000 as k; spline 0,0 1,1 2,k+3 3,5; end", "repeat 3000 as k; line k,0 k+1,0; end; repeat 20; heal 0.1; end",
+    "let a = 1; repeat 100000; let a = " + "1+" * 900 + "1; end",
+])
+def test_whatever_is_repeated_ends_within_five_seconds_of_the_processor(text: str) -> None:
+    drawn("line 0,0 1,1; spline 0,0 1,1 2,3; select all; measure")  # what is loaded is
+    begun = time.process_time()
+    with contextlib.suppress(InputError):
+        drawn(text)
+    assert time.process_time() - begun < 5
 
 
 def test_a_text_that_cannot_be_read_draws_nothing() -> None:

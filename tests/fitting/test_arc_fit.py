@@ -170,8 +170,8 @@ def test_adversaries_stay_within(name: str, tolerance: float) -> None:
         "hairpin": np.array([[0, 0, 0], [5, 0, 0], [5.001, 0, 0], [5.001, 0.001, 0], [0, 0.001, 0], [0, 0.002, 0], [5, 0.002, 0]]),
     }[name]
     points = points[np.concatenate([[True], np.any(np.diff(points, axis=0) != 0, axis=1)])]
-    for arcs in (True, False):
-        fitted(np.ascontiguousarray(points), tolerance, arcs)
+    either, lines = (fitted(np.ascontiguousarray(points), tolerance, arcs) for arcs in (True, False))
+    assert set(kinds(lines)) == {MotionKind.LINE} and len(either.motions) <= len(lines.motions)
 
 
 def test_lines_alone_when_asked() -> None:

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from app.fitting.fitted import FittedPath
 from app.fitting.line_arcs.arc_fit import ArcOptions, _greedy, fit_arcs
+from app.fitting.line_arcs.flat_fit import _last_digit
+from app.fitting.line_arcs.tangent import Polyline
 from app.fitting.point_curves.corners import corners
 from app.fitting.point_curves.space_curve import curve_of_motions
 from app.fitting.point_curves.tube import Answer, Tube, judge
@@ -185,3 +187,22 @@ def test_another_scale_gives_the_same_pieces(scale: float) -> None:
 def test_pieces_follow_one_another_without_a_gap() -> None:
     path = fit_arcs(np.round(waves(5_000, (5, 13), 2.0), 4), ArcOptions(TOLERANCE))
     assert all(np.array_equal(a, b) for (_, a), (b, _) in pairwise(zip(path.motions.start, path.motions.end, strict=True)))
+
+
+@pytest.mark.parametrize(("unit", "digits"), [(1.0, 0), (1.0, 3), (1.0, 4), (25.4, 4), (25.4, 5)])
+def test_the_last_digit_of_points_is_seen_in_mm_and_in_inches(unit: float, digits: int) -> None:
+    rounded_to = np.round(np.random.default_rng(1).uniform(-90, 90, (50, 3)) / unit, digits) * unit
+    assert _last_digit(rounded_to) == pytest.approx(unit * 10.0**-digits)
+    assert _last_digit(rounded_to + np.pi * np.arange(50)[:, None]) == 0.0
+
+
+def test_what_rounding_can_make_is_no_bend_and_bends_that_are_meant_are() -> None:
+    """Steps of 1 um turn chords of 10 um by no more than 0.28 radians; facets of 2 degrees, 1 mm long, keep all but 0.16 degrees."""
+    rng, step = np.random.default_rng(7), 1e-3
+    straight = np.round(np.column_stack([np.arange(500) * 0.01, rng.uniform(-0.0005, 0.0005, 500) + 0.37371 * np.arange(500) * 0.01]), 3)
+    assert Polyline(straight, 0.04).turns.max() > math.radians(1)
+    assert Polyline(straight, 0.04, step).turns.max() == 0.0
+    t = np.radians(np.arange(0, 90, 2.0))
+    facets = np.round(np.column_stack([np.cos(t), np.sin(t)]) * 0.5 / math.sin(math.radians(1)), 4)
+    turns = np.degrees(Polyline(facets, 0.04, 1e-4).turns[1:-1])
+    assert turns.min() > 2 - 0.04 and turns.max() < 2 + 0.04

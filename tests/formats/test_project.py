@@ -168,7 +168,9 @@ def test_what_could_not_be_read_again_is_told_when_it_is_written(size: float) ->
 
 
 def test_windows_line_ends_are_read() -> None:
-    same(drawn(), read_project("p.hito", TEXT.replace("\n", "\r\n").encode()))
+    other = TEXT.replace("\n", "\r\n").encode()
+    assert other.count(b"\r\n") == TEXT.count("\n") > 10
+    same(drawn(), read_project("p.hito", other))
 
 
 @pytest.mark.parametrize("data", [

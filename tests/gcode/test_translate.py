@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +20,7 @@ from app.gcode.posts.posts import load_post
 from app.gcode.translate.program import Translated, translated
 from app.gcode.writer.blocks import Blocks
 from app.model.motion import MotionKind
+from app.model.motion_path import lengths as lengths_of
 from tests.conftest import ROOT
 from tests.examples import examples
 from tests.gcode.interpreter.rs274_motions import assert_same, rs274
@@ -206,26 +208,66 @@ def test_our_own_programs_are_the_same_on_every_control(came: str, control: str,
         assert_same(made.program, printed)
 
 
-def ends_of(program: NcProgram) -> np.ndarray:
-    """Where each motion that moves ends, but for the machine's own places."""
+def travelled(program: NcProgram) -> tuple[np.ndarray, np.ndarray]:
+    """Where the tool stands at first and behind each motion, and how far it has gone by then, but for ways to the machine's own places."""
     motions = program.motions
-    kept = np.any(motions.start != motions.end, axis=1) | (motions.kind > MotionKind.LINE)
+    kept = np.ones(len(motions), bool)
     kept[list(program.homeward)] = False
-    return motions.end[kept]
+    begin = motions.start[:1] if len(motions) else np.zeros((1, 3))
+    return np.concatenate([begin, motions.end[kept]]), np.concatenate([[0.0], np.cumsum(lengths_of(motions)[kept])])
 
 
-def assert_moves_alike(before: NcProgram, after: NcProgram, off: float) -> None:
-    """The same places in the same order, but for those where arcs are parted; and the same waits."""
+def assert_moves_alike(before: NcProgram, after: NcProgram, off: float, parted: int = 2) -> None:
+    """The same places in the same order, reached after as long a way, but for those where arcs are parted; and the same waits.
+
+    A motion whose ends are written as one place is none there; a full circle, whose ends are one too, has its length.
+    """
     assert after.error is None
-    old, new = ends_of(before), ends_of(after)
+    (old, gone), (new, by_then) = travelled(before), travelled(after)
     at = 0
-    for place in old:
-        while np.abs(new[at] - place).max() > off:
+    for n, (place, way) in enumerate(zip(old, gone, strict=True)):
+        while np.abs(new[at] - place).max() > off or abs(by_then[at] - way) > 2 * math.pi * off * n + 1e-9:
             at += 1
-        at += 1
-    assert len(new) - len(old) <= 2 * np.sum(before.motions.kind > MotionKind.LINE)
+    assert abs(by_then[-1] - gone[-1]) <= 2 * math.pi * off * len(new) + 1e-9, "it goes on"
+    assert len(new) - len(old) <= parted * np.sum(before.motions.kind > MotionKind.LINE)
     waits = [[event.value for event in program.events if event.kind is EventKind.DWELL] for program in (before, after)]
     assert waits[0] == waits[1]
+
+
+TINY = {
+    "a rapid": "G0 X0.0001", "a rapid between others": "G0 X5.\nG0 X5.0001\nG0 X6.", "a cut at the end": "G0 X5.\nG1 X5.0001",
+    "cuts between rapids": "G1 X0.0001\nG0 X3.\nG1 X2.9999\nG0 X5.", "in inch": "G20\nG1 X0.00001\nG0 X1.",
+    "rapids and cuts in turn": "G91\n" + "G0 X0.0004\nG1 X0.0003\n" * 9 + "G90\nG0 X4.",
+    "an arc": "G0 X10.\nG2 X10.0001 Y0.0001 R1.", "an arc by its centre": "G0 X10.\nG2 X10.0001 Y0. I-5.\nG0 X3.",
+    "a full circle that is not": "G0 X10.\nG2 I-5.\nG0 X3.", "a narrow one that is": "G0 X10.\nG2 I-0.0001\nG0 X3.",
+    "a narrow helix": "G0 X10.\nG2 I-0.0001 Z-1.\nG0 X3.", "an arc that turns nearly round": "G0 X10.\nG3 X10. Y-0.0004 R5.\nG0 X3.",
+    "with dwells": "G0 X0.0001\nG4 {wait}\nG0 X0.0002\nG4 {wait}\nG0 X4.", "a dwell before a full circle": "G0 X5.\nG4 {wait}\nG2 I-1. J0.",
+    "a dwell between": "G0 X5.\nG1 X5.0001\nG4 {wait}\nG2 X5.0001 Y0. I-1. J0.\nG0 X9.",
+}  # fmt: skip
+"""Motions whose ends another control's last decimal may make one, or only seems to."""
+
+
+@pytest.mark.parametrize("came", [*CONTROLS, "grbl"])
+@pytest.mark.parametrize("what", TINY)
+def test_what_is_less_than_the_last_digit_is_no_motion_there(what: str, came: str) -> None:
+    for head in ("G21 G90 G17 F100.0", "G20 G90 G17 F10.0"):
+        text = "\n".join([head, TINY[what].format(wait="P0.5" if came in ("linuxcnc", "grbl") else "P500."), "M30", ""])
+        before = read_program(text.encode(), ReadOptions(Dialect(came)))
+        if before.error is not None:
+            continue  # an arc whose radii differ too much for this control
+        for control in {*CONTROLS, "grbl"} - {came}:
+            narrow_arcs_are_lines = 16
+            assert_moves_alike(before, (made := into(control, text, came)).program, made.off, narrow_arcs_are_lines)
+
+
+def test_a_lost_circle_and_a_moved_dwell_are_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is dropped for being small is held to its path, not to its ends."""
+    right = Blocks.block
+    lost = {"G3 ": "G0 X10\nG3 X10 Y0 I-5 J0 F50", "G1 X10.": "G0 X5\nG1 X10.003 F50\nX5", "G4 ": "G1 X5 F50\nG4 P0.5\nX5.0001"}
+    for was, text in lost.items():
+        monkeypatch.setattr(Blocks, "block", lambda self, line, was=was: right(self, "" if line.startswith(was) else line))
+        with pytest.raises(InputError, match="is not the same there"):
+            pytest.fail(f"{was} went unseen: {into('fanuc', text + chr(10) + 'M2' + chr(10)).data!r}")
 
 
 lengths = st.decimals(-40, 40, places=4).map(lambda value: f"{value:.4f}")

@@ -150,7 +150,11 @@ def test_several_tools_rapids_and_what_is_left_out(ctx: moderngl.Context) -> Non
 
 def test_what_an_earlier_program_has_left(ctx: moderngl.Context) -> None:
     first = trim(box_piece(cells=100), course_of(polyline(walk(1, 50, 1.0, 0.5))), {1: CUTTERS["ball"]}).workpiece
-    agree(ctx, HeightStock(first).over(first.grid), course_of(polyline([(0, -5, -3), (0, 5, -9)])), {1: CUTTERS["bull"]})
+    second, cutters = course_of(polyline([(0, -5, -3), (0, 5, -9)])), {1: CUTTERS["bull"]}
+    got = agree(ctx, HeightStock(first).over(first.grid), second, cutters)
+    alone = drawn(ctx, box_piece(cells=100), second, cutters)
+    assert np.abs(got - np.minimum(first.heights, alone)).max() < 1e-4, "the lower of what either cuts"
+    assert (got < first.heights).any() and (got < alone).any()
 
 
 def test_many_pieces_and_pictures(ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch) -> None:

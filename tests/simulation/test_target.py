@@ -106,8 +106,9 @@ def test_a_slot_is_within_reach_from_the_width_of_the_tool_on(width: float, reac
     lowest = reach_of(solid, 0.0, grid.box, [Cutter(3.0, 3.0)])
     target = solid_target(solid, grid)
     left = target.deviation(np.zeros((grid.rows, grid.cols), np.float32)) > 0.01
-    sure, possible = (heights <= target.high + np.float32(0.01) for heights in lowest.over(grid))
-    within = reachable(left, sure, possible, 3)
+    *heights, over_part = lowest.over(grid)
+    sure, possible = (each <= target.high + np.float32(0.01) for each in heights)
+    within = reachable(left, sure, possible, over_part <= 0.01, 3)
     xs, ys = centres(grid)
     assert np.all(within[(np.abs(ys - 20) < width / 2 - 0.2) & (np.abs(xs - 30) < 25)] == reached)  # a little way in it always gets
     assert np.all(within[(ys > 38.2) & (ys < 39.9)])  # the rabbet: from beside the stock

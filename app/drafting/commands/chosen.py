@@ -22,4 +22,5 @@ def chosen_curves(words: Arguments, session: Session, verb: str) -> dict[int, Cu
         raise InputError(f"Only points, construction lines and dimensions are chosen; select curves to {verb}, or write their numbers.")
     if not curves:
         raise InputError(f"Nothing is selected; select what to {verb}, or write its numbers after the command.")
+    words.takes(curves.values())
     return curves

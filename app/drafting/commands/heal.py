@@ -26,6 +26,8 @@ _WORDS = {
     FaultKind.TINY: ("tiny curve removed", "tiny curves removed"), FaultKind.DUPLICATE: ("duplicate removed", "duplicates removed"),
     FaultKind.OVERLAP: ("overlap removed", "overlaps removed"), FaultKind.GAP: ("gap closed", "gaps closed"),
 }
+_SHARE = 2.0
+"""To look for faults, time and again, costs so many times what it costs to take the curves apart."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -213,6 +215,7 @@ def heal(words: Arguments, session: Session) -> Heal:
     ids = frozenset(words.ids())
     check_ids(session.part, ids)
     before = {e.id: e.curve for e in reachable(session.part) if not ids or e.id in ids}
+    words.takes(before.values(), _SHARE)
     work = _Work(dict(before), dict(before), {e.id: e.layer for e in session.part.entities}, tolerance)
     for _ in range(_ROUNDS):
         was = dict(work.curves)

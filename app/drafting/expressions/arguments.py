@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import replace
 
 from ...model.curves import Curve, Point
+from ..effort import Effort
 from . import syntax as s
 from .errors import CommandError
 from .evaluate import length_of, number_of, point_of, value_of
@@ -20,10 +22,10 @@ _LARGEST_RANGE = 1_000_000
 class Arguments:
     """A reading position among the arguments of a command."""
 
-    def __init__(self, command: s.Command, scope: Scope) -> None:
-        """Begin at the first argument."""
+    def __init__(self, command: s.Command, scope: Scope, effort: Effort | None = None) -> None:
+        """Begin at the first argument; work on curves is counted as an effort."""
         self._command, self._scope = command, replace(scope, units=LENGTH_UNITS)
-        self._at = 0
+        self._at, self._effort = 0, effort or Effort()
 
     @property
     def last(self) -> Point:
@@ -50,6 +52,14 @@ class Arguments:
     def wrong(self, reason: str) -> CommandError:
         """Return the error that the next argument is wrong."""
         return wrong(reason, self.place)
+
+    def takes(self, curves: Iterable[Curve], share: float = 1.0) -> None:
+        """Count curves that the command is about to take apart, or to look at for a share of what that costs.
+
+        Raises:
+            CommandError: the text repeats too much of that.
+        """
+        self._effort.taken(curves, share, self._command.place)
 
     def raw(self, expected: str) -> str:
         """Step over the next argument and return it as it was written.

@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 
 from ...core.errors import InputError
 from ...core.progress import NO_PROGRESS, Progress
-from ..commands.command import Redo, Session, Undo, counted
+from ..commands.command import Draw, Redo, Session, Undo, counted
 from ..commands.select import Select
+from ..effort import Effort
 from ..expressions import syntax as s
 from ..expressions.errors import CommandError
 from ..expressions.evaluate import number_of, value_of
@@ -17,6 +18,7 @@ from ..expressions.units import LENGTH_UNITS
 from ..expressions.values import Curves, Length, Value, wrong
 from ..expressions.words import number_text, point_text
 from .language import COMMANDS, read
+from .read_notes import DrawNote
 
 MOST_STATEMENTS = 200_000
 """A script carries out no more; one that would is a mistake, or a trap."""
@@ -55,7 +57,7 @@ class Interpreter:
     def __init__(self, progress: Progress = NO_PROGRESS) -> None:
         """Begin; `progress` is looked at for Cancel with every statement."""
         self._progress = progress
-        self._depth = 0
+        self._depth, self._effort = 0, Effort()
         self.done, self.fraction = 0, 0.0
 
     def carry_out(self, statement: s.Statement, session: Session) -> Outcome:
@@ -83,15 +85,14 @@ class Interpreter:
             case s.Command():
                 return self._command(statement, session)
             case s.Let():
+                self._effort.value(statement.place)
                 value = value_of(statement.value, session.scope)
                 named = _with_name(session, statement.name, value)
                 return Outcome(named, f"Let {statement.name.text}", f"{statement.name.text} = {value_text(value)}.")
             case s.Repeat():
                 return self._repeat(statement, session)
             case s.Choose():
-                while not (holds := _holds(statement, session)) and len(statement.other) == 1 and isinstance(statement.other[0], s.Choose):
-                    statement = statement.other[0]
-                return Outcome(self._all(statement.body if holds else statement.other, session), "If", "Yes." if holds else "No.")
+                return self._choose(statement, session)
             case s.Units():
                 return self._in_units(statement, session)
             case s.Define():
@@ -104,15 +105,41 @@ class Interpreter:
         own = session.commands.get(written.word.text.lower())
         if own is not None:
             return self._call(own, written, session)
-        command = read(written, session)
+        self._effort.command(written.place, written.word.text.lower())
+        command = read(written, session, self._effort)
         if isinstance(command, Undo | Redo):
             raise wrong("Undo and redo stand in lines of their own, outside blocks.", written.place)
         after = command.carried_out(session)
+        self._worked(written, session, after, isinstance(command, Draw | DrawNote))
         if isinstance(command, Select):
             return Outcome(after, "Select", f"{len(after.selection)} selected.")
         if (drawn := len(after.part.entities) + len(after.part.notes)) > MOST_CURVES:
             raise wrong(f"The drawing would have {drawn} curves; a text draws at most {MOST_CURVES}.", written.place)
         return Outcome(_labelled(written, session, after), command.name, command.reply)
+
+    def _choose(self, statement: s.Choose, session: Session) -> Outcome:
+        while not (holds := self._holds(statement, session)) and len(statement.other) == 1:
+            (further,) = statement.other
+            if not isinstance(further, s.Choose):
+                break
+            statement = further
+        return Outcome(self._all(statement.body if holds else statement.other, session), "If", "Yes." if holds else "No.")
+
+    def _holds(self, statement: s.Choose, session: Session) -> bool:
+        self._effort.value(statement.left.place)
+        self._effort.value(statement.right.place)
+        left, right = number_of(statement.left, session.scope), number_of(statement.right, session.scope)
+        if isinstance(left, Length) or isinstance(right, Length):
+            left, right = session.scope.length(left), session.scope.length(right)
+        return _COMPARISONS[statement.comparison](left, right)
+
+    def _worked(self, written: s.Command, before: Session, after: Session, draws: bool) -> None:
+        """Count the curves that a command has added, changed or passed."""
+        old, new = before.part.entities, after.part.entities
+        if draws or len(new) > len(old):
+            self._effort.added((e.curve for e in new[len(old):]), len(old) + len(before.part.notes), written.place)
+        else:
+            self._effort.changed(0 if new is old else sum(a is not b for a, b in zip(old, new, strict=False)), len(old), written.place)
 
     def _call(self, own: s.Define, written: s.Command, session: Session) -> Outcome:
         if len(written.arguments) != len(own.parameters):
@@ -122,22 +149,29 @@ class Interpreter:
         self._depth += 1
         if self._depth > _DEEPEST_CALL:
             raise wrong(f"'{own.name.text}' calls itself without end; let it stop with if.", written.place)
+        self._effort.begin()
+        self._effort.turn(written.place)
         inner = self._all(own.body, replace(session, names={**session.names, **values}))
+        self._effort.end()
         self._depth -= 1
         after = replace(inner, names=session.names)
         drawn = len(after.part.entities) - len(session.part.entities)
         return Outcome(_labelled(written, session, after), own.name.text.capitalize(), f"{counted(drawn, 'curve')}.")
 
     def _repeat(self, written: s.Repeat, session: Session) -> Outcome:
+        self._effort.value(written.times.place)
         times = number_of(written.times, session.scope)
         if times != int(times) or not 0 <= times <= MOST_STATEMENTS:
             raise wrong(f"This is {number_text(times)}; repeat wants a whole number from 0 to {MOST_STATEMENTS}.", written.times.place)
         outside = session.names.get(written.index.text) if written.index else None
+        self._effort.begin()
         for count in range(int(times)):
             self._count(written.place)  # a body may be empty
+            self._effort.turn(written.place)
             if written.index:
                 session = _with_name(session, written.index, float(count))
             session = self._all(written.body, session)
+        self._effort.end()
         if written.index:
             names = {name: value for name, value in session.names.items() if name != written.index.text}
             session = replace(session, names=names if outside is None else {**names, written.index.text: outside})
@@ -163,13 +197,6 @@ def value_text(value: Value) -> str:
     if isinstance(value, Curves):
         return "curve " + " ".join(map(str, value.ids))
     return point_text(value) if isinstance(value, tuple) else number_text(value)
-
-
-def _holds(statement: s.Choose, session: Session) -> bool:
-    left, right = number_of(statement.left, session.scope), number_of(statement.right, session.scope)
-    if isinstance(left, Length) or isinstance(right, Length):
-        left, right = session.scope.length(left), session.scope.length(right)
-    return _COMPARISONS[statement.comparison](left, right)
 
 
 def _labelled(written: s.Command, before: Session, after: Session) -> Session:

@@ -50,6 +50,7 @@ from ..commands.join import join
 from ..commands.measuring import Measure, measure
 from ..commands.pull import Pull, pull
 from ..commands.select import Select
+from ..effort import Effort
 from ..expressions import syntax
 from ..expressions.arguments import Arguments
 from ..expressions.values import wrong
@@ -80,8 +81,8 @@ def command_word(text: str) -> str | None:
     return word if word in _READERS else None
 
 
-def read(written: syntax.Command, session: Session) -> Command:
-    """Return what a command asks for.
+def read(written: syntax.Command, session: Session, effort: Effort | None = None) -> Command:
+    """Return what a command asks for; what it works on is counted as an effort.
 
     Raises:
         InputError: it cannot be read or asks for a shape that is none; a CommandError tells the place.
@@ -91,7 +92,7 @@ def read(written: syntax.Command, session: Session) -> Command:
     if reader is None:
         near = nearest_words(word, (*_READERS, *session.commands))
         raise wrong(f"'{word}' is no command; {f'try {near}.' if near else 'F1 lists them all.'}", written.place)
-    words = Arguments(written, session.scope)
+    words = Arguments(written, session.scope, effort)
     command = reader(words, session)
     words.end()
     return command

@@ -95,6 +95,7 @@ def _read(words: Arguments, session: Session) -> tuple[dict[int, Curve], dict[in
     curves = {number: drawn[number] for number in ids if number in drawn}
     if len(curves) < 2:
         raise InputError("Two curves or more make a corner; name them, or select them before.")
+    words.takes(curves.values())
     return curves, places
 
 

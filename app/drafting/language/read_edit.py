@@ -16,6 +16,8 @@ from ..expressions.values import wrong
 from .read_draw import box
 
 MOST_COPIES = 10_000
+_LOOKS = {"window": 0.04, "crossing": 0.04, "chain": 0.3}
+"""To look for curves costs so much of what it costs to take them apart."""
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
@@ -142,6 +144,8 @@ def select(words: Arguments, session: Session) -> Select:
     """Choose curves."""
     how = How(words.accept("add", "remove"))
     kind = words.accept("all", "none", "window", "crossing", "layer", "chain")
+    if kind in _LOOKS:
+        words.takes((e.curve for e in session.part.entities), _LOOKS[kind])
     if kind in ("window", "crossing"):
         return Select(By(kind), how, box=box(words.point("a corner x,y"), words.point("the opposite corner x,y")))
     if kind == "layer":

@@ -14,6 +14,9 @@ from ..commands.offset_chain import chain_parallel
 from ..curves.chains import Chain, chained
 from ..expressions.arguments import Arguments
 
+_EDGE = 0.25
+"""To look where a curve crosses others costs so much of what it costs to take these apart."""
+
 
 def trim(words: Arguments, session: Session) -> Rework:
     """Take out the piece of a curve at a point, up to what crosses it."""
@@ -42,7 +45,9 @@ def _edges(words: Arguments, session: Session, number: int, word: str) -> list[C
         return item.id != number and (item.layer in seen if chosen is None else item.id in chosen)
 
     guides = [note.shape.line for note in part.notes if isinstance(note.shape, Guide) and counts(note)]
-    return [e.curve for e in part.entities if counts(e)] + guides
+    edges = [e.curve for e in part.entities if counts(e)]
+    words.takes(edges, _EDGE)
+    return edges + guides
 
 
 def break_at(words: Arguments, session: Session) -> Rework:

@@ -21,6 +21,9 @@ _SEARCHED = (0.99, 0.93)
 """Of the tolerance, that joints are searched in."""
 _AS_SHARP = 2.0
 """Where the points bend pieces may by so many times as much, too."""
+_FINE = 0.01
+"""Of the tolerance: of a coarser last digit no more is taken for rounding, as points on a wide grid may be meant to be there."""
+_MOST_DIGITS = 8
 _SAME = 1e-6
 """Radians: bends are held to their limit but for the digits that they are reckoned in."""
 
@@ -65,7 +68,8 @@ class FlatFit:
     @cached_property
     def line(self) -> Polyline:
         """The points in their plane."""
-        return Polyline(self.points[:, list(self.plane.axes[:2])], self.reach)
+        points = self.points[:, list(self.plane.axes[:2])]
+        return Polyline(points, self.reach, min(_last_digit(points), _FINE * self.tube.radius))
 
     def fewest(self, bend: float, fewer_than: int) -> FlatPath | None:
         """Return the fewest pieces that the shortest path over places for joints finds; None where these are not fewer, or not proven.
@@ -137,3 +141,13 @@ class FlatFit:
         if judge(curve_of_motions(motions), self.points, self.tube).answer is not Answer.INSIDE:
             return None
         return FlatPath(FittedPath(motions, self.line.nearest(chain.s[1:])), float(turns.max()))
+
+
+def _last_digit(points: Floats) -> float:
+    """Return the step of the last digit, of mm or of inches, that all points are written with, mm; 0 where there is none."""
+    for digits in range(_MOST_DIGITS):
+        for unit in (1.0, 25.4):
+            counted = points / (unit * 10.0**-digits)
+            if np.all(np.abs(counted - np.round(counted)) < 1e-6 + 1e-12 * np.abs(counted)):
+                return float(unit * 10.0**-digits)
+    return 0.0

@@ -28,6 +28,8 @@ _EVEN = 3.0
 """A chord may become an arc beside pieces of at least a third of its length: a long side with crumbs stays a side."""
 _LEAST_CHORDS = 3
 _AS_SHARP = 2.0
+_ROUNDED = 2.0 * math.sqrt(2.0)
+"""Ends of two chords of equal length that are off by half a last digit in X and Y turn them by so many of it a length, at most."""
 _SLIGHT = 0.1
 """An arc that is no higher over its chord than so much of the limit is a line if that makes nothing worse."""
 
@@ -65,8 +67,12 @@ class Polyline:
         turns: (n,) by how much it bends at each point, radians; 0 at both ends.
     """
 
-    def __init__(self, points: Floats, reach: float) -> None:
-        """Take points (n, 2), n >= 2, mm, no two in a row alike; what is no bend over a length, mm, is none."""
+    def __init__(self, points: Floats, reach: float, step: float = 0.0) -> None:
+        """Take points (n, 2), n >= 2, mm, no two in a row alike; what is no bend over a length, mm, is none.
+
+        Args:
+            reach: that length. step: of the last digit that the points are rounded to, mm: what that alone can make is no bend.
+        """
         self.points = np.ascontiguousarray(np.column_stack([points, np.zeros(len(points))]))
         self.xy: Places = np.ascontiguousarray(points[:, 0] + 1j * points[:, 1])
         steps = np.diff(self.xy)
@@ -75,7 +81,8 @@ class Polyline:
         sizes = np.abs(both)
         self.ahead: Places = np.where(sizes > 1e-6, both / np.maximum(sizes, 1e-6), np.append(ways, ways[-1]))
         self.along: Floats = np.concatenate([[0.0], np.cumsum(np.abs(steps))])
-        self.turns: Floats = np.minimum(np.concatenate([[0.0], np.abs(np.angle(ways[1:] / ways[:-1])), [0.0]]), _bends(self.points, reach))
+        chords = np.concatenate([[0.0], np.abs(np.angle(ways[1:] / ways[:-1])), [0.0]])
+        self.turns: Floats = np.minimum(chords, _bends(self.points, reach, step))
 
     def joints(self, chain: Chain) -> Places:
         """Return the places (m + 1,) of a chain's joints."""
@@ -254,18 +261,23 @@ class TangentFit:
         return Chain(line.along[at], np.zeros(count + 1), half, bent)
 
 
-def _bends(points: Floats, reach: float) -> Floats:
+def _bends(points: Floats, reach: float, step: float) -> Floats:
     """Return by how much a polyline bends at its points, chord by chord or over a length where chords are shorter, radians.
 
-    A curve turns half as much over half the length, where a bend turns as much: so chords that rounding has turned, and
-    narrow curves, bend by next to nothing.
+    A curve turns half as much over half the length, where a bend turns as much: so narrow curves bend by next to nothing, and
+    chords that rounding has turned by no more than it can turn them.
     """
     from ..point_curves import corner_kernels
 
     along, near, wide = np.empty(len(points)), np.empty(len(points)), np.empty(len(points))
     corner_kernels.turns(points, reach / 2, along, near)
     corner_kernels.turns(points, reach, along, wide)
-    return np.minimum(wide, np.maximum(2 * near - wide, 0.0))
+    chords = np.diff(along)
+    shorter = np.minimum(np.append(chords, np.inf), np.append(np.inf, chords))
+    of_near, of_wide = (_ROUNDED * step / np.maximum(shorter, length) for length in (reach / 2, reach))
+    of_both = np.where(shorter >= reach, of_wide, 2 * of_near + of_wide)
+    bends: Floats = np.maximum(np.minimum(wide - of_wide, 2 * near - wide - of_both), 0.0)
+    return bends
 
 
 def joined(parts: list[Chain]) -> Chain:

@@ -172,6 +172,19 @@ class _Side:
         edges = [0, *(np.flatnonzero(rapid[1:] != rapid[:-1]) + 1).tolist(), len(rows)]
         return [(bool(rapid[i]), int(rows[i]), int(rows[j - 1]) + 1) for i, j in pairwise(edges)]
 
+    def pauses(self, first: int, last: int) -> tuple[list[Floats | None], Pauses]:
+        """Return what happens before motions, last included: where, and what."""
+        rows = sorted(row for row in self.events if first <= row <= last)
+        return [self.place(row) for row in rows for _ in self.events[row]], tuple(event for row in rows for event in self.events[row])
+
+    def place(self, row: int) -> Floats | None:
+        """Return (3,) where the tool stands before a motion; None where the program has no motion."""
+        motions = self.program.motions
+        if not len(motions):
+            return None
+        place: Floats = motions.start[row] if row < len(motions) else motions.end[-1]
+        return place
+
     def state(self, row: int) -> ModalState:
         """Return what is in force while a motion is done."""
         return self.program.states[int(self.program.motions.state[row])]
@@ -196,8 +209,9 @@ class _Comparison:
                 item, same = self._gap(before, after)
                 items.append(item)
                 pairs += same
+        gaps = list(items)
         items += self._changes(np.concatenate(pairs, axis=1)) if pairs else []
-        items += self._pauses(pairs, size)
+        items += self._pauses(runs, gaps)
         return Differences(tuple(sorted(items, key=lambda item: (item.a.first, item.b.first))), runs, self._tolerance)
 
     def _gap(self, before: tuple[int, int], after: tuple[int, int]) -> tuple[Difference, list[Rows]]:
@@ -207,24 +221,47 @@ class _Comparison:
         if not parts_a or not parts_b:
             return self._one_sided(spans, bool(parts_a), bool(parts_b)), []
         if [rapid for rapid, *_ in parts_a] != [rapid for rapid, *_ in parts_b]:
-            return self._apart(spans, whole=True), []
+            parts_a, parts_b = self._telling(self._a, parts_a), self._telling(self._b, parts_b)
+            if [rapid for rapid, *_ in parts_a] != [rapid for rapid, *_ in parts_b] or self._leash(spans) > self._tolerance:
+                return self._apart(spans, whole=True), []
         lines = [(self._a.paths.polyline(*p[1:]), self._b.paths.polyline(*q[1:])) for p, q in zip(parts_a, parts_b, strict=True)]
-        longest = max(leash(*each) for each in lines)
+        longest = max((leash(*each) for each in lines), default=self._leash(spans))
         if longest > self._tolerance:
             return self._apart(spans, whole=False), []
         counts = f"{spans[0].stop - spans[0].first} and {spans[1].stop - spans[1].first} motions"
         item = Difference(DifferenceKind.SAME_PATH, *spans, longest, None, f"the same path in {counts}")
         return item, [_side_by_side(*each) for each in lines]
 
+    def _leash(self, spans: tuple[Span, Span]) -> float:
+        return leash(*(side.paths.polyline(span.first, span.stop) for side, span in zip((self._a, self._b), spans, strict=True)))
+
+    def _telling(self, side: _Side, parts: list[tuple[bool, int, int]]) -> list[tuple[bool, int, int]]:
+        """Return stretches without those that are all within the tolerance of where they begin; what follows one another is one."""
+        found: list[tuple[bool, int, int]] = []
+        for rapid, first, stop in parts:
+            if float(np.linalg.norm(np.ptp(side.paths.polyline(first, stop).points, axis=0))) > self._tolerance:
+                joins = found and found[-1][0] == rapid
+                found[-1:] = [(rapid, found[-1][1], stop)] if joins else [*found[-1:], (rapid, first, stop)]
+        return found
+
     def _one_sided(self, spans: tuple[Span, Span], in_a: bool, in_b: bool) -> Difference:
         """Return what a stretch is of which one program has nothing."""
         if not in_a and not in_b:
             return Difference(DifferenceKind.SAME_PATH, *spans, text="motions that do not move")
         kind, side, span = (DifferenceKind.MISSING, self._a, spans[0]) if in_a else (DifferenceKind.EXTRA, self._b, spans[1])
+        away = self._away(side, span, (self._a if side is self._b else self._b).place(spans[1 if in_a else 0].first))
+        if away <= self._tolerance:
+            return Difference(DifferenceKind.SAME_PATH, *spans, away, None, "motions that stay within the tolerance of a place")
         length = float(side.length[span.first : span.stop].sum())
         x, y, z = side.program.motions.end[span.stop - 1].tolist()
         text = f"{span.stop - span.first} motions, {length:.3f} mm, only in the {'first' if in_a else 'second'}"
         return Difference(kind, *spans, 0.0, (x, y, z), text)
+
+    @staticmethod
+    def _away(side: _Side, span: Span, place: Floats | None) -> float:
+        """Return how far a stretch of one program goes from the place where the other stands meanwhile, mm."""
+        points = side.paths.polyline(span.first, span.stop).points
+        return float(np.linalg.norm(points - (points[0] if place is None else place), axis=1).max())
 
     def _apart(self, spans: tuple[Span, Span], whole: bool) -> Difference:
         """Return how far two paths are apart; `whole`: they do not rapid and feed at the same places."""
@@ -266,19 +303,32 @@ class _Comparison:
             first, second = _IN_FORCE[kind](self._a.state(a)), _IN_FORCE[kind](self._b.state(b))
         return f"{first} in the first, {second} in the second"
 
-    def _pauses(self, pairs: list[Rows], size: tuple[int, int]) -> Iterator[Difference]:
-        """Yield dwells and stops that only one program has before motions that are the same, or at its end."""
+    def _pauses(self, runs: tuple[Run, ...], gaps: list[Difference]) -> Iterator[Difference]:
+        """Yield dwells and stops that only one program has, or has elsewhere: before motions that are the same, or along the same path."""
         if not self._a.events and not self._b.events:
             return
-        partner = dict(chain(*(zip(*each.tolist(), strict=True) for each in pairs), [size]))
-        back = {b: a for a, b in partner.items()}
-        places = [(a, partner[a]) for a in self._a.events if a in partner]
-        places += [(back[b], b) for b in self._b.events if b in back and back[b] not in self._a.events]
-        for a, b in places:
-            events = self._a.events.get(a, ()), self._b.events.get(b, ())
-            if events[0] != events[1]:
-                text = f"{_pause(events[0])} in the first, {_pause(events[1])} in the second"
-                yield Difference(DifferenceKind.PAUSE, self._a.span(a, a), self._b.span(b, b), text=text)
+        size = Run(len(self._a.length), len(self._b.length), 1)
+        along = {(gap.a.stop, gap.b.stop): gap for gap in gaps if gap.kind is DifferenceKind.SAME_PATH}
+        for gap in along.values():
+            yield from self._unlike((gap.a.first, gap.a.stop), (gap.b.first, gap.b.stop))
+        for run in (*runs, size):
+            skipped = int((run.a, run.b) in along)
+            rows = {row - run.a for row in self._a.events} | {row - run.b for row in self._b.events}
+            for ahead in sorted(row for row in rows if skipped <= row < run.count):
+                yield from self._unlike((run.a + ahead,) * 2, (run.b + ahead,) * 2)
+
+    def _unlike(self, in_a: tuple[int, int], in_b: tuple[int, int]) -> Iterator[Difference]:
+        """Yield what differs of the dwells and stops before the motions of two stretches, ends included."""
+        (places_a, events_a), (places_b, events_b) = self._a.pauses(*in_a), self._b.pauses(*in_b)
+        spans = self._a.span(*in_a), self._b.span(*in_b)
+        if events_a != events_b:
+            text = f"{_pause(events_a)} in the first, {_pause(events_b)} in the second"
+            yield Difference(DifferenceKind.PAUSE, *spans, text=text)
+        elif any(self._elsewhere(*each) for each in zip(places_a, places_b, strict=True)):
+            yield Difference(DifferenceKind.PAUSE, *spans, text=f"{_pause(events_a)} at another place")
+
+    def _elsewhere(self, one: Floats | None, other: Floats | None) -> bool:
+        return one is not None and other is not None and float(np.linalg.norm(one - other)) > self._tolerance
 
 
 def _side_by_side(a: Polyline, b: Polyline) -> Rows:

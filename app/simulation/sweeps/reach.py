@@ -35,18 +35,21 @@ class Reach:
     Attributes:
         grid: the stock, and the widest tool's radius round it.
         sure: some tool gets as low as that. possible: none gets lower.
+        over_part: how far above the part the tool that gets lowest stays there; part and tool both taken at the cells' centres,
+            so that a slope is no height.
     """
 
     grid: Grid
     sure: Heights
     possible: Heights
+    over_part: Heights
 
-    def over(self, grid: Grid) -> tuple[Heights, Heights]:
-        """Return sure and possible at the cells of another grid."""
+    def over(self, grid: Grid) -> tuple[Heights, Heights, Heights]:
+        """Return sure, possible and over_part at the cells of another grid."""
         cols = np.clip(((grid.xs() - self.grid.x0) / self.grid.pitch).astype(np.int64), 0, self.grid.cols - 1)
         rows = np.clip(((grid.ys() - self.grid.y0) / self.grid.pitch).astype(np.int64), 0, self.grid.rows - 1)
         place = np.ix_(rows, cols)
-        return self.sure[place], self.possible[place]
+        return self.sure[place], self.possible[place], self.over_part[place]
 
 
 def reach_of(solid: SolidStock, leave: float, box: tuple[float, float, float, float], cutters: Iterable[Cutter],
@@ -70,7 +73,10 @@ def reach_of(solid: SolidStock, leave: float, box: tuple[float, float, float, fl
     wanted, half = solid_target(solid, grid, leave, progress).wanted, pitch / math.sqrt(2.0)
     sure = [_lowest(wanted, cutter.grown(half), cutter, pitch, progress) for cutter in cutters]
     possible = [_lowest(wanted, cutter.shrunk(half), cutter, pitch, progress) for cutter in cutters]
-    return Reach(grid, np.minimum.reduce(sure), np.minimum.reduce(possible))
+    nearest = np.minimum.reduce([_lowest(wanted, cutter, cutter, pitch, progress) for cutter in cutters])
+    over_part = np.zeros_like(wanted)
+    np.subtract(nearest, wanted, out=over_part, where=np.isfinite(wanted))  # beside the part there is none to keep away from
+    return Reach(grid, np.minimum.reduce(sure), np.minimum.reduce(possible), over_part)
 
 
 def _lowest(wanted: Heights, led: Cutter | None, cuts: Cutter, pitch: float, progress: Progress) -> Heights:
@@ -80,19 +86,21 @@ def _lowest(wanted: Heights, led: Cutter | None, cuts: Cutter, pitch: float, pro
     return np.asarray(-dilated(-tip, cutter_profile(cuts, pitch), progress))
 
 
-def reachable(left: NDArray[np.bool_], sure: NDArray[np.bool_], possible: NDArray[np.bool_], cells: int) -> NDArray[np.bool_]:
-    """Return which of the cells that are left count as within reach: sure ones, and possible ones in places that are wide enough.
+def reachable(left: NDArray[np.bool_], sure: NDArray[np.bool_], possible: NDArray[np.bool_], near: NDArray[np.bool_],
+              cells: int) -> NDArray[np.bool_]:  # fmt: skip
+    """Return which of the cells that are left count as within reach.
 
-    Beside inner corners possible reach is too wide by a part of a cell; what is no wider than so many cells is no finding. What may be
-    reached and hangs together with what counts is the rim of that place: on slopes heights differ within a cell by more than a rim does.
+    Sure ones do, and possible ones in places that are wide enough: beside inner corners possible reach is too wide by a part of a
+    cell, so that what is no wider than so many cells is no finding. On slopes heights differ within a cell by more than that;
+    there those count that a tool comes near enough to.
+
+    Args:
+        left: more than the tolerance is. sure, possible: told from heights, and so by a slope times a cell too little, too much.
+        near: a tool is led to within the tolerance of the part, at the cell's centre.
+        cells: so many in a row are a wide place.
     """
     import cv2
 
     maybe = (left & possible).astype(np.uint8)
     opened = cv2.morphologyEx(maybe, cv2.MORPH_OPEN, np.ones((cells, cells), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0)
-    sure_ones = (left & sure) | opened.astype(bool)
-    count, labels = cv2.connectedComponents((maybe.astype(bool) | sure_ones).astype(np.uint8), connectivity=8)
-    found = np.zeros(count, np.bool_)
-    found[labels[sure_ones]] = True
-    found[0] = False
-    return np.asarray(found[labels])
+    return np.asarray((left & (sure | (possible & near))) | opened.astype(bool))
