@@ -25,6 +25,9 @@ Indices = NDArray[np.int64]
 _MAX_SWEEP = 0.75 * math.pi
 X0, Y0, X1, Y1, CX, CY, R, TURN = range(8)
 
+_KEPT = "_rows"
+"""Where a contour keeps its rows; no field of it, so that equality, hashes and what is written know nothing of it."""
+
 
 @dataclass(frozen=True)
 class Primitives:
@@ -83,7 +86,19 @@ def _arc_row(a: tuple[float, float], b: tuple[float, float], centre: tuple[float
 
 
 def contour_rows(contour: Contour) -> Rows:
-    """Return the rows (n, 8) of a contour, in its direction."""
+    """Return the rows (n, 8) of a contour, in its direction; the caller may change them.
+
+    Many ask for them, and a contour never changes: they are made once and stay with it.
+    """
+    kept = contour.__dict__.get(_KEPT)
+    if kept is None:
+        kept = _made_rows(contour)
+        object.__setattr__(contour, _KEPT, kept)
+    rows: Rows = kept.copy()
+    return rows
+
+
+def _made_rows(contour: Contour) -> Rows:
     if all(type(curve) is Line for curve in contour.primitives):  # most of the longest ones
         ends = chain.from_iterable(chain.from_iterable((curve.start, curve.end) for curve in contour.primitives))
         rows = np.zeros((len(contour.primitives), 8))
@@ -175,12 +190,17 @@ def boxes(rows: Rows) -> NDArray[np.float64]:
 
 def sample(rows: Rows, tolerance: float) -> NDArray[np.float64]:
     """Return points (m, 2) along rows whose chords stay within `tolerance` mm; each row's end is left to the next one."""
+    return sampled(rows, tolerance)[1]
+
+
+def sampled(rows: Rows, tolerance: float) -> tuple[Indices, NDArray[np.float64]]:
+    """Return (row (m,), points (m, 2)) along rows, as `sample` has them, and on which row each lies."""
     turn = np.abs(sweeps(rows))
     step = 2 * np.arccos(np.clip(1 - tolerance / np.maximum(rows[:, R], tolerance), 0, 1))
     counts = np.where(rows[:, TURN] == 0, 1, np.maximum(1, np.ceil(turn / step))).astype(np.int64)
     index = np.repeat(np.arange(len(rows)), counts)
     part = (np.arange(len(index)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[index]
-    return points_at(rows[index], part)
+    return index, points_at(rows[index], part)
 
 
 def points_at(rows: Rows, fraction: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -12,14 +12,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from ..core.progress import Progress
 from ..geometry.distance import DistanceField
-from ..geometry.primitives import Indices, Rows, points_at, within_half_turn
+from ..geometry.primitives import Indices, Rows, pack, points_at, within_half_turn
 from . import rest_kernels
-from .coverage.flat import region_shapes
 from .sheets import Sheet
 
 LEAST = 4e-3
@@ -27,8 +25,6 @@ LEAST = 4e-3
 
 _SAME = 5e-4
 """mm by which a cutter's rim may go beyond what a path has cut and still cut nothing."""
-
-_CHORD = 1e-3
 
 Floats = NDArray[np.float64]
 
@@ -113,11 +109,9 @@ class Suspects:
 
 def suspects(ground: Ground, reach: Reach, progress: Progress) -> Suspects:
     """Return the squares of a grid that may hold metal that is left, by ever finer squares."""
-    shapes = region_shapes(reach.sheet.regions, _CHORD)
-    whole = shapely.multipolygons(shapes)
-    shapely.prepare(whole)
+    whole = DistanceField.of(pack(reach.sheet.regions).rows)
     last = 2 * reach.cell
-    centres, half = _grid(whole.bounds, last)
+    centres, half = _grid((*whole.boxes[:, :2].min(axis=0), *whole.boxes[:, 2:].max(axis=0)), last)
     while True:
         progress.step(0.0, "Looking for what is left")
         q = half * math.sqrt(2)
@@ -125,7 +119,7 @@ def suspects(ground: Ground, reach: Reach, progress: Progress) -> Suspects:
         walls = reach.sheet.distances.nearest(centres)[0]
         alone = walls > q  # all of such a square lies on one side of the walls
         keep = ~alone
-        keep[alone] = shapely.contains_xy(whole, centres[alone])
+        keep[alone] = whole.inside(centres[alone])
         centres, walls = centres[keep], walls[keep]
         if half <= last:
             break

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
+from ..geometry.distance import DistanceField
 from ..geometry.near import near
-from ..geometry.primitives import TURN, contour_rows
+from ..geometry.primitives import TURN, contour_rows, pack
 from ..model.job import Job
 from ..model.moves import MoveKind, Moves, Program
 from ..model.part import Region
@@ -214,14 +215,12 @@ def _depths(rows: Floats, need: Floats, walls: Floats, progress: Progress = NO_P
 
 def _outside(rows: Floats, regions: Sequence[Region]) -> tuple[NDArray[np.int64], Floats]:
     """Return the moves whose end lies in no region, and how far outside, mm."""
-    polygons = shapely.union_all(region_shapes(regions, _CHORD))
-    ends = shapely.points(rows[:, 2:4])
-    shapely.prepare(polygons)
-    distance = np.zeros(len(rows))
-    out = ~shapely.intersects(polygons, ends)
-    distance[out] = shapely.distance(polygons, ends[out])
-    found = np.flatnonzero(distance > 2 * _CHORD)
-    return found, distance[found]
+    field = DistanceField.of(pack(regions).rows)
+    ends = rows[:, 2:4]
+    out = np.flatnonzero(~field.inside(ends))
+    distance = field.nearest(ends[out])[0]
+    far = distance > 2 * _CHORD
+    return out[far], distance[far]
 
 
 def rapids_in_material(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> tuple[RapidInMaterial, ...]:
