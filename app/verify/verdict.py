@@ -123,6 +123,13 @@ def gouge_depths(program: Program, job: Job, stock: StockBox | None = None, by_t
     return Depths(chosen, depth, np.column_stack([places, low]))
 
 
+def clear_moves(moves: Moves, depths: Depths, within: float) -> NDArray[np.bool_]:
+    """Return (n,) which moves were looked at and reach beyond no wall and no floor by more than so many mm."""
+    clear = np.zeros(len(moves), np.bool_)
+    clear[depths.move] = depths.depth <= within
+    return clear
+
+
 def _beyond(bound: Bound, rows: Floats, need: Floats, progress: Progress) -> tuple[Floats, Floats]:
     """Return how far moves leave an area, with all the width that they need (<= 0: they do not), mm, and where, (n, 2)."""
     area = bound.area
