@@ -182,12 +182,17 @@ def boxes(rows: Rows) -> NDArray[np.float64]:
 
 def sample(rows: Rows, tolerance: float) -> NDArray[np.float64]:
     """Return points (m, 2) along rows whose chords stay within `tolerance` mm; each row's end is left to the next one."""
+    return sampled(rows, tolerance)[1]
+
+
+def sampled(rows: Rows, tolerance: float) -> tuple[Indices, NDArray[np.float64]]:
+    """Return (row (m,), points (m, 2)) along rows, as `sample` has them, and on which row each lies."""
     turn = np.abs(sweeps(rows))
     step = 2 * np.arccos(np.clip(1 - tolerance / np.maximum(rows[:, R], tolerance), 0, 1))
     counts = np.where(rows[:, TURN] == 0, 1, np.maximum(1, np.ceil(turn / step))).astype(np.int64)
     index = np.repeat(np.arange(len(rows)), counts)
     part = (np.arange(len(index)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[index]
-    return points_at(rows[index], part)
+    return index, points_at(rows[index], part)
 
 
 def points_at(rows: Rows, fraction: NDArray[np.float64]) -> NDArray[np.float64]:

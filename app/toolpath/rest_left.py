@@ -12,15 +12,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from ..core.memory import ask, fitting, portion
 from ..core.progress import Progress
 from ..geometry.distance import DistanceField
-from ..geometry.primitives import Indices, Rows, points_at, within_half_turn
+from ..geometry.primitives import Indices, Rows, pack, points_at, within_half_turn
 from . import rest_kernels
-from .coverage.flat import region_shapes
 from .sheets import Sheet
 
 LEAST = 4e-3
@@ -28,8 +26,6 @@ LEAST = 4e-3
 
 _SAME = 5e-4
 """mm by which a cutter's rim may go beyond what a path has cut and still cut nothing."""
-
-_CHORD = 1e-3
 
 _WORTH_ASKING = 1e8
 """Bytes from which on it is worth to look how many squares will really be found."""
@@ -139,9 +135,7 @@ class Suspects:
 
 def suspects(ground: Ground, reach: Reach, progress: Progress) -> Suspects:
     """Return the squares of a grid that may hold metal that is left, by ever finer squares."""
-    shapes = region_shapes(reach.sheet.regions, _CHORD)
-    whole = shapely.multipolygons(shapes)
-    shapely.prepare(whole)
+    whole = DistanceField.of(pack(reach.sheet.regions).rows)
     last = 2 * reach.cell
     found = [np.zeros((0, 3)), *_sifted(ground, reach, whole, progress)]
     centres, walls = np.split(np.concatenate(found), [2], axis=1)
@@ -150,10 +144,11 @@ def suspects(ground: Ground, reach: Reach, progress: Progress) -> Suspects:
     return Suspects(centres[core], centres[near - q < reach.closest], last, float(near.max(initial=0.0)) + q)
 
 
-def _sifted(ground: Ground, reach: Reach, whole: shapely.MultiPolygon, progress: Progress) -> Iterator[Floats]:
+def _sifted(ground: Ground, reach: Reach, whole: DistanceField, progress: Progress) -> Iterator[Floats]:
     """Yield the centres (n, 2) of squares of the last size, and how far from the walls they are, part after part from left to right."""
     last, found = 2 * reach.cell, 0
-    waiting = [_grid(whole.bounds, last)]
+    low, high = whole.boxes[:, :2].min(axis=0), whole.boxes[:, 2:].max(axis=0)
+    waiting = [_grid((*low, *high), last)]
     while waiting:
         centres, half = waiting.pop()
         most = min(_AT_A_TIME, portion(_SQUARE_BYTES))
@@ -172,7 +167,7 @@ def _sifted(ground: Ground, reach: Reach, whole: shapely.MultiPolygon, progress:
             waiting.append(((kept[:, None, :2] + around).reshape(-1, 2), half))
 
 
-def _sieved(ground: Ground, reach: Reach, whole: shapely.MultiPolygon, squares: tuple[Floats, float]) -> Floats:
+def _sieved(ground: Ground, reach: Reach, whole: DistanceField, squares: tuple[Floats, float]) -> Floats:
     """Return the squares (centres (n, 2), half side) that may hold metal that is left: their centres, and how far from the walls."""
     centres, half = squares
     q = half * math.sqrt(2)
@@ -180,7 +175,7 @@ def _sieved(ground: Ground, reach: Reach, whole: shapely.MultiPolygon, squares: 
     walls = reach.sheet.distances.nearest(centres)[0]
     alone = walls > q  # all of such a square lies on one side of the walls
     keep = ~alone
-    keep[alone] = shapely.contains_xy(whole, centres[alone])
+    keep[alone] = whole.inside(centres[alone])
     bytes_each = CELL_BYTES * (half / reach.cell) ** 2
     if np.count_nonzero(keep & alone) * bytes_each > _WORTH_ASKING:
         untouched = np.count_nonzero(ground.depth(centres[keep & alone], 4 * q) > q)  # all cells of such a square will be found

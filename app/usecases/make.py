@@ -26,7 +26,7 @@ from ..model.tool import ToolKind
 from ..toolpath.coverage.coverage import Coverage, coverage_findings, measure
 from ..toolpath.coverage.wanted import CHORD
 from ..toolpath.witness import about_floors
-from ..verify.verdict import Gouge, RapidInMaterial, clamps_met, deepest_of, gouge_depths, rapids_in_material
+from ..verify.verdict import Gouge, RapidInMaterial, clamps_met, clear_moves, deepest_of, gouge_depths, rapids_in_material
 from .bitmap_options import is_picture
 from .cut import CutProgram
 from .cut_job import cut_job, news
@@ -190,7 +190,7 @@ def finish(
     depths = gouge_depths(program, job, progress=progress.part(0.2, 0.28))
     rapids = rapids_in_material(program, job, progress.part(0.28, 0.3))
     deepest = deepest_of(depths)
-    coverage = measure(program, job, progress.part(0.3, 0.7))
+    coverage = measure(program, job, progress.part(0.3, 0.7), clear=clear_moves(program.moves, depths, CHORD))
     clamped = deepest_of(clamps_met(program, job, depths))
     unsafe = (*_gouge_findings(deepest, program), *_clamp_findings(clamped, program), *_rapid_findings(rapids, program))
     metal = cut_job(program, job, written, (depths, coverage), progress.part(0.7, 0.98)) if written.files else None

@@ -47,10 +47,11 @@ def flat_target(part: FlatPart, grid: Grid) -> FlatTarget:
         floor = top - np.float32(each.depth)
         mine = _cells(each.floor, part, grid)
         wanted[mine if each.whole or not pockets else _cells(each.wanted, part, grid)] = floor
-        for left in (each.wanted, each.beyond):
-            high[_cells(_shrunk(left, slack), part, grid)] = floor
+        within = _cells(_shrunk(each.reach, slack), part, grid)
+        high[within if each.wanted is each.reach else _cells(_shrunk(each.wanted, slack), part, grid)] = floor
+        high[_cells(_shrunk(each.beyond, slack), part, grid)] = floor
         reach[mine] = False  # what a tool reaches that does not go as deep is no reach here
-        reach |= _cells(_shrunk(each.reach, slack), part, grid)
+        reach |= within
     for bound in bounds_of(part.program(NO_MOVES), part.job):
         mine = _cells(united(grown(region_shapes(bound.area.regions, CHORD), slack - bound.leave, CHORD)), part, grid)
         low[mine] = np.minimum(low[mine], top - np.float32(bound.floor))

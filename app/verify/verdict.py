@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
+from ..geometry.distance import DistanceField
 from ..geometry.near import near
-from ..geometry.primitives import TURN, contour_rows
+from ..geometry.primitives import TURN, contour_rows, pack
 from ..model.job import Job
 from ..model.moves import MoveKind, Moves, Program
 from ..model.part import Region
@@ -122,6 +123,13 @@ def gouge_depths(program: Program, job: Job, stock: StockBox | None = None, by_t
     return Depths(chosen, depth, np.column_stack([places, low]))
 
 
+def clear_moves(moves: Moves, depths: Depths, within: float) -> NDArray[np.bool_]:
+    """Return (n,) which moves were looked at and reach beyond no wall and no floor by more than so many mm."""
+    clear = np.zeros(len(moves), np.bool_)
+    clear[depths.move] = depths.depth <= within
+    return clear
+
+
 def _beyond(bound: Bound, rows: Floats, need: Floats, progress: Progress) -> tuple[Floats, Floats]:
     """Return how far moves leave an area, with all the width that they need (<= 0: they do not), mm, and where, (n, 2)."""
     area = bound.area
@@ -214,14 +222,12 @@ def _depths(rows: Floats, need: Floats, walls: Floats, progress: Progress = NO_P
 
 def _outside(rows: Floats, regions: Sequence[Region]) -> tuple[NDArray[np.int64], Floats]:
     """Return the moves whose end lies in no region, and how far outside, mm."""
-    polygons = shapely.union_all(region_shapes(regions, _CHORD))
-    ends = shapely.points(rows[:, 2:4])
-    shapely.prepare(polygons)
-    distance = np.zeros(len(rows))
-    out = ~shapely.intersects(polygons, ends)
-    distance[out] = shapely.distance(polygons, ends[out])
-    found = np.flatnonzero(distance > 2 * _CHORD)
-    return found, distance[found]
+    field = DistanceField.of(pack(regions).rows)
+    ends = rows[:, 2:4]
+    out = np.flatnonzero(~field.inside(ends))
+    distance = field.nearest(ends[out])[0]
+    far = distance > 2 * _CHORD
+    return out[far], distance[far]
 
 
 def rapids_in_material(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> tuple[RapidInMaterial, ...]:

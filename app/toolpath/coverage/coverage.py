@@ -26,6 +26,7 @@ from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.moves import MoveKind, Moves, Program
 from ...model.tool import ToolKind
+from ..settled import Floor, one_floor, settled
 from .areas import common, united, without
 from .flat import flattened, grown, lines, move_rows
 from .proven import uncertain
@@ -47,6 +48,9 @@ _DEPTH = 1e-6
 
 _BACK = -0.9
 """Cosine of a turn; a sharper one counts as going back."""
+
+_MANY = 4
+"""Regions from which it is worth while to ask first which of them are cleared all over."""
 
 _ASKED = 16
 """Points on the rim of a piece towards which it is asked whether a cutter's centre can be near."""
@@ -117,7 +121,7 @@ class Coverage:
 
 
 def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: float = _DEPTH,
-            found: tuple[Wanted, ...] | None = None) -> Coverage:  # fmt: skip
+            found: tuple[Wanted, ...] | None = None, clear: NDArray[np.bool_] | None = None) -> Coverage:  # fmt: skip
     """Measure what the moves of a program leave on the floor.
 
     Args:
@@ -126,11 +130,17 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: 
         progress: looked at before every few boxes and every piece.
         miss: by which a move may miss the floor and still counts as on it, mm; more than nothing for moves that were read back.
         found: what is to be cleared, where the caller knows it.
+        clear: (n,) which moves are proven to keep off the walls of their operation's area; None = nobody knows.
 
     Raises:
         Cancelled: the job was asked to stop.
     """
     progress.step(0.0, _TEXT)
+    if clear is not None and found is None:
+        known = _settled(program, job, clear, miss, progress.part(0.0, 0.4))
+        if known is not None:
+            rest = measure(program, job, progress.part(0.4, 1.0), miss, () if known.open is None else (known.open,))
+            return replace(rest, area_mm2=float(known.all.floor.area), floor_mm=known.all.depth, wanted=(known.all,))
     found = wanted_of(program, job) if found is None else found
     inner = wanted_of(program, job, program.allowance_mm) if program.allowance_mm else found
     fields = Fields()
@@ -174,14 +184,28 @@ def _skin(left: Shape, areas: Wanted, inner: Shape, off: float) -> Shape:
     return _solid(common(without(beyond, thick), cleared))
 
 
-def _left(wanted: Shape, moves: Moves, where: tuple[Job, float], progress: Progress) -> Shape:
-    """Return what of a wanted area no move has cut that is as deep as the floor, or deeper."""
-    job, depth = where
+def _settled(program: Program, job: Job, clear: NDArray[np.bool_], miss: float, progress: Progress) -> Floor | None:
+    """Return the floor of a job that has but one, with the regions told apart that moves which keep off the walls clear all over."""
+    area = one_floor(program, job)
+    if area is None or len(area.regions) < _MANY:
+        return None
+    depth = max(each.cut.floor for each in job.operations if each.cut.enabled)
+    paths = _paths(program.moves, job, depth - miss, clear)
+    return settled(program, job, [(path.rows, path.radius) for path in paths], progress)
+
+
+def _paths(moves: Moves, job: Job, depth: float, of: NDArray[np.bool_] | None = None) -> list[_Path]:
+    """Return the path of each tool's moves, or of some of them (n,), that cut as deep as so many mm, or deeper."""
     deep = np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -depth
     drills = [tool.number for tool in job.tools if tool.kind is ToolKind.DRILL]  # their tips leave a cone
-    chosen = deep & (moves.kind != MoveKind.RAPID) & ~np.isin(moves.tool, drills)
+    chosen = deep & (moves.kind != MoveKind.RAPID) & ~np.isin(moves.tool, drills) & (True if of is None else of)
     numbers = [int(number) for number in np.unique(moves.tool[chosen])]
-    paths = [_Path.of(np.flatnonzero(chosen & (moves.tool == number)), moves, job.tool(number).radius) for number in numbers]
+    return [_Path.of(np.flatnonzero(chosen & (moves.tool == number)), moves, job.tool(number).radius) for number in numbers]
+
+
+def _left(wanted: Shape, moves: Moves, where: tuple[Job, float], progress: Progress) -> Shape:
+    """Return what of a wanted area no move has cut that is as deep as the floor, or deeper."""
+    paths = _paths(moves, *where)
     tiles = uncertain(wanted, [(path.rows, path.radius) for path in paths], progress.part(0.0, 0.5))
     left, done = [], 0
     for part in _Doubt(wanted, tiles, shapely.bounds(tiles), paths).parts():

@@ -50,6 +50,7 @@ class Wanted:
         wanted: of that, what is to be cleared.
         whole: True where all of it is wanted, not paths alone.
         cutters: whose reach it is.
+        out_of_reach: what of the floor no tool reaches, where that is known already.
     """
 
     depth: float
@@ -58,11 +59,12 @@ class Wanted:
     wanted: Shape
     whole: bool
     cutters: tuple[Cutter, ...] = ()
+    out_of_reach: Shape | None = None
 
     @cached_property
     def beyond(self) -> Shape:
         """What of the floor no tool reaches."""
-        return without(self.floor, self.reach)
+        return without(self.floor, self.reach) if self.out_of_reach is None else self.out_of_reach
 
 
 def wanted_of(program: Program, job: Job, off: float = 0.0) -> tuple[Wanted, ...]:
@@ -243,7 +245,7 @@ def _without_tabs(found: Wanted, tabs: Sequence[Tab], dog_bones: Sequence[DogBon
     held = united([shapely.Point(tab.x, tab.y).buffer(radius) for tab, radius in zip(deep, reach, strict=True)])
     bones = united([bone_shape(bone) for bone in dog_bones])
     floor = without(found.floor, without(bones, found.reach)) if dog_bones else found.floor
-    return replace(found, floor=floor, wanted=without(found.wanted, held))
+    return replace(found, floor=floor, wanted=without(found.wanted, held) if deep else found.wanted)
 
 
 def bone_shape(bone: DogBone) -> Shape:
