@@ -21,18 +21,22 @@ _PLACES = 801
 def ridges(cutter: Cutter, spacing: float, slopes: Floats) -> Floats:
     """Return how far ridges stand out of planes, square to them, mm; at most MOST of the cutter's radius.
 
+    Passes farther apart than the cutter is wide leave no ridges but what was there: 0.
+
     Args:
         spacing: of the passes seen from above, mm, > 0.
         slopes: any shape, mm up per mm across the passes, >= 0.
 
     Along a pass the plane is taken as level; where it rises that way as well, ridges are lower.
     """
-    table = np.array([_ridge(cutter, spacing, slope) for slope in _SLOPES.tolist()])
-    return np.asarray(np.interp(slopes, _SLOPES, np.minimum(table, MOST * cutter.radius), right=MOST * cutter.radius))
+    table = np.minimum([_ridge(cutter, spacing, slope) for slope in _SLOPES.tolist()], MOST * cutter.radius)
+    return np.asarray(np.interp(slopes, _SLOPES, table))
 
 
 def _ridge(cutter: Cutter, spacing: float, slope: float) -> float:
     """Return the height of the place that both of two neighbouring passes cut least, square to the plane that they touch."""
+    if spacing > 2 * cutter.radius:
+        return 0.0
     across = np.linspace(-cutter.radius, cutter.radius, _PLACES)
     over = cutter.heights(np.abs(across)) - slope * across
     touch = float(across[int(np.argmin(over))])

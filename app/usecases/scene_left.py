@@ -18,7 +18,7 @@ from ..model.finding import Finding, FindingKind
 from ..simulation.field.workpiece import Grid, Workpiece
 from ..verify.parts import TOLERANCE
 from ..verify.places import places_of
-from .ridges import ridges
+from .ridges import MOST, ridges
 from .scene_reach import Floats, Heights, Sheet, Wish, reached, slopes
 
 Mask = NDArray[np.bool_]
@@ -28,6 +28,9 @@ BENT = 2.0
 
 STEEP = 1.0
 """mm per mm from which on a place is part of a side: its ridges may be as high as those of the steepest place near it."""
+
+STEEPEST = 10.0
+"""mm per mm; on steeper places the cells say no less."""
 
 CELLS_WIDE = 2
 """Cells that a place is wide at least: how far a wall between cells may seem to be from where it is."""
@@ -73,7 +76,7 @@ class Left:
         wide_mm: diameter of the largest disc in the worst place. x, y: where that is.
         ridge: None where there is no metal on the surfaces.
         within_mm: what stands less high than that, square to a level surface, is not told. cell_mm: what is narrower than two is not.
-        cut_short: the worst place is within a tool's radius of the surfaces' rim, and passes are kept from going on there.
+        at_rim: the worst place is within a tool's radius of where surfaces end. cut_short: and passes are kept from going on there.
     """
 
     area_mm2: float
@@ -85,6 +88,7 @@ class Left:
     ridge: Ridge | None
     within_mm: float
     cell_mm: float
+    at_rim: bool = False
     cut_short: bool = False
 
 
@@ -113,7 +117,9 @@ def left_of(metal: Workpiece, triangles: Floats, error: float, asked: Sequence[A
     row, col = found[0].cell
     x, y = grid.place(row * grid.cols + col)
     area = float(np.count_nonzero(mask)) * grid.pitch**2
-    return Left(area, count, found[0].worst, found[0].disc_mm, x, y, ridge, within, grid.pitch, _at_rim(on, row, col, grid, asked))
+    rim = _at_rim(on, row, col, math.ceil(max(each.wish.cutter.radius for each in asked) / grid.pitch))
+    short = rim and any(each.overrun for each in asked)
+    return Left(area, count, found[0].worst, found[0].disc_mm, x, y, ridge, within, grid.pitch, rim, short)
 
 
 def _allowed(sheet: Sheet, triangles: Floats, error: float, asked: Sequence[Asked], progress: Progress) -> tuple[Floats, Heights]:
@@ -128,10 +134,10 @@ def _allowed(sheet: Sheet, triangles: Floats, error: float, asked: Sequence[Aske
         low = np.minimum(low, mine)
     allowed = np.full(low.shape, np.inf)
     own = slopes(sheet.heights, grid.pitch)
-    upright = np.hypot(1.0, np.hypot(*own))
     for each, mine in zip(asked, found, strict=True):
-        square = BENT * _ridges(each, _across(own, each), grid) + each.chord + TOLERANCE + error
-        here = np.where(mine <= low + TOLERANCE, square * upright + _doubt(sheet, mine, each), np.inf)
+        highest = np.minimum(BENT * _ridges(each, _across(own, each), grid), MOST * each.wish.cutter.radius)
+        here = _upright(sheet, mine, each, highest + each.chord + TOLERANCE + error)
+        allowed = np.minimum(allowed, np.where(mine <= low + TOLERANCE, here, np.inf))
         allowed = np.minimum(allowed, here)
     return allowed, low
 
@@ -148,14 +154,21 @@ def _ridges(asked: Asked, across: Floats, grid: Grid) -> Floats:
     return ridges(asked.wish.cutter, asked.spacing, np.where(across >= STEEP, near, across))
 
 
-def _doubt(sheet: Sheet, low: Heights, asked: Asked) -> Floats:
-    """Return how far too low the reach may be told, mm: on bent surfaces little; in corners, where a wall is known to a cell, by the slope."""
+def _upright(sheet: Sheet, low: Heights, asked: Asked, square: Floats) -> Floats:
+    """Return what heights square to what is within reach are straight up, and beside them how much too low that may be told, mm.
+
+    On bent surfaces cells make it little too low. In corners, where a wall is known to a cell, it is as low as a cell farther from it.
+    """
+    import cv2
+
     pitch, radius = sheet.grid.pitch, asked.wish.cutter.radius
-    with np.errstate(invalid="ignore", over="ignore"):
-        rise = np.hypot(*(np.nan_to_num(np.abs(each), nan=0.0, posinf=0.0) for each in np.gradient(low.astype(np.float64), pitch)))
+    known = np.where(np.isfinite(low), low, 0.0).astype(np.float32)
+    with np.errstate(invalid="ignore"):
         corner = low > sheet.heights + asked.wish.leave + TOLERANCE
-    bent = pitch**2 / (4 * radius) * np.hypot(1.0, np.minimum(rise, 10.0)) ** 3
-    return np.asarray(bent + np.where(corner, pitch * rise, 0.0))
+    rise = np.where(corner, np.hypot(*np.gradient(known.astype(np.float64), pitch)), np.hypot(*slopes(sheet.heights, pitch)))
+    nearer = cv2.dilate(known, np.ones((3, 3), np.uint8)) - known
+    bent = pitch**2 / (4 * radius) * np.hypot(1.0, np.minimum(rise, STEEPEST)) ** 3
+    return np.asarray(square * np.hypot(1.0, rise) + bent + np.where(corner, nearer, 0.0))
 
 
 def _across(own: tuple[Floats, Floats], asked: Asked) -> Floats:
@@ -198,13 +211,8 @@ def _ridge(sheet: Sheet, over: Heights, mask: Mask, low: Heights, asked: Sequenc
     return Ridge(max(float(square[row, col]), 0.0), x, y, math.degrees(math.atan(float(rise[row, col]))), level)
 
 
-def _at_rim(on: Mask, row: int, col: int, grid: Grid, asked: Sequence[Asked]) -> bool:
-    """Return whether a cell is within a tool's radius of where surfaces end, and some passes may not go on there."""
-    short = [each for each in asked if each.overrun]
-    if not short:
-        return False
-    far = max(each.wish.cutter.radius for each in short)
-    reach = math.ceil(far / grid.pitch)
+def _at_rim(on: Mask, row: int, col: int, reach: int) -> bool:
+    """Return whether there is no surface at some cell that is no more than so many cells away."""
     framed = np.pad(on, reach, constant_values=False)
     return not bool(framed[row : row + 2 * reach + 1, col : col + 2 * reach + 1].all())
 
@@ -235,4 +243,5 @@ def _remedy(left: Left, angles: Sequence[float]) -> str:
     free = next((turn for turn in (90.0, 45.0, 135.0) if all(abs((angle + turn - other) % 180.0) > 10.0 for angle in angles[:1]
                  for other in angles)), None)  # fmt: skip
     across = f"add passes at angle_deg = {(angles[0] + free) % 180.0:g}, or " if free is not None else ""
-    return f"{across}give the passes a smaller pitch"
+    beyond = ", or let the surfaces go on there by the tool's radius" if left.at_rim else ""
+    return f"{across}give the passes a smaller pitch{beyond}"

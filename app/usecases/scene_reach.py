@@ -59,11 +59,15 @@ class Sheet:
         return Sheet(grid, heights)
 
     def left_thick(self, leave: float) -> Sheet:
-        """Return it with stock left on it, square to it; on planes exactly so, in corners a little more."""
+        """Return it with stock left on it, square to it: on planes exactly, beside walls to a cell, in corners a little more."""
         if not leave:
             return self
         rise = np.hypot(1.0, np.hypot(*slopes(self.heights, self.grid.pitch)))
-        return replace(self, heights=np.asarray(self.heights + leave * rise, np.float32))
+        thick = np.asarray(self.heights + leave * rise, np.float32)
+        if leave < MOST_REACH * self.grid.pitch:
+            ball = cutter_profile(Cutter(leave, 0.0, leave), self.grid.pitch)
+            thick = np.maximum(thick, dilated(self.heights, ball) + np.float32(leave))
+        return replace(self, heights=thick)
 
 
 def slopes(heights: Heights, pitch: float) -> tuple[Floats, Floats]:
@@ -96,7 +100,7 @@ def reached(triangles: Floats, grid: Grid, wish: Wish, progress: Progress = NO_P
         Cancelled: the job was asked to stop.
     """
     pitch = max(grid.pitch, wish.cutter.radius / MOST_REACH)
-    reach = math.ceil((wish.cutter.radius + wish.leave) / pitch) + 1
+    reach = math.ceil((wish.cutter.radius + min(wish.leave, wish.cutter.radius)) / pitch) + 1
     wide = _over(grid, pitch, reach)
     sheet = Sheet.of(triangles, wide).left_thick(wish.leave)
     form = cutter_profile(wish.cutter, pitch)

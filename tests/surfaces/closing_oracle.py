@@ -53,7 +53,7 @@ def reach(surface: Surface, radius: float, window: Window, lowest: float) -> Flo
 def cut(nc: bytes, radius: float, window: Window, top: float) -> Floats:
     """Return what balls along the moves of a program leave below a stock's top."""
     x, y = window.places()
-    heights = np.full(x.shape, top)
+    heights = np.full(x.shape, float(top))
     motions = read_program(nc).motions
     for start, end, kind in zip(motions.start, motions.end, motions.kind, strict=True):
         assert kind in (MotionKind.LINE, MotionKind.RAPID)
