@@ -11,15 +11,15 @@ from ..simulation.cutter import Cutter
 
 Floats = NDArray[np.float64]
 
-MOST = 0.5
-"""Of the cutter's radius: what stands higher between passes is metal that they have not come to, and no ridge."""
+MOST = 0.1
+"""Of the cutter's radius: what stands higher between passes on a slope is metal that they have not come to, and no ridge."""
 
 _SLOPES = np.tan(np.radians(np.linspace(0.0, 85.0, 86)))
 _PLACES = 801
 
 
 def ridges(cutter: Cutter, spacing: float, slopes: Floats) -> Floats:
-    """Return how far ridges stand out of planes, square to them, mm; at most MOST of the cutter's radius.
+    """Return how far ridges stand out of planes, square to them, mm; on slopes at most MOST of the cutter's radius, where a level has less.
 
     Passes farther apart than the cutter is wide leave no ridges but what was there: 0.
 
@@ -29,8 +29,8 @@ def ridges(cutter: Cutter, spacing: float, slopes: Floats) -> Floats:
 
     Along a pass the plane is taken as level; where it rises that way as well, ridges are lower.
     """
-    table = np.minimum([_ridge(cutter, spacing, slope) for slope in _SLOPES.tolist()], MOST * cutter.radius)
-    return np.asarray(np.interp(slopes, _SLOPES, table))
+    table = np.array([_ridge(cutter, spacing, slope) for slope in _SLOPES.tolist()])
+    return np.asarray(np.interp(slopes, _SLOPES, np.minimum(table, max(table[0], MOST * cutter.radius))))
 
 
 def _ridge(cutter: Cutter, spacing: float, slope: float) -> float:

@@ -135,7 +135,8 @@ def _allowed(sheet: Sheet, triangles: Floats, error: float, asked: Sequence[Aske
     allowed = np.full(low.shape, np.inf)
     own = slopes(sheet.heights, grid.pitch)
     for each, mine in zip(asked, found, strict=True):
-        highest = np.minimum(BENT * _ridges(each, _across(own, each), grid), MOST * each.wish.cutter.radius)
+        most = max(MOST * each.wish.cutter.radius, BENT * _level(each))
+        highest = np.minimum(BENT * _ridges(each, _across(own, each), grid), most)
         here = _upright(sheet, mine, each, highest + each.chord + TOLERANCE + error)
         allowed = np.minimum(allowed, np.where(mine <= low + TOLERANCE, here, np.inf))
         allowed = np.minimum(allowed, here)
