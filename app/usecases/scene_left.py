@@ -227,8 +227,8 @@ def left_findings(left: Left, origin: Floats, angles: Sequence[float]) -> Iterat
     x, y = left.x + float(origin[0]), left.y + float(origin[1])
     if left.places:
         count = "1 place" if left.places == 1 else f"{left.places} places"
-        text = (f"{left.area_mm2:.3f} mm2 of metal that the same tool reaches is left in {count}, the worst {left.worst_mm:.3f} mm high and "
-                f"{left.wide_mm:.3f} mm wide at ({x:.3f}, {y:.3f}); {_remedy(left, angles)}.")
+        text = (f"{left.area_mm2:.3f} mm2 of metal that the same tool reaches is left in {count}, the worst {left.worst_mm:.3f} mm high "
+                f"and {left.wide_mm:.3f} mm wide at ({x:.3f}, {y:.3f}); {_remedy(left, angles)}.")
         yield Finding(FindingKind.LEFT_REACHABLE, text, x, y, amount=left.area_mm2)
     ridge = left.ridge
     if ridge is not None and ridge.height_mm > BENT * ridge.level_mm + left.within_mm:

@@ -31,7 +31,7 @@ class Window:
     def places(self, more: float = 0.0) -> tuple[Floats, Floats]:
         """Return x and y (rows, cols) of the window and so much round it, a whole number of steps."""
         steps = round(more / self.pitch)
-        cols, rows = (int(round((high - low) / self.pitch)) + 2 * steps for low, high in ((self.x0, self.x1), (self.y0, self.y1)))
+        cols, rows = (round((high - low) / self.pitch) + 2 * steps for low, high in ((self.x0, self.x1), (self.y0, self.y1)))
         x = self.x0 + (np.arange(cols) + 0.5 - steps) * self.pitch
         y = self.y0 + (np.arange(rows) + 0.5 - steps) * self.pitch
         return np.meshgrid(x, y)

@@ -1,4 +1,4 @@
-"""What `surface` leaves within reach of its own tools: flats, slopes, walls, corners, domes and waves, against closed forms and an oracle."""
+"""What `surface` leaves within reach of its own tools: flats, slopes, walls, corners, domes and waves, in closed form and by an oracle."""
 
 import json
 import math
@@ -38,7 +38,7 @@ def test_ridges_of_a_ball_in_closed_form(spacing: float, degrees: float) -> None
 
 
 def test_ridges_of_a_flat_mill_are_steps() -> None:
-    """None on a flat while passes overlap; on a slope a step of pitch times slope, square to it; farther apart than the mill is wide there are none."""
+    """None on a flat while passes overlap; on a slope a step of pitch times slope, square to it; none farther apart than the mill is."""
     mill = Cutter(RADIUS, RADIUS, 0.0)
     found = ridges(mill, 0.2, np.array([0.0, 1.0]))
     assert found.tolist() == pytest.approx([0.0, 0.2 / math.sqrt(2.0)], abs=0.01)
@@ -138,7 +138,10 @@ SCENES: dict[str, Scene] = {
     "dome": (dome, DOME, (-12, -12, 0, 12, 12, 12), ""),
     "dome without its foot": (dome, DOME, (-12, -12, 0, 12, 12, 12), "overrun = 0"),
     "wave": (wave, lambda: meshed(wave, np.array([0.0, 40.0]), np.linspace(0, 20, 401)), (0, 0, -15, 40, 20, 0), ""),
-    "cone": (cone, '{ kind = "cone", start = [0, 0, 0], end = [0, 0, 12], start_radius = 12, end_radius = 0 }', (-12, -12, 0, 12, 12, 12), ""),
+    "cone": (
+        cone, '{ kind = "cone", start = [0, 0, 0], end = [0, 0, 12], start_radius = 12, end_radius = 0 }',
+        (-12, -12, 0, 12, 12, 12), "",
+    ),
     "pyramid": (pyramid, lambda: faces((-12, -12), (12, -12), (12, 12), (-12, 12), top=18), (-12, -12, 0, 12, 12, 18), ""),
     "lying cylinder": (lying, '{ kind = "cylinder", start = [0, 0, 0], end = [30, 0, 0], radius = 8 }', (0, -8, 0, 30, 8, 8), ""),
 }  # fmt: skip
