@@ -45,6 +45,7 @@ class FindingKind(Enum):
     HOLE = "hole"
     SIZE = "size"
     FEED = "feed"
+    RIDGE = "ridge"
 
 
 @dataclass(frozen=True, slots=True)

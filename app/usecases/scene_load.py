@@ -1,4 +1,4 @@
-"""How much metal the passes of a scene take at a time, from the cut of its program out of its stock."""
+"""A scene's program cut out of its stock: what is left, and how much metal its passes take at a time."""
 
 from __future__ import annotations
 
@@ -15,13 +15,17 @@ from ..model.motion import Floats, MotionKind
 from ..model.stock_box import StockBox
 from ..model.tool import Tool
 from ..simulation.cutter import cutter_of
-from ..simulation.field.workpiece import BoxStock, Grid
+from ..simulation.field.target import MOST_REACH
+from ..simulation.field.workpiece import BoxStock, Grid, Workpiece
 from ..simulation.sweeps.course import Course, TrimOptions
 from ..simulation.sweeps.trim import trim
 from ..verify.course import course_of
 
-CELLS = 256
-"""Along the longer side of the stock: a slot is many cells wide, or the tool is so fine that its load cannot be told."""
+CELLS, MOST_CELLS = 256, 512
+"""Along the longer side of the stock: a slot is many cells wide, or the tool is so fine that its load cannot be told; more where passes lie
+close, so that what stays between two of them is some cells wide."""
+
+CELLS_A_PASS = 4
 
 LEAST_CELLS = 4.0
 """Cells in a tool's diameter from which on its load is told."""
@@ -47,21 +51,49 @@ class _Load:
     plunges: bool
 
 
-def load_findings(programs: Sequence[NcProgram], tools: Sequence[Mapping[int, Tool]], stock: StockBox, origin: Floats,
-                  progress: Progress = NO_PROGRESS) -> Iterator[Finding]:  # fmt: skip
-    """Yield, by tool, where it takes more metal at a time than it can be meant to: a slot or a hole deeper than its diameter or flutes.
+@dataclass(frozen=True, eq=False)
+class SceneCut:
+    """A scene's program, cut: what is left of the metal, program coordinates, and what there is to say of how it was taken."""
+
+    metal: Workpiece
+    findings: tuple[Finding, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """What a scene is cut from.
+
+    Attributes:
+        stock: scene coordinates. origin: the program's zero in them. spacing: of the passes that lie closest, mm, > 0.
+    """
+
+    stock: StockBox
+    origin: Floats
+    spacing: float
+
+    def metal(self, widest: float) -> Workpiece:
+        """Return it on cells, program coordinates: no more of them along the widest tool's radius than the look for what is left takes."""
+        stock = self.stock
+        low, high = (np.array(corner) - self.origin for corner in ((stock.x0, stock.y0, stock.z0), (stock.x1, stock.y1, stock.z1)))
+        block = BoxStock(StockBox(*low.tolist(), *high.tolist()))
+        side = max(stock.x1 - stock.x0, stock.y1 - stock.y0)
+        wanted = min(max(CELLS_A_PASS * side / self.spacing, CELLS), MOST_CELLS, side * MOST_REACH / widest)
+        return block.over(Grid.over(block.box, max(int(wanted), 1)))
+
+
+def scene_cut(programs: Sequence[NcProgram], tools: Sequence[Mapping[int, Tool]], block: Block,
+              progress: Progress = NO_PROGRESS) -> SceneCut:  # fmt: skip
+    """Cut a scene's program, and say, by tool, where it takes more metal at a time than it can be meant to.
+
+    That is a slot or a hole deeper than its diameter or flutes.
 
     Args:
         programs: in the order of cutting. tools: of each, by T number, 0 standing for one that is not named.
-        stock: scene coordinates. origin: the program's zero in them.
 
     Raises:
         Cancelled: the job was asked to stop.
     """
-    low, high = np.array([stock.x0, stock.y0, stock.z0]) - origin, np.array([stock.x1, stock.y1, stock.z1]) - origin
-    block = BoxStock(StockBox(*low.tolist(), *high.tolist()))
-    grid = Grid.over(block.box, CELLS)
-    metal, worst = block.over(grid), dict[int, _Load]()
+    metal, worst = block.metal(max(tool.radius for mine in tools for tool in mine.values())), dict[int, _Load]()
     known: dict[int, Tool] = {}
     for k, (program, mine) in enumerate(zip(programs, tools, strict=True)):
         course = course_of(program).course
@@ -69,12 +101,17 @@ def load_findings(programs: Sequence[NcProgram], tools: Sequence[Mapping[int, To
         done = trim(metal, course, cutters, TrimOptions(trace=True), progress.part(k / len(programs), (k + 1) / len(programs)))
         metal = done.workpiece
         for number, tool in mine.items():
-            if tool.diameter < LEAST_CELLS * grid.pitch:
+            if tool.diameter < LEAST_CELLS * metal.grid.pitch:
                 continue
             known[tool.number] = tool
             for load in _loads(course, done.volume, number, tool):
                 if tool.number not in worst or load.depth > worst[tool.number].depth:
                     worst[tool.number] = load
+    return SceneCut(metal, tuple(_heavy(worst, known, block.origin)))
+
+
+def _heavy(worst: Mapping[int, _Load], known: Mapping[int, Tool], origin: Floats) -> Iterator[Finding]:
+    """Yield the loads that are too heavy."""
     for number, load in sorted(worst.items()):
         limit = known[number].flute_length or known[number].diameter
         if load.depth > limit:

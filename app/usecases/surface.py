@@ -44,6 +44,7 @@ class Family:
         passes: as the scene has it. tool: with the feeds and the speed that the passes ask for.
         surface: the compound surface on its planes. path: of the cutter.
         follower: that made the path, for proofs; it numbers surfaces in an order of its own.
+        area: where the cutter's centre may be; None: anywhere.
     """
 
     passes: Passes
@@ -51,6 +52,7 @@ class Family:
     surface: Compound
     path: Compound
     follower: Follower
+    area: shapely.Geometry | None = None
 
     @property
     def planes(self) -> Planes:
@@ -162,12 +164,13 @@ def _family(scene: Scene, facets: SceneFacets, passes: Passes, rest: tuple[float
     planes = _planes(facets.facets, passes, tool, overrun.far)
     below = facets.facets if passes.floor is None else _with_floor(facets.facets, passes.floor, len(scene.surfaces), overrun.far)
     follower = Follower(below, tool, FollowOptions(passes.stock_to_leave, passes.chord_tolerance, grid))
-    path = cutter_path(follower, planes, _area(passes.boundary, tool, sources), progress.part(0.0, 0.7), overrun)
+    area = _area(passes.boundary, tool, sources)
+    path = cutter_path(follower, planes, area, progress.part(0.0, 0.7), overrun)
     if not path.runs:
         name = passes.name or f"with T{tool.number}"
         raise GeometryError(f"passes {name} touch no surface; check their boundary and the surfaces' trims.")
     surface = compound_surface(facets.uncut, path.planes, passes.chord_tolerance, facets.areas, progress.part(0.7, 1.0))
-    return Family(passes, tool, surface, path, follower)
+    return Family(passes, tool, surface, path, follower, area)
 
 
 def _planes(facets: Facets, passes: Passes, tool: Tool, far: float) -> Planes:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -27,7 +28,9 @@ from ..model.motion_path import anchored
 from ..model.tool import Tool
 from ..surfaces.passes.path import ALLOWED
 from ..surfaces.sections.compound import NO_SURFACE, BoundaryKind
-from .scene_load import load_findings
+from .scene_left import Left, left_findings
+from .scene_load import Block, SceneCut, scene_cut
+from .scene_wishes import closest_passes, left_in
 from .surface import Computed, Family, job_of
 
 Floats = NDArray[np.float64]
@@ -43,6 +46,7 @@ class WrittenScene:
         programs: each file, read back, its motions anchored.
         unproven: (k, 3) ends of moves, scene coordinates, that may go deeper into a surface than ALLOWED.
         loads: where tools take too much metal at a time.
+        left: what they leave of what they reach.
     """
 
     computed: Computed
@@ -51,6 +55,7 @@ class WrittenScene:
     programs: tuple[NcProgram, ...]
     unproven: Floats
     loads: tuple[Finding, ...] = ()
+    left: Left | None = None
 
     @property
     def time_s(self) -> float:
@@ -64,7 +69,13 @@ class WrittenScene:
             Finding(FindingKind.GOUGE, f"The move to ({x:.3f}, {y:.3f}, {z:.3f}) could not be proven to stay within {ALLOWED:g} mm of the "
                     "surfaces; make the chord tolerance larger, or check the surfaces there.", x, y)
             for x, y, z in self.unproven.tolist()
-        ), *self.loads)  # fmt: skip
+        ), *self._left(), *self.loads)  # fmt: skip
+
+    def _left(self) -> Iterator[Finding]:
+        """Yield what there is to say of what is left."""
+        if self.left is not None:
+            angles = [math.degrees(family.planes.angle) for family in self.computed.families]
+            yield from left_findings(self.left, np.array(self.computed.origin), angles)
 
 
 def write_scene_nc(computed: Computed, progress: Progress = NO_PROGRESS) -> WrittenScene:
@@ -92,17 +103,18 @@ def write_scene_nc(computed: Computed, progress: Progress = NO_PROGRESS) -> Writ
         _require_same(computed, file, motions)
         unproven.append(_unproven(computed, file, motions, share.part(0.3, 1.0)))
         programs.append(program)
-    loads = tuple(_loads(computed, files, programs, progress.part(0.9, 1.0)))
-    return WrittenScene(computed, post, files, tuple(programs), np.concatenate(unproven), loads)
+    done = _cut(computed, files, programs, progress.part(0.9, 0.97))
+    left = left_in(computed, done.metal, progress.part(0.97, 1.0))
+    return WrittenScene(computed, post, files, tuple(programs), np.concatenate(unproven), done.findings, left)
 
 
-def _loads(computed: Computed, files: Sequence[NcFile], programs: Sequence[NcProgram], progress: Progress) -> Iterator[Finding]:
-    """Return where tools take too much metal at a time; a file that names no tool has the one of its first move."""
+def _cut(computed: Computed, files: Sequence[NcFile], programs: Sequence[NcProgram], progress: Progress) -> SceneCut:
+    """Cut the program out of the stock; a file that names no tool has the one of its first move."""
     tools = {family.tool.number: family.tool for family in computed.families}
     numbers = computed.moves.moves.tool
     known = [tools | {0: tools[int(numbers[file.first])]} for file in files]
-    return load_findings([replace(program, motions=anchored(program.motions)) for program in programs], known, computed.stock,
-                         np.array(computed.origin), progress)  # fmt: skip
+    block = Block(computed.stock, np.array(computed.origin), closest_passes(computed))
+    return scene_cut([replace(program, motions=anchored(program.motions)) for program in programs], known, block, progress)
 
 
 def _require_same(computed: Computed, file: NcFile, motions: Motions) -> None:

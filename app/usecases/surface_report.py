@@ -22,6 +22,8 @@ from .surface_nc import WrittenScene
 ENGINE = "cutters over rational Bezier patches and triangles, exact where they touch; every chord proven"
 GOUGE_METHOD = ("a bound, not a measurement: for each move of the written text a cutter pared by so much is proven to stay clear of every "
                 "surface, all along the move")
+LEFT_METHOD = ("the written text cut out of the stock, on cells, beside the lowest that the same tools reach: the surfaces' heights closed "
+               "by their profiles; ridges of up to twice what the pitch leaves on a plane of that slope are none of it")
 _LENGTHS = {"cut": Purpose.CONTOUR, "link": Purpose.LINK, "plunge": Purpose.PLUNGE, "rapid": Purpose.RAPID}
 _KINDS = {"G0": MotionKind.RAPID, "G1": MotionKind.LINE, "G2": MotionKind.ARC_CW, "G3": MotionKind.ARC_CCW}
 
@@ -78,6 +80,7 @@ def _program(written: WrittenScene) -> Json:
     kind = np.concatenate([program.motions.kind for program in written.programs])
     return {
         "gouge": {"max_mm": None if count else ALLOWED, "x": x, "y": y, "z": z, "line": None, "count": count, "method": GOUGE_METHOD},
+        "left": _left(written),
         "rapids_in_material": list(_low_rapids(written)),
         "time_s": written.time_s, "time_method": TIME_METHOD.format(load_machine(DEFAULT_MACHINE).title),
         "moves": {name: int(np.sum(kind == value)) for name, value in _KINDS.items()},
@@ -85,6 +88,21 @@ def _program(written: WrittenScene) -> Json:
                         for motions in (program.motions for program in written.programs)),
         "post": written.computed.scene.post, "files": len(written.files),
     }  # fmt: skip
+
+
+def _left(written: WrittenScene) -> Json | None:
+    """Return what the program leaves within reach of its tools, in the scene's coordinates."""
+    left = written.left
+    if left is None:
+        return None
+    x, y, _ = written.computed.origin
+    told: Json = {"reachable_mm2": left.area_mm2, "places": left.places, "worst_mm": left.worst_mm, "wide_mm": left.wide_mm,
+                  "x": left.x + x if left.places else None, "y": left.y + y if left.places else None,
+                  "within_mm": left.within_mm, "cell_mm": left.cell_mm, "ridge": None, "method": LEFT_METHOD}  # fmt: skip
+    if (ridge := left.ridge) is not None:
+        told["ridge"] = {"max_mm": ridge.height_mm, "x": ridge.x + x, "y": ridge.y + y, "slope_deg": ridge.slope_deg,
+                         "level_mm": ridge.level_mm}  # fmt: skip
+    return told
 
 
 def _low_rapids(written: WrittenScene) -> Iterator[Json]:
@@ -165,6 +183,8 @@ def _summary(data: Json) -> Iterator[str]:
         sure = f"proven: no move deeper than {gouge['max_mm']} mm in a surface"
         proven = f"{gouge['count']} moves not proven" if gouge["count"] else sure
         head += f", {data['retracts']} retracts, {minutes}:{seconds:02d} min; {proven}"
+        if data["left"] is not None:
+            head += f"; {data['left']['reachable_mm2']:.3f} mm2 left within reach"
     yield head
     for each in data["passes"]:
         met = ", ".join(f"{count} {kind}" for kind, count in each["path"]["boundary_points"].items() if count)

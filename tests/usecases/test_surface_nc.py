@@ -11,6 +11,7 @@ from app.core.errors import Cancelled, HitofudeError
 from app.core.progress import Progress
 from app.formats.scene.toml import sources_of
 from app.gcode.posts.posts import load_post, post_names
+from app.model.finding import FindingKind
 from app.model.job import OriginXY, OriginZ
 from app.model.part import Units
 from app.model.scene import Boundary, Centre, Passes, Scene, Surface
@@ -42,7 +43,7 @@ def test_every_control_reads_back_what_is_proven(post: str, units: Units) -> Non
     except HitofudeError as error:
         assert "inch" in str(error) or "exact" in str(error)
         return
-    assert done.findings() == () and done.time_s > 0
+    assert {finding.kind for finding in done.findings()} <= {FindingKind.LEFT_REACHABLE, FindingKind.RIDGE} and done.time_s > 0
     assert len(done.files) == (2 if load_post(post).file_per_tool else 1)
     written = sum(len(set(file.nc.lines.tolist())) for file in done.files)
     assert written >= 0.9 * len(done.computed.moves.moves)

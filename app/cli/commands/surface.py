@@ -24,7 +24,8 @@ from ..signals import Stopping, undisturbed
 EPILOG = """\
 The scene tells surfaces, stock, tools and families of passes; resources/docs/scene.md explains every key. On each cutting plane the
 topmost of all surfaces is followed; where the path passes from one to another, the boundary point is solved for. Every move of the
-written program is read back and proven to go nowhere deeper into a surface than 0.0001 mm. Files that the scene names are looked for
+written program is read back and proven to go nowhere deeper into a surface than 0.0001 mm; it is cut out of the stock, and what the
+same tools reach and leave is told with its place. Files that the scene names are looked for
 beside it. Exit status 0: done and proven; 1: with findings, or a move could not be proven; 2: bad input; 130: cancelled.
 """
 

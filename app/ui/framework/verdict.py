@@ -27,7 +27,7 @@ _WORST_FIRST = (
     FindingKind.TOOL_SHAPE, FindingKind.OPEN_CONTOUR, FindingKind.SELF_INTERSECTION, FindingKind.OVERLAP, FindingKind.REGION_TOO_SMALL,
     FindingKind.NECK_TOO_NARROW, FindingKind.ENGAGEMENT, FindingKind.AMBIGUOUS, FindingKind.UNITS_ASSUMED, FindingKind.GAP_CLOSED,
     FindingKind.TINY_ENTITY, FindingKind.LEFT_OUT, FindingKind.ASSUMED, FindingKind.HIDDEN, FindingKind.LEFT_UNREACHABLE,
-    FindingKind.SKIN, FindingKind.ENTRY,
+    FindingKind.SKIN, FindingKind.RIDGE, FindingKind.ENTRY,
 )
 _RED = {FindingKind.AREA, FindingKind.GOUGE, FindingKind.CLAMP, FindingKind.RAPID_IN_MATERIAL, FindingKind.START_IN_STOCK,
         FindingKind.PLUNGE,
@@ -48,6 +48,7 @@ _NAMES = {
     FindingKind.HIDDEN: "metal below metal", FindingKind.BEYOND_STOCK: "part beyond the stock",
     FindingKind.AMBIGUOUS: "doubtful place in the picture", FindingKind.SKIN: "skin along the walls", FindingKind.ENTRY: "another entry",
     FindingKind.HOLE: "hole in a surface", FindingKind.SIZE: "doubtful size", FindingKind.FEED: "plunge at full feed",
+    FindingKind.RIDGE: "ridges between passes",
 }
 
 
