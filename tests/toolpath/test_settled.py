@@ -14,7 +14,7 @@ from app.model.job import Job
 from app.model.moves import Moves, Program
 from app.operations.compute import compute
 from app.toolpath.coverage.coverage import Coverage, measure
-from app.toolpath.settled import one_floor, settled
+from app.toolpath.coverage.settled import one_floor, settled
 from app.usecases.make import job_from_drawing
 from app.usecases.options import MakeOptions
 from app.usecases.plausible import read_for

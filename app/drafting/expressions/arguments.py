@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from ...model.curves import Curve, Point
-from ..effort import Effort
 from . import syntax as s
+from .effort import Effort
 from .errors import CommandError
 from .evaluate import length_of, number_of, point_of, value_of
 from .units import ANGLE_UNITS, LENGTH_UNITS

@@ -10,8 +10,8 @@ from ...core.errors import InputError
 from ...core.progress import NO_PROGRESS, Progress
 from ..commands.command import Draw, Redo, Session, Undo, counted
 from ..commands.select import Select
-from ..effort import Effort
 from ..expressions import syntax as s
+from ..expressions.effort import Effort
 from ..expressions.errors import CommandError
 from ..expressions.evaluate import number_of, value_of
 from ..expressions.units import LENGTH_UNITS

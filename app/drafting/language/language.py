@@ -50,9 +50,9 @@ from ..commands.join import join
 from ..commands.measuring import Measure, measure
 from ..commands.pull import Pull, pull
 from ..commands.select import Select
-from ..effort import Effort
 from ..expressions import syntax
 from ..expressions.arguments import Arguments
+from ..expressions.effort import Effort
 from ..expressions.values import wrong
 from ..expressions.words import nearest_words
 from . import read_corners as corners

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ...core.jit import kernel
-from ..sweeps.box_tree import LEAF
+from ..box_tree import LEAF
 
 _R, _MANY = "float64[::1]", "float64[:, ::1]"
 _STACK = 128

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ...core.jit import kernel
-from ..sweeps.box_tree import LEAF
+from ..box_tree import LEAF
 from .solid_kernels import holds, side
 
 _R, _MANY = "float64[::1]", "float64[:, ::1]"

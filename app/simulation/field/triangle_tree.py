@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.motion import Floats
-from ..sweeps.box_tree import box_tree
+from ..box_tree import box_tree
 
 
 @dataclass(frozen=True, eq=False)

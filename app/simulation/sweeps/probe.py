@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.motion import Floats, MotionKind
+from ..box_tree import box_tree
 from ..cutter import Cutter
-from .box_tree import box_tree
 from .course import Course
 from .pieces import Pieces, Splitter
 

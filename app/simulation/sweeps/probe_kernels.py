@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from ...core.jit import kernel
+from ..box_tree import LEAF
 from ..field.ray_kernels import over
-from .box_tree import LEAF
 
 _SHAPE = "UniTuple(float64, 6)"
 """Of a cutter: radius, flat, fillet, span of the fillet, slope of the cone (0 = none), lift over the tip, mm."""

@@ -9,7 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from .corners import doubled_areas
-from .winding import Edges
+from .edges import Edges
 
 Floats = NDArray[np.float64]
 

@@ -38,7 +38,7 @@ class Sewn:
 
 def sewn(triangles: Floats) -> Sewn | None:
     """Return a torn surface sewn together; None where edges stay open."""
-    from .winding import Edges
+    from .edges import Edges
 
     within = ROUNDED * float(np.abs(triangles).max())
     found = Sewn(triangles, np.arange(len(triangles)))

@@ -26,11 +26,11 @@ from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.moves import MoveKind, Moves, Program
 from ...model.tool import ToolKind
-from ..settled import Floor, one_floor, settled
 from .areas import common, united, without
 from .flat import flattened, grown, lines, move_rows
 from .proven import uncertain
 from .reachable import Fields, reached
+from .settled import Floor, one_floor, settled
 from .wanted import CHORD, Wanted, wanted_of
 
 STRIP = 0.01

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.motion import Floats
+from ..model.motion import Floats
 
 LEAF = 4
 """Things of a leaf."""

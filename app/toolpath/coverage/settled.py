@@ -13,17 +13,17 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from ..core.progress import Progress
-from ..geometry.primitives import Rows
-from ..model.job import Job
-from ..model.moves import Area, Program
-from ..model.operation import ContourOperation, DrillOperation, PocketOperation, Side
-from ..model.part import Region
-from ..model.tool import ToolKind
-from .coverage.areas import united
-from .coverage.flat import region_shapes
-from .coverage.proven import uncertain
-from .coverage.wanted import CHORD, Wanted, areas_of_operations, wanted_of
+from ...core.progress import Progress
+from ...geometry.primitives import Rows
+from ...model.job import Job
+from ...model.moves import Area, Program
+from ...model.operation import ContourOperation, DrillOperation, PocketOperation, Side
+from ...model.part import Region
+from ...model.tool import ToolKind
+from .areas import united
+from .flat import region_shapes
+from .proven import uncertain
+from .wanted import CHORD, Wanted, areas_of_operations, wanted_of
 
 _SAME = 1e-9
 """mm between floors that are one."""

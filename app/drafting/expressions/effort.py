@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ..model.curves import Arc, Circle, Curve, Line, Spline
-from .expressions import syntax as s
-from .expressions.values import wrong
+from ...model.curves import Arc, Circle, Curve, Line, Spline
+from . import syntax as s
+from .values import wrong
 
 MOST_WORK = 2_000_000
 """Of what is repeated; a unit is about a millionth of a second, and a text is to be read within five, on a busy machine too."""
