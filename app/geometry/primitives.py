@@ -23,6 +23,9 @@ Rows = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _MAX_SWEEP = 0.75 * math.pi
+_KEPT = "_rows"
+"""Name under which a contour, which never changes, keeps its rows."""
+
 X0, Y0, X1, Y1, CX, CY, R, TURN = range(8)
 
 
@@ -83,7 +86,18 @@ def _arc_row(a: tuple[float, float], b: tuple[float, float], centre: tuple[float
 
 
 def contour_rows(contour: Contour) -> Rows:
-    """Return the rows (n, 8) of a contour, in its direction."""
+    """Return the rows (n, 8) of a contour, in its direction; the caller's own.
+
+    A contour keeps them: every stage of a job asks for them, and most of a large drawing's time went into making them again.
+    """
+    known: Rows | None = vars(contour).get(_KEPT)
+    if known is None:
+        known = _contour_rows(contour)
+        vars(contour)[_KEPT] = known
+    return known.copy()
+
+
+def _contour_rows(contour: Contour) -> Rows:
     if all(type(curve) is Line for curve in contour.primitives):  # most of the longest ones
         ends = chain.from_iterable(chain.from_iterable((curve.start, curve.end) for curve in contour.primitives))
         rows = np.zeros((len(contour.primitives), 8))
@@ -137,15 +151,19 @@ def sweeps(rows: Rows) -> NDArray[np.float64]:
     return np.where(same, math.tau, turn) * rows[:, TURN]
 
 
-def turns(rows: Rows) -> NDArray[np.float64]:
-    """Return by how much (n,) a closed path turns where each of its rows begins, radians, in [0, pi]."""
+def turns(rows: Rows, previous: Indices) -> NDArray[np.float64]:
+    """Return by how much (n,) closed paths turn where each row begins, radians, in [0, pi].
+
+    Args:
+        previous: (n,) number of the row that ends where each begins.
+    """
 
     def ahead(at: int) -> NDArray[np.float64]:
         arm_x, arm_y = rows[:, at] - rows[:, CX], rows[:, at + 1] - rows[:, CY]
         line, turn = rows[:, TURN] == 0, rows[:, TURN]
         return np.arctan2(np.where(line, rows[:, Y1] - rows[:, Y0], turn * arm_x), np.where(line, rows[:, X1] - rows[:, X0], -turn * arm_y))
 
-    return np.abs((ahead(X0) - np.roll(ahead(X1), 1) + math.pi) % math.tau - math.pi)
+    return np.abs((ahead(X0) - ahead(X1)[previous] + math.pi) % math.tau - math.pi)
 
 
 def lengths(rows: Rows) -> NDArray[np.float64]:
@@ -175,12 +193,17 @@ def boxes(rows: Rows) -> NDArray[np.float64]:
 
 def sample(rows: Rows, tolerance: float) -> NDArray[np.float64]:
     """Return points (m, 2) along rows whose chords stay within `tolerance` mm; each row's end is left to the next one."""
+    return samples(rows, tolerance)[1]
+
+
+def samples(rows: Rows, tolerance: float | NDArray[np.float64]) -> tuple[Indices, NDArray[np.float64]]:
+    """Return (row (m,), points (m, 2)) along rows whose chords stay within a tolerance, mm, of all or of each row (n,); see `sample`."""
     turn = np.abs(sweeps(rows))
     step = 2 * np.arccos(np.clip(1 - tolerance / np.maximum(rows[:, R], tolerance), 0, 1))
     counts = np.where(rows[:, TURN] == 0, 1, np.maximum(1, np.ceil(turn / step))).astype(np.int64)
     index = np.repeat(np.arange(len(rows)), counts)
     part = (np.arange(len(index)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[index]
-    return points_at(rows[index], part)
+    return index, points_at(rows[index], part)
 
 
 def points_at(rows: Rows, fraction: NDArray[np.float64]) -> NDArray[np.float64]:

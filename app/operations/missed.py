@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from ..core.progress import NO_PROGRESS
-from ..geometry.offset.offset import Level, offset_levels
+from ..geometry.offset.offset import Level
 from ..model.finding import Finding
 from ..model.operation import ContourOperation, DrillOperation, Operation, PocketOperation, Side
 from ..model.part import Region
@@ -55,4 +55,4 @@ def _missed(operation: Operation, sheets: Sheets) -> Iterator[Finding]:
 
 
 def _level(sheet: Sheet, distance: float) -> Level:
-    return offset_levels(sheet.primitives, [distance], frame=True)[0]
+    return sheet.frame(distance)

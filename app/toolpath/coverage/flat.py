@@ -9,9 +9,10 @@ import shapely
 from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
-from ...geometry.primitives import TURN, R, Rows, contour_rows, points_at, sample, sweeps
+from ...geometry.outlines import Outlines, polygons
+from ...geometry.primitives import TURN, R, Rows, points_at, sweeps
 from ...model.moves import MoveKind, Moves
-from ...model.part import Contour, Region
+from ...model.part import Region
 
 
 def move_rows(moves: Moves) -> Rows:
@@ -55,17 +56,10 @@ def region_shapes(regions: Sequence[Region], chord: float) -> NDArray[np.object_
 
     They stay apart, since regions that touch have a wall of no thickness between them.
     """
-    parts = shapely.get_parts([_polygon(region.contours, chord) for region in regions])
-    parts = shapely.get_parts(parts)
+    outlines = Outlines.of([contour for region in regions for contour in region.contours])
+    group = np.repeat(np.arange(len(regions)), [1 + len(region.islands) for region in regions])
+    parts = shapely.get_parts(shapely.get_parts(polygons(outlines, group, chord)[1]))
     return np.asarray(parts[(shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)], dtype=object)
-
-
-def _polygon(contours: Sequence[Contour], chord: float) -> Shape:
-    """Return the polygon with the first contour as its boundary and the others as its holes."""
-    outer, *inner = (sample(contour_rows(contour), chord) for contour in contours)
-    if len(outer) < 3:
-        return shapely.Polygon()
-    return shapely.make_valid(shapely.Polygon(outer, [ring for ring in inner if len(ring) > 2]))
 
 
 def quarter_chords(radius: float, chord: float) -> int:
