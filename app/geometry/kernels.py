@@ -250,3 +250,13 @@ def inside_many(rows, order, nodes, points, result):
     stack = np.empty(DEPTH, np.int64)
     for k in range(len(points)):
         result[k] = inside(rows, order, nodes, points[k, 0], points[k, 1], stack)
+
+
+@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], boolean[::1])")
+def inside_own(rows, first, points, result):
+    """Write for each run of closed rows, from first[k] up to first[k + 1], whether it encloses its own point by the even-odd rule."""
+    for k in range(len(points)):
+        count = 0
+        for j in range(first[k], first[k + 1]):
+            count += _crossings(rows, j, points[k, 0], points[k, 1])
+        result[k] = count % 2 == 1

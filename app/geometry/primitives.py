@@ -144,15 +144,19 @@ def sweeps(rows: Rows) -> NDArray[np.float64]:
     return np.where(same, math.tau, turn) * rows[:, TURN]
 
 
-def turns(rows: Rows) -> NDArray[np.float64]:
-    """Return by how much (n,) a closed path turns where each of its rows begins, radians, in [0, pi]."""
+def turns(rows: Rows, previous: Indices) -> NDArray[np.float64]:
+    """Return by how much (n,) closed paths turn where each row begins, radians, in [0, pi].
+
+    Args:
+        previous: (n,) number of the row that ends where each begins.
+    """
 
     def ahead(at: int) -> NDArray[np.float64]:
         arm_x, arm_y = rows[:, at] - rows[:, CX], rows[:, at + 1] - rows[:, CY]
         line, turn = rows[:, TURN] == 0, rows[:, TURN]
         return np.arctan2(np.where(line, rows[:, Y1] - rows[:, Y0], turn * arm_x), np.where(line, rows[:, X1] - rows[:, X0], -turn * arm_y))
 
-    return np.abs((ahead(X0) - np.roll(ahead(X1), 1) + math.pi) % math.tau - math.pi)
+    return np.abs((ahead(X0) - ahead(X1)[previous] + math.pi) % math.tau - math.pi)
 
 
 def lengths(rows: Rows) -> NDArray[np.float64]:
@@ -182,11 +186,11 @@ def boxes(rows: Rows) -> NDArray[np.float64]:
 
 def sample(rows: Rows, tolerance: float) -> NDArray[np.float64]:
     """Return points (m, 2) along rows whose chords stay within `tolerance` mm; each row's end is left to the next one."""
-    return sampled(rows, tolerance)[1]
+    return samples(rows, tolerance)[1]
 
 
-def sampled(rows: Rows, tolerance: float) -> tuple[Indices, NDArray[np.float64]]:
-    """Return (row (m,), points (m, 2)) along rows, as `sample` has them, and on which row each lies."""
+def samples(rows: Rows, tolerance: float | NDArray[np.float64]) -> tuple[Indices, NDArray[np.float64]]:
+    """Return (row (m,), points (m, 2)) along rows whose chords stay within a tolerance, mm, of all or of each row (n,); see `sample`."""
     turn = np.abs(sweeps(rows))
     step = 2 * np.arccos(np.clip(1 - tolerance / np.maximum(rows[:, R], tolerance), 0, 1))
     counts = np.where(rows[:, TURN] == 0, 1, np.maximum(1, np.ceil(turn / step))).astype(np.int64)

@@ -13,7 +13,11 @@ from ..core import tolerances
 from ..model.curves import Line, Primitive, reversed_curve
 from ..model.part import Contour, Region
 from .distance import DistanceField
-from .primitives import Rows, boxes, contour_rows, lengths, points_at, sample, signed_area
+from .near import near
+from .outlines import Outlines, polygons
+from .primitives import lengths, points_at
+
+Floats = NDArray[np.float64]
 
 _CHORD = 0.01
 """mm; an inner point of each contour is found with it, and then proven exactly. Thin contours are sampled more finely."""
@@ -53,70 +57,69 @@ def nested(contours: Sequence[Contour]) -> Nesting:
     closed = [c for c in contours if c.closed]
     if not closed:
         return Nesting()
-    rows = [contour_rows(c) for c in closed]
-    areas = np.array([signed_area(r) for r in rows])
-    holders = _holders(rows, np.abs(areas))
-    turned = [c if (area > 0) == (len(h) % 2 == 0) else reversed_contour(c) for c, area, h in zip(closed, areas, holders, strict=True)]
+    outlines = Outlines.of(closed)
+    areas = outlines.areas
+    holders = _holders(outlines)
+    turned = [c if (area > 0) == (len(h) % 2 == 0) else reversed_contour(c)
+              for c, area, h in zip(closed, areas.tolist(), holders, strict=True)]
     islands: dict[int, list[Contour]] = {}
     for contour, held in zip(turned, holders, strict=True):
         if len(held) % 2 == 1:
             islands.setdefault(min(held, key=lambda i: abs(areas[i])), []).append(contour)
     outer = [i for i, held in enumerate(holders) if len(held) % 2 == 0]
-    thick = [i for i in outer if _thickness(rows[i]) > tolerances.LEVEL / 2]
-    regions = tuple(Region(number, turned[i], tuple(islands.get(i, ()))) for number, i in enumerate(thick, 1))
-    return Nesting(regions, tuple(turned[i] for i in sorted(set(outer).difference(thick))))
+    thick = _thicknesses(outlines) > tolerances.LEVEL / 2
+    regions = tuple(Region(number, turned[i], tuple(islands.get(i, ()))) for number, i in enumerate((i for i in outer if thick[i]), 1))
+    return Nesting(regions, tuple(turned[i] for i in outer if not thick[i]))
 
 
-def _thickness(rows: Rows) -> float:
-    """Return area / length, mm: half the width of something long and thin."""
-    return abs(signed_area(rows)) / max(float(lengths(rows).sum()), tolerances.WELD)
+def _thicknesses(outlines: Outlines) -> Floats:
+    """Return area / length (m,), mm: half the width of something long and thin."""
+    thickness: Floats = np.abs(outlines.areas) / np.maximum(outlines.lengths, tolerances.WELD)
+    return thickness
 
 
-def _holders(rows: list[Rows], areas: NDArray[np.float64]) -> list[list[int]]:
+def _holders(outlines: Outlines) -> list[list[int]]:
     """Return for each contour the larger ones that hold an inner point of it: exactly, arcs as arcs."""
-    points = _inner_points(rows)
-    found: list[list[int]] = [[] for _ in rows]
-    for j, each in enumerate(rows):
-        around = boxes(each)
-        low, high = around[:, :2].min(axis=0), around[:, 2:].max(axis=0)
-        near = np.flatnonzero((areas < areas[j]) & ((points >= low) & (points <= high)).all(axis=1))
-        if len(near):
-            for i in near[DistanceField.of(each).inside(points[near])].tolist():
-                found[i].append(j)
+    points, areas = _inner_points(outlines), np.abs(outlines.areas)
+    holder, held = near(shapely.STRtree(shapely.points(points)), shapely.box(*outlines.boxes.T))
+    larger = areas[held] < areas[holder]
+    holder, held = holder[larger], held[larger]
+    order = np.lexsort((held, holder))
+    found: list[list[int]] = [[] for _ in areas]
+    for some in np.split(order, np.flatnonzero(np.diff(holder[order])) + 1) if len(order) else ():
+        j = int(holder[some[0]])
+        inside = DistanceField.of(outlines.rows[outlines.first[j]:outlines.first[j + 1]]).inside(points[held[some]])
+        for i in held[some[inside]].tolist():
+            found[i].append(j)
     return found
 
 
-def _inner_points(rows: list[Rows]) -> NDArray[np.float64]:
-    """Return a point (n, 2) that each closed contour holds."""
-    polygons = [shapely.make_valid(shapely.Polygon(p)) if len(p := _ring(r)) > 2 else shapely.Polygon() for r in rows]
-    points = shapely.point_on_surface(np.array(polygons, dtype=object))
-    there = ~shapely.is_empty(points)
-    found = np.zeros((len(rows), 2))
-    found[there] = shapely.get_coordinates(points[there])
-    for k, each in enumerate(rows):
-        if not (there[k] and DistanceField.of(each).inside(found[k : k + 1])[0]):
-            found[k] = _beside(each)
+def _inner_points(outlines: Outlines) -> Floats:
+    """Return a point (m, 2) that each closed contour holds."""
+    chord = np.minimum(_CHORD, np.maximum(_thicknesses(outlines) / 8, tolerances.WELD))
+    number, shapes = polygons(outlines, np.arange(len(outlines)), chord)
+    found = np.full((len(outlines), 2), np.inf)
+    found[number] = shapely.get_coordinates(shapely.point_on_surface(shapes))
+    for k in np.flatnonzero(~outlines.enclose(found)).tolist():
+        found[k] = _beside(Outlines.joined([outlines.rows[outlines.first[k]:outlines.first[k + 1]]]))
     return found
 
 
-def _ring(rows: Rows) -> NDArray[np.float64]:
-    return sample(rows, min(_CHORD, max(_thickness(rows) / 8, tolerances.WELD)))
-
-
-def _beside(rows: Rows) -> NDArray[np.float64]:
+def _beside(outline: Outlines) -> Floats:
     """Return a point within a closed contour, close beside the middle of one of its curves; that middle itself where none is found."""
+    rows, thickness = outline.rows, float(_thicknesses(outline)[0])
     middle = points_at(rows, np.full(len(rows), 0.5))
     ahead = points_at(rows, np.full(len(rows), 0.51)) - middle
     normal = np.stack([-ahead[:, 1], ahead[:, 0]], 1) / np.maximum(np.hypot(*ahead.T), 1e-300)[:, None]
     field = DistanceField.of(rows)
     for share in _ASIDE:
-        aside = _thickness(rows) * share * (1 if signed_area(rows) > 0 else -1)
+        aside = thickness * share * (1 if outline.areas[0] > 0 else -1)
         places = middle + normal * aside
         held = field.inside(places)
         if held.any():
-            inner: NDArray[np.float64] = places[np.argmax(np.where(held, lengths(rows), -1.0))]
+            inner: Floats = places[np.argmax(np.where(held, lengths(rows), -1.0))]
             return inner
-    start: NDArray[np.float64] = middle[0]
+    start: Floats = middle[0]
     return start
 
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -164,19 +166,28 @@ class MovesBuilder:
 
     def moves(self) -> Moves:
         """Return everything appended so far."""
-        counts = [len(c[2]) for c in self._columns]
-        purposes = [np.broadcast_to(np.asarray(c[3], np.uint8), n) for c, n in zip(self._columns, counts, strict=True)]
+        counts = np.array([len(c[2]) for c in self._columns], np.int64)
         return Moves(
             end=np.concatenate([np.zeros((0, 3)), *(c[0] for c in self._columns)]),
             centre=np.concatenate([np.zeros((0, 2)), *(c[1] for c in self._columns)]),
             kind=np.concatenate([np.zeros(0, np.uint8), *(c[2] for c in self._columns)]),
-            purpose=np.concatenate([np.zeros(0, np.uint8), *purposes]),
+            purpose=_spread([c[3] for c in self._columns], counts, np.dtype(np.uint8)),
             operation=np.repeat(np.array([c[4].operation for c in self._columns], np.int16), counts),
             tool=np.repeat(np.array([c[4].tool for c in self._columns], np.int16), counts),
             region=np.repeat(np.array([c[5] for c in self._columns], np.int32), counts),
-            feed=np.concatenate([np.zeros(0), *(np.broadcast_to(c[6], n) for c, n in zip(self._columns, counts, strict=True))]),
-            line=np.zeros(sum(counts), np.int32),
+            feed=_spread([c[6] for c in self._columns], counts, np.dtype(np.float64)),
+            line=np.zeros(int(counts.sum()), np.int32),
         )
+
+
+def _spread(values: Sequence[float | NDArray[Any]], counts: NDArray[np.int64], kind: np.dtype[Any]) -> NDArray[Any]:
+    """Return one value a move from one for each column, or an array (count,) of its own."""
+    single = np.array([not isinstance(value, np.ndarray) for value in values], np.bool_)
+    found = np.empty(int(counts.sum()), kind)
+    of = np.repeat(single, counts)
+    found[of] = np.repeat(np.array([value for value in values if not isinstance(value, np.ndarray)], kind), counts[single])
+    found[~of] = np.concatenate([np.zeros(0, kind), *(value for value in values if isinstance(value, np.ndarray))])
+    return found
 
 
 def merged(stroke: Stroke) -> Stroke:

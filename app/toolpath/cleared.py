@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -72,6 +72,13 @@ class _Ground:
         slack = max(_SLACK * radius, tolerances.LEVEL)
         way = np.array([*a, *b], np.float64)
         return bool(self._count and kernels.covers(*self._arrays(), way, radius, z + _SAME_HEIGHT, slack, _BUDGET))
+
+    def covered_after(self, places: NDArray[np.float64], k: int, radius: float, z: float) -> int:
+        """Return the first place (m, 2) from number k on at which a disc lies on ground cut down to z; -1 where there is none."""
+        if not self._count:
+            return -1
+        slack = max(_SLACK * radius, tolerances.LEVEL)
+        return int(kernels.covered_after(*self._arrays(), places, k, radius, z + _SAME_HEIGHT, slack, _BUDGET))
 
     def depths(self) -> list[float]:
         """Return how deep it was cut anywhere, mm below Z 0, the least first."""
@@ -168,6 +175,17 @@ class Cleared:
     def is_clear(self, tool: Tool, a: Point, b: Point, z: float) -> bool:
         """Tell whether a cutter with its tip at height z touches no metal on its straight way from a to b."""
         return z >= 0 or self._flat.covers(a, b, tool.radius, z)
+
+    def clear_places(self, tool: Tool, places: Sequence[Point], z: float) -> Iterator[int]:
+        """Give the numbers of the places at which a cutter with its tip at height z touches no metal, in order, each as it is asked for."""
+        if z >= 0:
+            yield from range(len(places))
+            return
+        table = np.array(places, np.float64).reshape(-1, 2)
+        k = self._flat.covered_after(table, 0, tool.radius, z)
+        while k >= 0:
+            yield k
+            k = self._flat.covered_after(table, k + 1, tool.radius, z)
 
 
 def flat_radius(tool: Tool) -> float:

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from ..core.jit import kernel
-from ..geometry.kernels import INF, LEAF, box_distance, nearest, point_distance
+from ..geometry.kernels import INF, LEAF, box_distance, enlarged, nearest, point_distance
 
 _FOREST = "float64[:, ::1], float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], int64[:, ::1]"
 
@@ -95,7 +95,7 @@ def covers(rows, reach, order, nodes, best, trees, way, radius, z, slack, budget
         return True
     at_end = beyond(rows, reach, order, nodes, best, trees, way[2], way[3], z, inside, inside + 1e-9)[0] <= inside
     first, last = 0, math.ceil(length / (2.0 * radius)) + 1
-    squares = np.empty((last + 4 * budget, 3))  # large ones first: the first place that is not cut decides
+    squares = np.empty((last + 64, 3))  # large ones first: the first place that is not cut decides
     for k in range(last):
         squares[k, 0], squares[k, 1], squares[k, 2] = 2.0 * radius * k, 0.0, radius
     while first < last:
@@ -114,12 +114,26 @@ def covers(rows, reach, order, nodes, best, trees, way, radius, z, slack, budget
         if (gap > slack and off < radius) or q <= slack / 2.0:
             return False
         half /= 2.0
+        if last + 4 > len(squares):
+            squares = enlarged(squares, last, 2 * len(squares))
         for c in range(4):
             squares[last, 0] = u + (half if c % 2 else -half)
             squares[last, 1] = v + (half if c // 2 else -half)
             squares[last, 2] = half
             last += 1
     return True
+
+
+@kernel(f"int64({_FOREST}, float64[:, ::1], int64, float64, float64, float64, int64)")
+def covered_after(rows, reach, order, nodes, best, trees, places, begin, radius, z, slack, budget):
+    """Return the first of some places (m, 2) from number `begin` on at which a disc stays on cut ground, as `covers`; -1: at none."""
+    way = np.empty(4)
+    for k in range(begin, len(places)):
+        way[0] = way[2] = places[k, 0]
+        way[1] = way[3] = places[k, 1]
+        if covers(rows, reach, order, nodes, best, trees, way, radius, z, slack, budget):
+            return k
+    return -1
 
 
 @kernel("boolean(float64[:, ::1], int64[::1], float64[:, ::1], float64[::1], float64, float64, int64)")

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from ..geometry.distance import DistanceField
 from ..geometry.offset.offset import Level, Ring, offset_levels
-from ..geometry.primitives import Primitives, contour_rows, sample
+from ..geometry.outlines import Outlines, polygons
+from ..geometry.primitives import Primitives, sample
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.operation import Operation
@@ -75,11 +76,9 @@ def too_small(regions: Sequence[Region], level: Level, tool: Tool, least: float)
     """
     reached = {ring.region for ring in level.rings}
     need = Need(tool, 2 * level.distance)
+    small = [region for region in regions if region.number not in reached]
     findings = []
-    for region in regions:
-        if region.number in reached:
-            continue
-        x, y, diameter = largest_disc(region)
+    for region, (x, y, diameter) in zip(small, largest_discs(small).tolist(), strict=True):
         text = (f"Region {region.number} at ({x:.3f}, {y:.3f}) is too small: its largest disc is about {diameter:.3f} mm, "
                 f"and {need.text}. Use a smaller tool for it.")
         counts = diameter < least or 0 < need.width <= least + 1e-9
@@ -88,17 +87,19 @@ def too_small(regions: Sequence[Region], level: Level, tool: Tool, least: float)
     return findings
 
 
-def largest_disc(region: Region) -> tuple[float, float, float]:
-    """Return (x, y, diameter), mm, of the largest disc in a region, within 0.005 mm."""
-    outline, *holes = (sample(contour_rows(contour), _CHORD) for contour in region.contours)
-    polygon = shapely.Polygon()
-    if len(outline) > 2:
-        polygon = shapely.make_valid(shapely.Polygon(outline, [hole for hole in holes if len(hole) > 2]))
-    if polygon.area <= 0:
-        return float(outline[0, 0]), float(outline[0, 1]), 0.0
-    radius = shapely.maximum_inscribed_circle(polygon, tolerance=_CHORD)
-    (x, y), _ = shapely.get_coordinates(radius)
-    return float(x), float(y), 2 * float(radius.length)
+def largest_discs(regions: Sequence[Region]) -> Floats:
+    """Return x, y, diameter (n, 3), mm, of the largest disc in each region, within 0.005 mm; none where it begins if it has no area."""
+    outlines = Outlines.of([contour for region in regions for contour in region.contours])
+    group = np.repeat(np.arange(len(regions)), [1 + len(region.islands) for region in regions])
+    found = np.zeros((len(regions), 3))
+    found[:, :2] = np.array([region.boundary.primitives[0].start for region in regions]).reshape(-1, 2)
+    number, shapes = polygons(outlines, group, _CHORD)
+    wide = shapely.area(shapes) > 0
+    number, shapes = number[wide], shapes[wide]
+    radii = shapely.maximum_inscribed_circle(shapes, tolerance=_CHORD)
+    found[number, :2] = shapely.get_coordinates(radii)[::2]
+    found[number, 2] = 2 * shapely.length(radii)
+    return found
 
 
 def necks(level: Level, primitives: Primitives, field: DistanceField, tool: Tool) -> list[Finding]:

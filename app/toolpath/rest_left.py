@@ -55,10 +55,10 @@ class Ground:
         rows, order, nodes = [np.zeros((0, 8))], [np.zeros(0, np.int64)], [np.zeros((0, 4))]
         cutters: list[tuple[float, int, int]] = []
         for radius in sorted({radius for _, radius in paths}, reverse=True):
-            parts = [within_half_turn(path) for path, wide in paths if wide == radius and len(path)]
+            parts = [path for path, wide in paths if wide == radius and len(path)]
             if not parts:
                 continue
-            field = DistanceField.of(np.concatenate(parts))
+            field = DistanceField.of(within_half_turn(np.concatenate(parts)))
             order.append(field.order + sum(map(len, rows)))
             rows.append(field.rows)
             nodes.append(field.nodes)

@@ -9,7 +9,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.progress import NO_PROGRESS, Progress
 from ..geometry.distance import DistanceField
+from ..geometry.offset.offset import Level, offset_levels
 from ..geometry.overlay.overlay import Overlaid, without_crossings, without_outlines
 from ..geometry.primitives import Primitives, contour_rows, pack, points_at
 from ..geometry.region import nested, polygon_contour
@@ -53,6 +55,19 @@ class Sheet:
     bare: NDArray[np.bool_]
     lines: tuple[Contour, ...] = ()
     outlines: tuple[Contour, ...] = ()
+    _frames: dict[float, Level] = field(default_factory=dict, repr=False)
+
+    def frame(self, distance: float, progress: Progress = NO_PROGRESS) -> Level:
+        """Return the outermost frame of a cutter, its centre at a distance from the walls, mm, see `offset_levels`.
+
+        What is left is looked for along the frame that contours follow later: it is made once.
+
+        Raises:
+            Cancelled: by progress.
+        """
+        if distance not in self._frames:
+            (self._frames[distance],) = offset_levels(self.primitives, [distance], progress, frame=True)
+        return self._frames[distance]
 
     def follows_bare(self, rows: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Return for each row (n, 8) of a ring whether what it follows at its middle is bare."""

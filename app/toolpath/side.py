@@ -8,7 +8,8 @@ import numpy as np
 import shapely
 
 from ..geometry.offset.offset import Level, Ring
-from ..geometry.primitives import reversed_rows, sample
+from ..geometry.outlines import Outlines, polygons
+from ..geometry.primitives import reversed_rows
 from ..model.operation import Direction
 from .leads.contour_path import Path
 from .sheets import Sheet
@@ -50,10 +51,11 @@ def ranks(loops: Sequence[np.ndarray]) -> list[int]:
     """Return how many of some closed loops of rows lie round each of them."""
     if len(loops) < 2:
         return [0] * len(loops)
-    outlines = [sample(rows, _CHORD) for rows in loops]
-    shapes = np.array([shapely.make_valid(shapely.Polygon(points)) if len(points) > 2 else shapely.Point(points[0])
-                       for points in outlines], dtype=object)  # fmt: skip
-    places = shapely.points([points[0] for points in outlines])
+    outlines = Outlines.joined(loops)
+    shapes = np.asarray(shapely.points(outlines.rows[outlines.first[:-1], :2]), dtype=object)
+    places = shapes.copy()
+    number, wide = polygons(outlines, np.arange(len(outlines)), _CHORD)
+    shapes[number] = wide
     held = shapely.STRtree(shapes).query(places, predicate="within")
     size = shapely.area(shapes)
     inside = held[:, (held[0] != held[1]) & (size[held[0]] < size[held[1]])]

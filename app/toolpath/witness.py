@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from ..core import tolerances
@@ -20,8 +21,9 @@ from ..geometry.chaining.findings import at
 from ..geometry.chaining.pieces import length_of, within_reach
 from ..geometry.distance import DistanceField
 from ..geometry.even_odd import even_odd
+from ..geometry.outlines import Outlines
 from ..geometry.overlay.overlay import differing
-from ..geometry.primitives import contour_rows, lengths, points_at, signed_area
+from ..geometry.primitives import points_at
 from ..geometry.region import Nesting
 from ..model.curves import Arc, Circle, Curve, Ellipse, Line, Primitive, Spline
 from ..model.finding import Finding, FindingKind
@@ -84,7 +86,7 @@ def _about_outlines(entities: Sequence[Entity], contours: Sequence[Contour]) -> 
     bent = [_places(curve) for curve in curves if isinstance(curve, Ellipse | Spline)]
     drawn = even_odd(plain, (), np.concatenate([np.zeros((0, 4)), *(np.hstack([places[:-1], places[1:]]) for places in bent)]))
     made = even_odd(contours)
-    moved = sum(float(lengths(contour_rows(contour)).sum()) * contour.deviation for contour in contours)
+    moved = float(Outlines.of(contours).lengths @ np.array([contour.deviation for contour in contours]))
     starts = [contour.primitives[0].start[0] for contour in contours] + [p.end[0] for contour in contours for p in contour.primitives]
     wide = max(starts) - min(starts)
     spare = moved + drawn.loose * wide + drawn.length * 2 * _CHORD * bool(bent)
@@ -120,8 +122,8 @@ def about_regions(contours: Sequence[Contour], outlines: Sequence[Contour], nest
         outlines: of clamps.
         nesting: what came of them.
     """
-    made = sum(map(exact_area, nesting.regions))
-    thin = sum(abs(signed_area(contour_rows(contour))) for contour in nesting.thin)
+    made = float(_outlines(nesting.regions).areas.sum())
+    thin = float(np.abs(Outlines.of(nesting.thin).areas).sum())
     found = differing(even_odd(contours, outlines), made + thin, contours)
     found += _about_edges([*contours, *outlines], nesting.regions)
     if thin > tolerances.LEVEL:
@@ -136,9 +138,9 @@ def _about_edges(curves: Sequence[Contour], regions: Sequence[Region]) -> list[F
     """Return the finding that an edge of a region lies where nothing is drawn."""
     if not curves or not regions:
         return []
-    rows = np.concatenate([contour_rows(contour) for region in regions for contour in region.contours])
+    rows = _outlines(regions).rows
     middles = points_at(rows, np.full(len(rows), 0.5))
-    away = DistanceField.of(np.concatenate([contour_rows(contour) for contour in curves])).nearest(middles)[0]
+    away = DistanceField.of(Outlines.of(curves).rows).nearest(middles)[0]
     worst = int(np.argmax(away))
     if away[worst] <= tolerances.LEVEL:
         return []
@@ -147,9 +149,8 @@ def _about_edges(curves: Sequence[Contour], regions: Sequence[Region]) -> list[F
     return [Finding(FindingKind.AREA, text, x, y, amount=float(away[worst]))]
 
 
-def exact_area(region: Region) -> float:
-    """Return the area of a region, mm2."""
-    return sum(signed_area(contour_rows(contour)) for contour in region.contours)
+def _outlines(regions: Sequence[Region]) -> Outlines:
+    return Outlines.of([contour for region in regions for contour in region.contours])
 
 
 def about_floors(areas: Sequence[Area], chord: float) -> list[Finding]:
@@ -160,9 +161,9 @@ def about_floors(areas: Sequence[Area], chord: float) -> list[Finding]:
     """
     found = []
     for regions in {id(area.regions): area.regions for area in areas if area.regions}.values():
-        length = sum(float(lengths(contour_rows(contour)).sum()) for region in regions for contour in region.contours)
-        missing = sum(map(exact_area, regions)) - sum(float(shape.area) for shape in region_shapes(regions, chord))
-        if abs(missing) > length * chord:
+        walls = _outlines(regions)
+        missing = float(walls.areas.sum() - shapely.area(region_shapes(regions, chord)).sum())
+        if abs(missing) > walls.lengths.sum() * chord:
             x, y = regions[0].boundary.primitives[0].start
             text = (f"The floor from {at((x, y))} on is measured {abs(missing):.4f} mm2 too {'small' if missing > 0 else 'large'}, "
                     "so what is said to be left is not true; do not use this program.")  # fmt: skip

@@ -191,4 +191,4 @@ def test_joints_that_are_said_to_be_tangent_are(waves: int) -> None:
     r = 20 + 2 * np.sin(waves * t)
     path = smooth(np.column_stack((r * np.cos(t), r * np.sin(t))), SmoothOptions(0.05))
     assert path.tangent.mean() > 0.5
-    assert np.degrees(turns(path.rows)[path.tangent]).max() < 0.1
+    assert np.degrees(turns(path.rows, np.arange(-1, len(path.rows) - 1))[path.tangent]).max() < 0.1

@@ -14,6 +14,7 @@ from app.geometry.arcs.chord_kernels import chords
 from app.geometry.chaining import chain
 from app.geometry.chaining.chain import Chaining
 from app.geometry.distance import DistanceField
+from app.geometry.outlines import Outlines
 from app.geometry.overlay import net as overlay_net
 from app.geometry.region import Nesting
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
@@ -46,7 +47,7 @@ def lens(r: float, s: float, gap: float) -> float:
 
 
 def area_of(made: Made) -> float:
-    return sum(map(witness.exact_area, made.program.regions))
+    return float(Outlines.of([contour for region in made.program.regions for contour in region.contours]).areas.sum())
 
 
 def test_two_circles_that_overlap_by_a_nanometre_are_both_machined() -> None:

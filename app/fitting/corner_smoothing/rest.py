@@ -37,7 +37,7 @@ def without_bends(path: Smoothed, points: Floats, limit: float) -> Smoothed:
     """
     from . import joint_kernels, rest_kernels
 
-    count, turn, arc = len(path.rows), turns(path.rows), path.rows[:, TURN] != 0
+    count, turn, arc = len(path.rows), turns(path.rows, np.arange(-1, len(path.rows) - 1)), path.rows[:, TURN] != 0
     bent = (path.joined == joint_kernels.CROSSING) & (turn > _LEAST) & (turn < _MOST) & (arc | np.roll(arc, 1))
     anchors = np.empty((count, 2, 4)), np.empty((count, 2), np.int64)
     rest_kernels.anchor(points, (path.ends, path.rows), bent, anchors)

@@ -157,7 +157,7 @@ def _joined(rounds: Floats, segments: _Segments, options: SmoothOptions) -> tupl
     joint_kernels.make_tangent(rounds, ends, carriers, joined, options.tolerance)
     joint_kernels.let_arcs_touch(rounds, ends, carriers, joined, options.tolerance)
     rows = _rows(rounds, ends, (carriers, joined), options.tolerance)
-    joined[(joined == joint_kernels.TANGENT) & (turns(rows) > NO_BEND)] = joint_kernels.CROSSING
+    joined[(joined == joint_kernels.TANGENT) & (turns(rows, np.arange(-1, len(rows) - 1)) > NO_BEND)] = joint_kernels.CROSSING
     joint_kernels.deviations(rounds, ends, carriers, rows, worst)
     path = Smoothed(rows, _kinds(rows, options), ends, joined, float(worst[:, 0].max()), True, carriers)
     return path, worst[:, 1] > _LIMIT * options.tolerance

@@ -213,9 +213,11 @@ class _Engine:
         if not closed or not self._measure_right(joined, owners, distance, limit):
             return None
         ring_kernels.shift(joined, self._shift[0], self._shift[1])
-        regions = self._primitives.region
-        return [Ring(_lasting(joined[int(first):int(stop)]), int(regions[int(owner)]), area, length)
-                for first, stop, area, length, owner in table.tolist()]
+        still = np.concatenate([[0], np.cumsum((joined[:, :2] == joined[:, 2:4]).all(axis=1))])
+        first, stop, owner = table[:, [0, 1, 4]].T.astype(np.int64)
+        each = zip(first.tolist(), stop.tolist(), (still[stop] > still[first]).tolist(), self._primitives.region[owner].tolist(),
+                   *table[:, 2:4].T.tolist(), strict=True)  # fmt: skip
+        return [Ring(_lasting(joined[a:b]) if some else joined[a:b], region, area, length) for a, b, some, region, area, length in each]
 
     def _measure_right(self, joined: Rows, owners: Indices, distance: float, limit: float) -> bool:
         """Return whether all of a level keeps its distance from the whole drawing within a limit, mm."""

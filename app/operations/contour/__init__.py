@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ...core.progress import NO_PROGRESS
-from ...geometry.offset.offset import offset_levels
 from ...model.finding import Finding
 from ...model.operation import ContourOperation, Operation, Side
 from ...toolpath.sheets import Sheet, Sheets
@@ -20,7 +19,7 @@ def _missed(sheets: Sheets, operation: Operation, sheet: Sheet | None) -> Iterab
     tool = sheets.job.tool(operation.cut.tool)
     if operation.side is Side.ON:
         return line_paths(sheet, tool, operation.cut.direction, NO_PROGRESS)[1]
-    (level,) = offset_levels(sheet.primitives, [tool.radius + operation.cut.stock_to_leave], frame=True)
+    level = sheet.frame(tool.radius + operation.cut.stock_to_leave)
     return about_walls(sheets, operation, sheet, level)[1]
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from ...geometry.distance import DistanceField
 from ...geometry.near_points import nearest
 from ...geometry.offset.offset import Level
+from ...geometry.outlines import Outlines
 from ...geometry.primitives import TURN, Indices, Rows, lengths, points_at, sweeps
 from ...toolpath.leads.contour_path import Floats, fractions_at, headings_at, left_of
 from ...toolpath.sheets import Sheet
@@ -196,8 +197,7 @@ def _gap(chain: Sequence[tuple[int, float, float]], sheet: Sheet) -> Gap:
 
 def _with_corners(found: Sequence[Gap], level: Level) -> list[Gap]:
     """Return the gaps, each with the place where a ring turns from before it to behind it."""
-    before, behind, joints, turn = (np.concatenate(each) for each in zip(*(_joints(ring.rows, level.distance) for ring in level.rings),
-                                                                         strict=True))
+    before, behind, joints, turn = _joints(Outlines.joined([ring.rows for ring in level.rings]), level.distance)
     jump = np.hypot(*(before - behind).T) > _JUMP
     if not jump.any() or not found:
         return list(found)
@@ -215,9 +215,10 @@ def _with_corners(found: Sequence[Gap], level: Level) -> list[Gap]:
     return result
 
 
-def _joints(rows: Rows, distance: float) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return (foot before, foot behind, place, left turn in radians) of each joint of a ring, at the end of each row."""
-    after = np.roll(rows, -1, axis=0)
+def _joints(rings: Outlines, distance: float) -> tuple[Floats, Floats, Floats, Floats]:
+    """Return (foot before, foot behind, place, left turn in radians) of each joint of some rings, at the end of each row."""
+    rows = rings.rows
+    after = rows[rings.following]
     return feet(rows, 1.0, distance), feet(after, 0.0, distance), rows[:, 2:4], np.maximum(_turns(rows, after), 0.0)
 
 

@@ -118,8 +118,8 @@ def _about_thick(work: _Work) -> list[Finding]:
 
 def _levels(work: _Work, progress: Progress) -> tuple[Level, ...]:
     width = work.operation.finish_width
-    distances = [work.wall, work.wall + width] if width else [work.wall]
-    levels = offset_levels(work.sheet.primitives, distances, progress, frame=True)
+    levels = (work.sheet.frame(work.wall, progress),) if not width else offset_levels(
+        work.sheet.primitives, [work.wall, work.wall + width], progress, frame=True)  # fmt: skip
     work.setting.note(levels)
     return levels
 

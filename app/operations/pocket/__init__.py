@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ...geometry.offset.offset import offset_levels
 from ...model.finding import Finding
 from ...model.operation import Operation, PocketOperation
 from ...toolpath.narrow import finest, too_small
@@ -19,7 +18,7 @@ def _missed(sheets: Sheets, operation: Operation, sheet: Sheet | None) -> Iterab
     if wall_distance(sheets.job, operation):
         return ()
     tool = sheets.job.tool(operation.cut.tool)
-    (level,) = offset_levels(sheet.primitives, [tool.radius + operation.cut.stock_to_leave], frame=True)
+    level = sheet.frame(tool.radius + operation.cut.stock_to_leave)
     return too_small(sheet.regions, level, tool, finest(sheets.job, operation))
 
 

@@ -115,7 +115,7 @@ def contours_later(setting: Setting, index: int, sheet: Sheet) -> list[tuple[Row
 
 
 def _wall_path(cut: Cut, tool: Tool, sheet: Sheet) -> tuple[Rows, float]:
-    (level,) = offset_levels(sheet.primitives, [tool.radius + cut.stock_to_leave], frame=True)
+    level = sheet.frame(tool.radius + cut.stock_to_leave)
     rows = np.concatenate([np.zeros((0, 8)), *(ring.rows for ring in level.rings)])
     return rows[~sheet.follows_bare(rows)], flat_radius(tool)
 
@@ -143,7 +143,7 @@ class Clearing:
         """Return the rings in short rows, and the runs along them."""
         reach, ground = self.reach, Ground.of(self.paths)
         squares = suspects(ground, reach, progress)
-        chunks = self._chunks([reach.closest], progress.part(0.2, 0.3))
+        chunks = self._chunks((reach.sheet.frame(reach.closest, progress.part(0.2, 0.3)),))
         rim = rim_cells(ground, reach, squares, chunks.rows[~ground.in_air(chunks.rows, reach.radius)])
         core = core_cells(ground, reach, squares)
         if not len(chunks.rows) or not len(core) + len(rim):
@@ -152,11 +152,12 @@ class Clearing:
         deepest = float(reach.sheet.distances.nearest(np.concatenate([core, rim]))[0].max())
         count = 1 + int(max(0.0, deepest + step - reach.closest) / step)
         reach.ask_memory(CHUNK_BYTES * count * float(len(chunks.rows)))
-        chunks = self._chunks([reach.closest + k * step for k in range(count)], progress.part(0.3, 0.6))
+        distances = [reach.closest + k * step for k in range(count)]
+        chunks = self._chunks(offset_levels(reach.sheet.primitives, distances, progress.part(0.3, 0.6), frame=True))
         return chunks, self._choose(chunks, (core, rim), progress.part(0.6, 1.0))
 
-    def _chunks(self, distances: list[float], progress: Progress) -> Chunks:
-        self.levels = offset_levels(self.reach.sheet.primitives, distances, progress, frame=True)
+    def _chunks(self, levels: tuple[Level, ...]) -> Chunks:
+        self.levels = levels
         return Chunks.of(self.levels, max(self.within, self.reach.radius / 2) / 4)
 
     def _choose(self, chunks: Chunks, left: tuple[Floats, Floats], progress: Progress) -> list[Run]:

@@ -9,7 +9,8 @@ import shapely
 from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
-from ...geometry.primitives import TURN, R, Rows, contour_rows, points_at, sampled, sweeps
+from ...geometry.outlines import Outlines, polygons
+from ...geometry.primitives import TURN, R, Rows, points_at, sweeps
 from ...model.moves import MoveKind, Moves
 from ...model.part import Region
 
@@ -55,29 +56,10 @@ def region_shapes(regions: Sequence[Region], chord: float) -> NDArray[np.object_
 
     They stay apart, since regions that touch have a wall of no thickness between them.
     """
-    if not regions:
-        return np.zeros(0, dtype=object)
-    parts = _polygons(regions, chord)
-    crooked = ~shapely.is_valid(parts)
-    parts[crooked] = shapely.make_valid(parts[crooked])
-    parts = shapely.get_parts(shapely.get_parts(parts))
+    outlines = Outlines.of([contour for region in regions for contour in region.contours])
+    group = np.repeat(np.arange(len(regions)), [1 + len(region.islands) for region in regions])
+    parts = shapely.get_parts(shapely.get_parts(polygons(outlines, group, chord)[1]))
     return np.asarray(parts[(shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)], dtype=object)
-
-
-def _polygons(regions: Sequence[Region], chord: float) -> NDArray[np.object_]:
-    """Return the polygons of regions (n > 0), islands as holes; a boundary of less than 3 points makes none."""
-    contours = [(k, contour_rows(contour)) for k, region in enumerate(regions) for contour in region.contours]
-    owner = np.array([k for k, _ in contours])
-    index, points = sampled(np.concatenate([rows for _, rows in contours]), chord)
-    ring = np.repeat(np.arange(len(contours)), [len(rows) for _, rows in contours])[index]
-    first = np.concatenate([[True], np.diff(owner) != 0])
-    round_ = np.bincount(ring, minlength=len(contours)) > 2
-    round_ &= round_[first][np.cumsum(first) - 1]  # of a region without a boundary no island bounds anything
-    if not round_.any():
-        return np.zeros(0, dtype=object)
-    keep = round_[ring]
-    rings = shapely.linearrings(points[keep], indices=np.unique(ring[keep], return_inverse=True)[1])
-    return np.asarray(shapely.polygons(rings, indices=np.unique(owner[round_], return_inverse=True)[1]), dtype=object)
 
 
 def quarter_chords(radius: float, chord: float) -> int:

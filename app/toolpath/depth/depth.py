@@ -175,12 +175,15 @@ class DepthPasses:
         straight = way_straight(stroke, (x, y, height), air, self.ground, self.label.feed)
         if straight is not None:
             return (straight,)
-        back = way_back(last, z, air, self.label.feed)
-        if back is None or math.dist(last.start, stroke.start) < _SAME:
-            return () if back is None else (back,)
-        here = (*last.start, float(last.heights(z)[0]))
-        on = way_straight(stroke, here, air, self.ground, self.label.feed)
-        return () if on is None else (back, on)
+        again = math.dist(last.start, stroke.start) < _SAME
+        on = None
+        if not again:  # asked before the way back, which takes longer to make: mostly the next stroke is far off
+            here = (*last.start, float(last.heights(z)[0]))
+            on = way_straight(stroke, here, air, self.ground, self.label.feed)
+        back = way_back(last, z, air, self.label.feed) if again or on is not None else None
+        if back is None:
+            return ()
+        return (back,) if on is None else (back, on)
 
     def _follow(self, way: Way) -> None:
         x, y, height = self.builder.at

@@ -28,8 +28,10 @@ def from_cleared(stroke: Stroke, z: float, ground: Ground) -> Stroke:
     if not ground.beside:
         return stroke
     start = stroke.start
-    for place in _places(start, z, ground):
-        if ground.cleared.is_clear(ground.tool, place, place, z) and keeps_off_walls(place, start, ground):
+    places = _places(start, z, ground)
+    for k in ground.cleared.clear_places(ground.tool, places, z):
+        place = places[k]
+        if keeps_off_walls(place, start, ground):
             row = np.array([[*place, *start, 0.0, 0.0, 0.0, 0.0]])
             way = replace(stroke, rows=row, purpose=np.array([Purpose.LINK], np.uint8), least_z=None)
             return way.and_then(stroke)

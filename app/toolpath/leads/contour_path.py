@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -9,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.distance import DistanceField
-from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, R, Rows, lengths, points_at, sweeps
+from ...geometry.outlines import Outlines
+from ...geometry.primitives import CX, CY, TURN, X0, Y0, Indices, Rows, lengths, points_at, sweeps
+from . import contour_path_kernels as path_kernels
 
 Floats = NDArray[np.float64]
 
@@ -44,15 +47,19 @@ class Path:
     loop: int = 0
 
     @cached_property
+    def alone(self) -> Paths:
+        """The path as the only one of many."""
+        return Paths.of([self])
+
+    @property
     def sizes(self) -> Floats:
         """(n,) length of each row, mm."""
-        return lengths(self.rows)
+        return self.alone.outlines.sizes
 
-    @cached_property
+    @property
     def ends(self) -> Floats:
         """(n,) how far along each row ends, mm."""
-        total: Floats = np.cumsum(self.sizes)
-        return total
+        return self.alone.ends
 
     @property
     def ring(self) -> tuple[int, float, int]:
@@ -70,21 +77,15 @@ class Path:
 
     def rows_at(self, where: Floats) -> tuple[Indices, Floats]:
         """Return (row, fraction of it) at places (m,) along the path, mm; closed ones go on past their end."""
-        along = where % self.length if self.closed and self.length > 0 else np.clip(where, 0.0, self.length)
-        row = np.minimum(np.searchsorted(self.ends, along, side="right"), len(self.rows) - 1)
-        size = self.sizes[row]
-        fraction = (along - (self.ends[row] - size)) / np.maximum(size, 1e-300)
-        return row, np.clip(fraction, 0.0, 1.0)
+        return self.alone.rows_at(np.zeros(len(where), np.int64), where)
 
     def points(self, where: Floats) -> Floats:
         """Return the points (m, 2) at places along the path."""
-        row, fraction = self.rows_at(where)
-        return points_at(self.rows[row], fraction)
+        return self.alone.points(np.zeros(len(where), np.int64), where)
 
     def headings(self, where: Floats) -> Floats:
         """Return the directions of travel (m, 2), of length 1, at places along the path."""
-        row, fraction = self.rows_at(where)
-        return headings_at(self.rows[row], fraction)
+        return self.alone.headings(np.zeros(len(where), np.int64), where)
 
     def nearest(self, points: Floats) -> tuple[Floats, Floats]:
         """Return (how far along (m,), distance (m,)) of what of the path is nearest to points (m, 2), mm."""
@@ -117,6 +118,59 @@ class Path:
         elif (1 - last[-1]) * size[-1] >= _SNAP:
             pieces[-1, 2:4] = points_at(self.rows[row[-1:]], last[-1:])[0]
         return pieces, middle
+
+
+@dataclass(frozen=True, eq=False)
+class Paths:
+    """Many paths, measured all at once.
+
+    Attributes:
+        outlines: their rows, one path after the other.
+        closed: (m,) which of them end where they begin.
+    """
+
+    outlines: Outlines
+    closed: NDArray[np.bool_]
+
+    @staticmethod
+    def of(paths: Sequence[Path]) -> Paths:
+        """Return some paths as one."""
+        return Paths(Outlines.joined([path.rows for path in paths]), np.array([path.closed for path in paths], np.bool_))
+
+    @cached_property
+    def ends(self) -> Floats:
+        """(n,) how far along its path each row ends, mm."""
+        total = np.empty(len(self.outlines.rows))
+        path_kernels.running_sums(self.outlines.sizes, self.outlines.first, total)
+        return total
+
+    @cached_property
+    def lengths(self) -> Floats:
+        """(m,) length of each path, mm."""
+        total: Floats = self.ends[self.outlines.first[1:] - 1]
+        return total
+
+    def rows_at(self, path: Indices, where: Floats) -> tuple[Indices, Floats]:
+        """Return (row, fraction of it) at places (k,) along paths (k,), mm; closed ones go on past their end."""
+        length, round_it = self.lengths[path], self.closed[path] & (self.lengths[path] > 0)
+        along = np.where(round_it, where % np.where(round_it, length, 1.0), np.clip(where, 0.0, length))
+        row = np.empty(len(where), np.int64)
+        first = self.outlines.first
+        path_kernels.counts_below(self.ends, first, np.ascontiguousarray(path), along, True, row)
+        row = np.minimum(first[path] + row, first[path + 1] - 1)
+        size = self.outlines.sizes[row]
+        fraction = (along - (self.ends[row] - size)) / np.maximum(size, 1e-300)
+        return row, np.clip(fraction, 0.0, 1.0)
+
+    def points(self, path: Indices, where: Floats) -> Floats:
+        """Return the points (k, 2) at places (k,) along paths (k,)."""
+        row, fraction = self.rows_at(path, where)
+        return points_at(self.outlines.rows[row], fraction)
+
+    def headings(self, path: Indices, where: Floats) -> Floats:
+        """Return the directions of travel (k, 2), of length 1, at places (k,) along paths (k,)."""
+        row, fraction = self.rows_at(path, where)
+        return headings_at(self.outlines.rows[row], fraction)
 
 
 def headings_at(rows: Rows, fraction: Floats) -> Floats:
@@ -167,11 +221,3 @@ def keep_clear(field: DistanceField, rows: Rows, need: Floats) -> NDArray[np.boo
         at[going] = np.minimum(at[going] + np.maximum(spare, _STEP), size[going])
         going = going[~done]
     return good
-
-
-def quarter_arc(begin: Floats, end: Floats, centre: Floats, turn: float) -> Rows:
-    """Return the row (8,) of an arc; turn = +1 counter-clockwise, -1 clockwise."""
-    row = np.zeros(8)
-    row[[X0, Y0]], row[[X1, Y1]], row[[CX, CY]] = begin, end, centre
-    row[R], row[TURN] = np.hypot(*(begin - centre)), turn
-    return row

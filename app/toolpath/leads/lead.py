@@ -8,11 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...geometry.distance import DistanceField
-from ...geometry.primitives import TURN, R, Rows, lengths, points_at, turns
+from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, R, Rows, points_at, turns
 from ...model.entry import Lead, LeadKind
 from ...model.finding import Finding, FindingKind
 from ...model.tool import Tool
-from .contour_path import Floats, Path, keep_clear, left_of, line_row, quarter_arc
+from . import contour_path_kernels as path_kernels
+from .contour_path import Floats, Path, Paths, keep_clear, left_of
 
 _SMALLEST = 0.125
 """Of the cutter's radius, or of a lead that is smaller than that: leads are halved down to it."""
@@ -90,69 +91,66 @@ def runs(paths: Sequence[Path], taken: Sequence[Sequence[tuple[float, float]]], 
         taken: for each path (from, to) that its beginning, its end and its leads keep out of, mm along it, such as tabs.
         wished: for each path beginnings that are better than all others, mm along it; () = none.
     """
-    starts = [_starts(path, around, blocked) for path, blocked in zip(paths, taken, strict=True)]
+    starts = _starts(paths, around, taken)
     for path, own, better in zip(paths, starts, wished, strict=False):
         own[:0] = better if path.closed else []
-    spots = [_Spot.at(path, k, start, around) for k, path in enumerate(paths) for start in starts[k]]
-    need = np.repeat(_needs(spots, around), 2)
+    joined = Paths.of(paths)
     made: dict[int, Run] = {}
     for bent, share in _tries(around):
-        waiting = [k for k, spot in enumerate(spots) if spot.number not in made]
-        if share * around.size < _LEAST or not waiting:
+        if share * around.size < _LEAST:
             continue
-        ways = [spots[k].ways(around, (bent, share)) for k in waiting]
-        both = (2 * np.array(waiting)[:, None] + np.arange(2)).ravel()
-        good = keep_clear(around.field, np.concatenate([way for pair in ways for way in pair]), need[both])
-        for k, way, first, second in zip(waiting, ways, good[::2].tolist(), good[1::2].tolist(), strict=True):
-            if first and second and spots[k].number not in made:
-                spot = spots[k]
-                made[spot.number] = Run(paths[spot.number], spot.start, _stop(paths[spot.number], spot.start, around), *way, share, bent)
+        for turn in range(max(map(len, starts), default=0)):  # the best beginning of every path, then the next of those still without
+            asked = [(k, starts[k][turn]) for k in range(len(paths)) if k not in made and turn < len(starts[k])]
+            for k, start, way in _fitting(joined, asked, around, (bent, share)):
+                made[k] = Run(paths[k], start, _stop(paths[k], start, around), way[:1], way[1:], share, bent)
     none = np.zeros((0, 8))
     return tuple(made.get(k) or Run(path, starts[k][0], _stop(path, starts[k][0], around), none, none, 0.0, False)
                  for k, path in enumerate(paths))  # fmt: skip
 
 
-@dataclass(frozen=True, eq=False)
-class _Spot:
-    """A place where a path may begin.
+def _fitting(paths: Paths, asked: Sequence[tuple[int, float]], around: Around, how: tuple[bool, float]) -> list[tuple[int, float, Rows]]:
+    """Return the beginnings (path, mm along it) both of whose leads are clear all along, and their rows (2, 8): to the wall, away from it.
 
-    Attributes:
-        number: of the path. start: how far along it, mm.
-        points, ahead: (2, 2) beginning and end of the path that begins there, and its directions.
+    Leads keep off as the path does: where it lies nearer itself, by what it may miss its distance, as near as it.
+
+    Args:
+        how: (arc, share of the size).
     """
-
-    number: int
-    start: float
-    points: Floats
-    ahead: Floats
-
-    @staticmethod
-    def at(path: Path, number: int, start: float, around: Around) -> _Spot:
-        ends = np.array([start, _stop(path, start, around)])
-        points, ahead = path.points(ends), path.headings(ends)
-        if not path.closed:  # an open path's end is the end of its last row
-            points = np.array([path.rows[0, :2], path.rows[-1, 2:4]])
-        return _Spot(number, start, points, ahead)
-
-    def ways(self, around: Around, how: tuple[bool, float]) -> tuple[Rows, Rows]:
-        """Return the rows (1, 8) to the wall and away from it, (arc, share of the size)."""
-        points, ahead, aside = self.points, self.ahead, left_of(self.ahead) * around.away
-        bent, share = how
-        size = share * around.size
-        if not bent:
-            return line_row(points[0] + size * aside[0], points[0])[None], line_row(points[1], points[1] + size * aside[1])[None]
-        centres = points + size * aside
-        return (quarter_arc(centres[0] - size * ahead[0], points[0], centres[0], around.away)[None],
-                quarter_arc(points[1], centres[1] + size * ahead[1], centres[1], around.away)[None])  # fmt: skip
+    if not asked:
+        return []
+    number, start = np.array([k for k, _ in asked]), np.array([at for _, at in asked])
+    points, ahead = _spots(paths, number, start, around)
+    ways = _ways(points, ahead, around, how)
+    near = around.field.nearest(points.reshape(-1, 2))[0].reshape(-1, 2).min(axis=1)
+    good = keep_clear(around.field, ways.reshape(-1, 8), np.repeat(np.minimum(around.need, near), 2)).reshape(-1, 2).all(axis=1)
+    return [(*asked[k], ways[k]) for k in np.flatnonzero(good).tolist()]
 
 
-def _needs(spots: Sequence[_Spot], around: Around) -> Floats:
-    """Return how far leads keep off (n,): where the path itself lies nearer, by what it may miss its distance, as near as it."""
-    if not spots:
-        return np.zeros(0)
-    near = around.field.nearest(np.concatenate([spot.points for spot in spots]))[0].reshape(-1, 2).min(axis=1)
-    need: Floats = np.minimum(around.need, near)
-    return need
+def _spots(paths: Paths, number: Indices, start: Floats, around: Around) -> tuple[Floats, Floats]:
+    """Return beginning and end (k, 2, 2) of paths that begin at places (k,), mm along them, and the directions there."""
+    length, closed, rows = paths.lengths[number], paths.closed[number], paths.outlines.rows
+    stop = np.where(closed, start + length + np.minimum(_overlap(around), length / 2), length)
+    both, ends = np.repeat(number, 2), np.stack([start, stop], 1).ravel()
+    points, ahead = (each.reshape(-1, 2, 2) for each in (paths.points(both, ends), paths.headings(both, ends)))
+    outer = np.stack([rows[paths.outlines.first[number], :2], rows[paths.outlines.first[number + 1] - 1, 2:4]], 1)
+    return np.where(closed[:, None, None], points, outer), ahead  # an open path's end is the end of its last row
+
+
+def _ways(points: Floats, ahead: Floats, around: Around, how: tuple[bool, float]) -> Rows:
+    """Return the rows (k, 2, 8) to the wall and away from it; args as `_spots` returns them and `_fitting` takes them."""
+    aside = left_of(ahead.reshape(-1, 2)).reshape(ahead.shape) * around.away
+    bent, share = how
+    size = share * around.size
+    rows = np.zeros((len(points), 2, 8))
+    rows[:, 0, [X1, Y1]], rows[:, 1, :2] = points[:, 0], points[:, 1]
+    if not bent:
+        rows[:, 0, :2], rows[:, 1, [X1, Y1]] = points[:, 0] + size * aside[:, 0], points[:, 1] + size * aside[:, 1]
+        return rows
+    centres = points + size * aside
+    rows[:, 0, :2], rows[:, 1, [X1, Y1]] = centres[:, 0] - size * ahead[:, 0], centres[:, 1] + size * ahead[:, 1]
+    rows[:, :, [CX, CY]], rows[:, :, TURN] = centres, around.away
+    rows[:, :, R] = np.hypot(rows[:, :, X0] - rows[:, :, CX], rows[:, :, Y0] - rows[:, :, CY])
+    return rows
 
 
 def _tries(around: Around) -> list[tuple[bool, float]]:
@@ -170,41 +168,73 @@ def _tries(around: Around) -> list[tuple[bool, float]]:
 def _stop(path: Path, start: float, around: Around) -> float:
     if not path.closed:
         return path.length
-    wanted = around.lead.overlap if around.lead.kind is not LeadKind.NONE else 0.0
-    return start + path.length + min(wanted, path.length / 2)
+    return start + path.length + min(_overlap(around), path.length / 2)
 
 
-def _starts(path: Path, around: Around, taken: Sequence[tuple[float, float]]) -> list[float]:
-    """Return places where a path may begin, the best first: far from corners, on straight rows, where there is room."""
-    if not path.closed:
-        return [0.0]
-    size = lengths(path.rows)
-    corners = corners_of(path, around, _CORNER)
-    places = path.ends - size / 2
-    if len(corners):
-        between = np.diff(np.append(corners, corners[0] + path.length))
-        places = np.concatenate([places, (corners + between / 2) % path.length])
-    places = places[~_is_taken(path, places, around, taken)]
-    if not len(places):
-        return [_freest(path, taken)]
-    score = _score(path, places, corners, around)
-    order = np.argsort(-score, kind="stable")[:_TRIED]
-    return [float(place) for place in places[order]]
+def _overlap(around: Around) -> float:
+    """Return how far a path is to go on over its beginning, mm."""
+    return around.lead.overlap if around.lead.kind is not LeadKind.NONE else 0.0
 
 
-def _score(path: Path, places: Floats, corners: Floats, around: Around) -> Floats:
+def _starts(paths: Sequence[Path], around: Around, taken: Sequence[Sequence[tuple[float, float]]]) -> list[list[float]]:
+    """Return places where each path may begin, the best first: far from corners, on straight rows, where there is room."""
+    found = [[0.0] for _ in paths]
+    number = [k for k, path in enumerate(paths) if path.closed]
+    closed = Paths.of([paths[k] for k in number])
+    corners = _corners(closed, around, _CORNER)
+    owner, places = _middles(closed, corners)
+    bounds = np.searchsorted(owner, np.arange(len(number) + 1))
+    free = np.ones(len(places), np.bool_)
+    for k, own in enumerate(number):
+        if taken[own]:
+            part = slice(bounds[k], bounds[k + 1])
+            free[part] = ~_is_taken(paths[own], places[part], around, taken[own])
+    owner, places = owner[free], places[free]
+    order = np.lexsort((-_score(closed, owner, places, corners, around), owner))
+    places, bounds = places[order], np.searchsorted(owner, np.arange(len(number) + 1))
+    for k, own in enumerate(number):
+        best = places[bounds[k]:bounds[k + 1]][:_TRIED].tolist()
+        found[own] = best or [_freest(paths[own], taken[own])]
+    return found
+
+
+def _middles(paths: Paths, corners: tuple[Floats, Indices]) -> tuple[Indices, Floats]:
+    """Return (path, mm along it), path by path, of the middles of all rows, and of what lies between one corner and the next."""
+    at, first = corners
+    owner = np.repeat(np.arange(len(first) - 1), np.diff(first))
+    following = np.append(at[1:], 0.0)[:len(at)]
+    last = first[1:][np.diff(first) > 0] - 1
+    following[last] = at[first[:-1][np.diff(first) > 0]] + paths.lengths[owner[last]]
+    between = (at + (following - at) / 2) % paths.lengths[owner]
+    both = np.concatenate([paths.outlines.owner, owner])
+    order = np.argsort(both, kind="stable")
+    return both[order], np.concatenate([paths.ends - paths.outlines.sizes / 2, between])[order]
+
+
+def _score(paths: Paths, path: Indices, places: Floats, corners: tuple[Floats, Indices], around: Around) -> Floats:
     """Return how good places are to begin at: up to 1 for the way to the next corner, as much for room, a little for straight rows."""
-    row, _ = path.rows_at(places)
-    far = np.full(len(places), path.length)
-    if len(corners):
-        after = np.searchsorted(corners, places) % len(corners)
-        far = np.minimum((corners[after] - places) % path.length, (places - corners[after - 1]) % path.length)
+    row, _ = paths.rows_at(path, places)
+    length = paths.lengths[path]
+    far = _to_corners(path, places, corners, length)
     width = around.tool.diameter
-    aside = path.points(places) + left_of(path.headings(places)) * around.away * around.size
+    aside = paths.points(path, places) + left_of(paths.headings(path, places)) * around.away * around.size
     room = np.clip(around.field.nearest(aside)[0] - around.need, 0.0, around.size)
-    straight = np.where(path.rows[row, TURN] == 0, 0.25, 0.0)
+    straight = np.where(paths.outlines.rows[row, TURN] == 0, 0.25, 0.0)
     score: Floats = np.minimum(far / (2 * width), 1.0) + room / max(around.size, 1e-9) + straight
-    return score + 0.01 * far / max(path.length, 1e-9)  # a tool as wide as its hole has a path of no length
+    return score + 0.01 * far / np.maximum(length, 1e-9)  # a tool as wide as its hole has a path of no length
+
+
+def _to_corners(path: Indices, places: Floats, corners: tuple[Floats, Indices], length: Floats) -> Floats:
+    """Return how far it is from places to the nearest corner along their path, mm; all of the path where it has none."""
+    at, first = corners
+    count = np.diff(first)[path]
+    after = np.empty(len(places), np.int64)
+    path_kernels.counts_below(at, first, path, places, False, after)
+    far, some = length.copy(), count > 0
+    begin, k, count = first[:-1][path][some], after[some] % count[some], count[some]
+    ahead, behind = at[begin + k] - places[some], places[some] - at[begin + (k - 1) % count]
+    far[some] = np.minimum(ahead % length[some], behind % length[some])
+    return far
 
 
 def corners_of(path: Path, around: Around, least: float) -> Floats:
@@ -213,12 +243,22 @@ def corners_of(path: Path, around: Around, least: float) -> Floats:
     Args:
         least: a joint that turns less is none, radians.
     """
-    size = lengths(path.rows)
-    begin = path.ends - size
-    rounding = (path.rows[:, TURN] == -around.away) & (np.abs(path.rows[:, R] - around.need) < _SAME)
-    round_them = [begin[rounding] + size[rounding] * part for part in (0.0, 0.5, 1.0)]
-    found: Floats = np.unique(np.concatenate([begin[turns(path.rows) > least], *round_them]))
-    return found
+    return _corners(path.alone, around, least)[0]
+
+
+def _corners(paths: Paths, around: Around, least: float) -> tuple[Floats, Indices]:
+    """Return the corners of all of some closed paths, one path after the other, and (m + 1,) where those of each begin."""
+    rows, size, owner = paths.outlines.rows, paths.outlines.sizes, paths.outlines.owner
+    begin = paths.ends - size
+    rounding = (rows[:, TURN] == -around.away) & (np.abs(rows[:, R] - around.need) < _SAME)
+    joint = turns(rows, paths.outlines.previous) > least
+    at = np.concatenate([begin[joint], *(begin[rounding] + size[rounding] * part for part in (0.0, 0.5, 1.0))])
+    path = np.concatenate([owner[joint], *[owner[rounding]] * 3])
+    order = np.lexsort((at, path))
+    at, path = at[order], path[order]
+    new = np.ones(len(at), np.bool_)
+    new[1:] = (np.diff(at) != 0) | (np.diff(path) != 0)
+    return at[new], np.searchsorted(path[new], np.arange(len(paths.closed) + 1))
 
 
 def reach(around: Around) -> float:

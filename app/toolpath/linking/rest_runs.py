@@ -160,31 +160,31 @@ def all_runs(chunks: Chunks, cutting: NDArray[np.bool_], cells: Cells, reach: Re
 
 def _in_order(chunks: Chunks, kept: Indices) -> tuple[Indices, Indices]:
     """Return (rows, number of the group of each): groups of rows that follow one another round a ring, in their order."""
-    order, groups, number = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)], 0
+    if not len(kept):
+        return kept, kept
     ring = chunks.ring[kept]
-    for each in np.split(kept, np.flatnonzero(np.diff(ring)) + 1) if len(kept) else ():
-        gap = np.diff(each) != 1
-        of = int(np.searchsorted(chunks.first, each[0], "right")) - 1
-        whole = each[0] == chunks.first[of] and each[-1] == chunks.first[of + 1] - 1
-        group = np.concatenate([[0], np.cumsum(gap)])
-        if whole and gap.any():  # the last group goes on into the first one
-            turn = int(np.count_nonzero(group == group[-1]))
-            each, group = np.roll(each, turn), np.where(np.roll(group, turn) == group[-1], 0, np.roll(group, turn))
-        order.append(each)
-        groups.append(group + number)
-        number += int(group.max()) + 1
-    return np.concatenate(order), np.concatenate(groups)
+    changes = np.flatnonzero(np.diff(ring)) + 1
+    begins, stops = np.concatenate([[0], changes]), np.concatenate([changes, [len(kept)]])
+    new = np.concatenate([[True], (np.diff(kept) != 1) | (np.diff(ring) != 0)])
+    order, group = kept.copy(), np.cumsum(new)
+    whole = (kept[begins] == chunks.first[ring[begins]]) & (kept[stops - 1] == chunks.first[ring[begins] + 1] - 1)
+    broken = group[begins] != group[stops - 1]
+    for a, b in zip(begins[whole & broken].tolist(), stops[whole & broken].tolist(), strict=True):
+        turn = int(np.count_nonzero(group[a:b] == group[b - 1]))  # the last group of such a ring goes on into its first one
+        group[b - turn:b] = group[a]
+        order[a:b], group[a:b] = np.roll(order[a:b], turn), np.roll(group[a:b], turn)
+    return order, group
 
 
 def _spans(group: Indices, size: Floats, longest: float) -> Indices:
     """Return (n, 2) first and last + 1 of equal pieces of groups, none much longer than `longest`, mm."""
     edges = np.flatnonzero(np.concatenate([[True], np.diff(group) != 0, [True]]))
-    spans = []
-    for a, b in pairwise(edges.tolist()):
-        pieces = min(b - a, max(1, math.ceil(float(size[a:b].sum()) / longest)))
-        cuts = a + np.round(np.linspace(0, b - a, pieces + 1)).astype(np.int64)
-        spans.append(np.stack([cuts[:-1], cuts[1:]], 1))
-    return np.concatenate(spans)
+    first, count = edges[:-1], np.diff(edges)
+    pieces = np.minimum(count, np.maximum(1, np.ceil(np.add.reduceat(size, first) / longest))).astype(np.int64)
+    of = np.repeat(np.arange(len(pieces)), pieces)
+    number = np.arange(len(of)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    low, high = (np.round(k * (count / pieces)[of]).astype(np.int64) for k in (number, number + 1))
+    return np.ascontiguousarray(first[of, None] + np.stack([low, np.where(number + 1 == pieces[of], count[of], high)], 1))
 
 
 def _joined(chosen: Indices, order: Indices, group: Indices) -> list[Run]:
