@@ -23,7 +23,7 @@ from ..model.machine import Machine
 from ..model.moves import Program
 from ..model.stock_box import stock_box, work_origin
 from ..model.tool import ToolKind
-from ..toolpath.coverage.coverage import Coverage, coverage_findings, measure
+from ..toolpath.coverage.coverage import Coverage, coverage_findings, measure_beside_clear
 from ..toolpath.coverage.wanted import CHORD
 from ..toolpath.witness import about_floors
 from ..verify.verdict import Gouge, RapidInMaterial, clamps_met, clear_moves, deepest_of, gouge_depths, rapids_in_material
@@ -190,7 +190,7 @@ def finish(
     depths = gouge_depths(program, job, progress=progress.part(0.2, 0.28))
     rapids = rapids_in_material(program, job, progress.part(0.28, 0.3))
     deepest = deepest_of(depths)
-    coverage = measure(program, job, progress.part(0.3, 0.7), clear=clear_moves(program.moves, depths, CHORD))
+    coverage = measure_beside_clear(program, job, clear_moves(program.moves, depths, CHORD), progress.part(0.3, 0.7))
     clamped = deepest_of(clamps_met(program, job, depths))
     unsafe = (*_gouge_findings(deepest, program), *_clamp_findings(clamped, program), *_rapid_findings(rapids, program))
     metal = cut_job(program, job, written, (depths, coverage), progress.part(0.7, 0.98)) if written.files else None

@@ -8,8 +8,8 @@ import pytest
 
 from app.core.errors import Cancelled, InputError
 from app.core.progress import Progress
-from app.drafting import effort
 from app.drafting.document import Document, drawn
+from app.drafting.expressions import effort
 from app.drafting.expressions.errors import CommandError
 from app.model.curves import Circle, Curve, Line
 

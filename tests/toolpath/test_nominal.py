@@ -81,7 +81,7 @@ def test_a_line_as_far_from_a_clamp_as_its_tool_is_wide_is_cut(angle: float, off
     half = WIDTH / 2
     clamp = outline(angle, [(10, half), (30, half), (30, 20), (10, 20)], off)
     text = f"layer clamps\n{clamp}layer 0\nline {turned(angle, 0, 0, off)} {turned(angle, 40, 0, off)}\n"
-    machining = Machining(side=Side.ON, keep_out=("clamps",), keep_out_height=5.0)
+    machining = Machining.of(side=Side.ON, keep_out=("clamps",), keep_out_height=5.0)
     made = make("words.draw", text.encode(), MakeOptions(contour_diameter=WIDTH, machining=machining))
     assert not [finding.text for finding in made.findings if "cuts" in finding.text]
     assert made.clean, [finding.text for finding in made.findings if finding.counts]

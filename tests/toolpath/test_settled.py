@@ -13,7 +13,7 @@ from app.core.progress import NO_PROGRESS
 from app.model.job import Job
 from app.model.moves import Moves, Program
 from app.operations.compute import compute
-from app.toolpath.coverage.coverage import Coverage, measure
+from app.toolpath.coverage.coverage import Coverage, measure, measure_beside_clear
 from app.toolpath.coverage.settled import one_floor, settled
 from app.usecases.make import job_from_drawing
 from app.usecases.options import MakeOptions
@@ -37,7 +37,7 @@ def _job(corners: bool) -> tuple[Program, Job]:
 
 def _both(program: Program, job: Job) -> tuple[Coverage, Coverage]:
     """What is measured with the moves that are clear told, and without."""
-    return measure(program, job, clear=clear_moves(program.moves, gouge_depths(program, job), 1e-3)), measure(program, job)
+    return measure_beside_clear(program, job, clear_moves(program.moves, gouge_depths(program, job), 1e-3)), measure(program, job)
 
 
 def test_circles_are_settled_and_leave_nothing() -> None:
@@ -73,7 +73,7 @@ def test_a_circle_without_its_paths_is_left() -> None:
 
 def test_moves_that_are_not_known_to_be_clear_settle_nothing() -> None:
     program, job = _job(corners=False)
-    none = measure(program, job, clear=np.zeros(len(program.moves), np.bool_))
+    none = measure_beside_clear(program, job, np.zeros(len(program.moves), np.bool_))
     assert none.wanted[0].out_of_reach is None
     assert settled(program, job, [], NO_PROGRESS) is None
 

@@ -133,6 +133,8 @@ def inserted(rows: Rows, where: Floats, ways: Sequence[Bone]) -> tuple[Rows, Flo
     Args:
         rows, where: as of `Path.span`.
     """
+    if not ways:
+        return rows, where, np.zeros(len(rows))
     ends = {bone.corner: bone.end for bone in ways}
     made, along, marks = [], [], []
     for row, place in zip(rows, where.tolist(), strict=True):

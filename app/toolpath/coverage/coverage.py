@@ -120,8 +120,25 @@ class Coverage:
         return sum(place.area_mm2 for place in self.given_up)
 
 
+def measure_beside_clear(program: Program, job: Job, clear: NDArray[np.bool_], progress: Progress = NO_PROGRESS) -> Coverage:
+    """Measure what the moves of a program leave on the floor, without polygons for regions that clear moves cover all over.
+
+    Args:
+        program, job, progress: as of `measure`.
+        clear: (n,) which moves are proven to keep off the walls of their operation's area.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    known = _settled(program, job, clear, _DEPTH, progress.part(0.0, 0.4))
+    if known is None:
+        return measure(program, job, progress)
+    rest = measure(program, job, progress.part(0.4, 1.0), found=() if known.open is None else (known.open,))
+    return replace(rest, area_mm2=float(known.all.floor.area), floor_mm=known.all.depth, wanted=(known.all,))
+
+
 def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: float = _DEPTH,
-            found: tuple[Wanted, ...] | None = None, clear: NDArray[np.bool_] | None = None) -> Coverage:  # fmt: skip
+            found: tuple[Wanted, ...] | None = None) -> Coverage:  # fmt: skip
     """Measure what the moves of a program leave on the floor.
 
     Args:
@@ -130,17 +147,11 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: 
         progress: looked at before every few boxes and every piece.
         miss: by which a move may miss the floor and still counts as on it, mm; more than nothing for moves that were read back.
         found: what is to be cleared, where the caller knows it.
-        clear: (n,) which moves are proven to keep off the walls of their operation's area; None = nobody knows.
 
     Raises:
         Cancelled: the job was asked to stop.
     """
     progress.step(0.0, _TEXT)
-    if clear is not None and found is None:
-        known = _settled(program, job, clear, miss, progress.part(0.0, 0.4))
-        if known is not None:
-            rest = measure(program, job, progress.part(0.4, 1.0), miss, () if known.open is None else (known.open,))
-            return replace(rest, area_mm2=float(known.all.floor.area), floor_mm=known.all.depth, wanted=(known.all,))
     found = wanted_of(program, job) if found is None else found
     inner = wanted_of(program, job, program.allowance_mm) if program.allowance_mm else found
     fields = Fields()
