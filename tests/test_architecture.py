@@ -18,18 +18,11 @@ QT = {"PySide6", "pyqtgraph", "shiboken6"}
 COMPILER = {"numba"}
 CONTRACTS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]["contracts"]
 FILES = sorted(APP.rglob("*.py"))
-PYTHON_FILES = FILES + sorted((ROOT / "tests").rglob("*.py"))
 
 
 @cache
 def tree_of(path: Path) -> ast.Module:
     return ast.parse(path.read_text("utf-8"), str(path))
-
-
-@cache
-def nodes_of(path: Path) -> tuple[ast.AST, ...]:
-    """All of a file, walked once for all rules."""
-    return tuple(node for node in ast.walk(tree_of(path)) if isinstance(node, ast.Import | ast.ImportFrom | ast.FunctionDef))
 
 
 def offenders(paths: list[Path], rule: Callable[[Path], object]) -> dict[str, object]:
@@ -65,31 +58,6 @@ def test_a_circle_in_a_function_is_seen(tmp_path: Path) -> None:
 def test_only_kernel_files_make_kernels() -> None:
     others = [path for path in FILES if "kernels" not in path.stem and path.parent.name != "jit"]
     assert not offenders(others, lambda path: "core.jit import" in path.read_text("utf-8"))
-
-
-def functions_of(path: Path) -> list[ast.FunctionDef]:
-    return [node for node in nodes_of(path) if isinstance(node, ast.FunctionDef)]
-
-
-def test_files_are_short() -> None:
-    assert not offenders(PYTHON_FILES, lambda path: max(0, len(path.read_text("utf-8").splitlines()) - 400))
-
-
-@pytest.mark.exhaustive
-def test_functions_are_short() -> None:
-    def long(path: Path) -> dict[str, int]:
-        return {node.name: size for node in functions_of(path) if (size := (node.end_lineno or 0) - node.lineno + 1) > 50}
-
-    assert not offenders(PYTHON_FILES, long)
-
-
-def test_functions_take_few_parameters() -> None:
-    def greedy(path: Path) -> dict[str, int]:
-        counts = {node.name: len({arg.arg for arg in (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs)} - {"self", "cls"})
-                  for node in functions_of(path)}
-        return {name: count for name, count in counts.items() if count > 5}
-
-    assert not offenders([path for path in FILES if "kernels" not in path.stem], greedy)
 
 
 def test_public_things_say_what_they_are() -> None:
