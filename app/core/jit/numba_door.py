@@ -41,9 +41,18 @@ def _without_scipy() -> Iterator[None]:
 
 @cache
 def _numba() -> Any:
+    plugins = _no_plugins()
     with _without_scipy():
         import numba
+    numba.core.entrypoints = plugins
     return numba
+
+
+def _no_plugins() -> ModuleType:
+    """Stand in for numba's look for extensions among all installed packages, of which no kernel needs one: it reads mail headers first."""
+    plugins = ModuleType("numba.core.entrypoints")
+    vars(plugins)["init_all"] = lambda: None
+    return sys.modules.setdefault(plugins.__name__, plugins)
 
 
 @cache
