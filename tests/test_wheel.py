@@ -67,6 +67,6 @@ def test_make_writes_the_program(installed: Path, tmp_path: Path) -> None:
 def test_the_window_opens_with_its_sample_and_computes_it(installed: Path, tmp_path: Path) -> None:
     done = run(tmp_path, str(installed / "python"), "-c", OPEN_AND_CLOSE)
     assert done.returncode == 0, done.stderr
-    word, moves, where = done.stdout.split()
+    word, moves, where = done.stdout.splitlines()[0].split()  # it may look once more while the window closes
     assert word == "moves" and int(moves) > 100
     assert Path(where).is_relative_to(installed.parent)

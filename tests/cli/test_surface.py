@@ -93,7 +93,7 @@ def test_the_program_says_where_it_comes_to_another_surface(tmp_path: Path) -> N
 
 @pytest.mark.exhaustive
 def test_surfaces_then_cut_then_smooth_then_cut_is_clean_and_keeps_the_boundaries(tmp_path: Path) -> None:
-    files = written(tmp_path, BALLS.replace("pitch = 0.5", "scallop = 0.005"))
+    files = written(tmp_path, BALLS.replace("pitch = 0.5", "scallop = 0.005"), status=0)
     smooth, first, second = (tmp_path / name for name in ("smooth.ngc", "first.json", "second.json"))
     compare = ["--against", str(files["scene"]), "--grid", "300", "--tolerance", "0.02", "--quiet"]
     main(["cut", str(files["ngc"]), *compare, "--report", str(first)])
@@ -115,7 +115,7 @@ def test_surfaces_then_cut_then_smooth_then_cut_is_clean_and_keeps_the_boundarie
 def test_one_report_tells_the_whole_way_from_surfaces_to_the_cut_of_the_smoothed_program(tmp_path: Path) -> None:
     scene, report = tmp_path / "scene.toml", tmp_path / "r.json"
     scene.write_text(BALLS.replace("pitch = 0.5", "scallop = 0.02"))
-    assert main(["surface", str(scene), "--loop", "0.005", "--report", str(report), "--quiet"]) == 0
+    assert main(["surface", str(scene), "--loop", "0.005", "--report", str(report), "--quiet"]) == 1  # the feet of the balls
     told = json.loads(report.read_text())
     loop = told["loop"]
     assert told["gouge"]["count"] == 0
@@ -164,7 +164,8 @@ def test_the_origin_moves_the_program_and_not_what_it_is_compared_with(tmp_path:
 @pytest.mark.parametrize("name", ["compound", "spheres", "torus"])
 def test_the_samples_are_computed_and_proven(tmp_path: Path, name: str) -> None:
     out, report = tmp_path / "o.ngc", tmp_path / "r.json"
-    assert main(["surface", str(SAMPLES / f"{name}.toml"), "-o", str(out), "--report", str(report), "--quiet"]) == 0
+    left = name == "spheres"  # at the feet of its balls
+    assert main(["surface", str(SAMPLES / f"{name}.toml"), "-o", str(out), "--report", str(report), "--quiet"]) == left
     assert json.loads(report.read_text())["gouge"]["count"] == 0
     assert read_program(out.read_bytes()).error is None
 

@@ -12,7 +12,7 @@ from tests.conftest import ROOT
 LOOK = """
 import re, sys
 import numba
-from app.simulation import run_kernels, trace_kernels
+from app.simulation.sweeps import run_kernels, trace_kernels
 if not {"avx2", "+avx2"} & set(re.split(r"[, ]", numba.core.codegen.get_host_cpu_features())):
     print("no vectors here")
 runs = [getattr(run_kernels, name) for name in dir(run_kernels) if name.endswith("_run")]

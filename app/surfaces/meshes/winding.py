@@ -80,6 +80,8 @@ def right_side_out(triangles: Floats) -> Wound:
     if len(loose) and (mended := sewn(solid)) is not None:
         some = _counting(numbered(mended.triangles.reshape(-1, 3)))
         solid, rows = mended.triangles[some], rows[mended.origin[some]]
+        if not len(solid):
+            return Wound(corners, turned, "its triangles enclose nothing")
         edges, loose = Edges.of(solid), loose[:0]
     if len(loose):
         return Wound(corners, turned, f"{len(loose)} of its edges belong to one triangle only", _middle(solid, int(loose[0])))
