@@ -22,7 +22,7 @@ from ..geometry.primitives import Rows, lengths, pack, points_at, signed_area, w
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.moves import Program
-from ..model.operation import ContourOperation, Cut, Operation, Order, PocketOperation, Side
+from ..model.operation import Cut, Operation, Order, PocketOperation, Side
 from ..model.tool import Tool
 from ..operations.compute import in_order, slotting
 from ..operations.contour.paths import contour_strokes
@@ -251,7 +251,7 @@ def _emit(setting: Setting, paths: OperationPaths, walls: tuple[BitmapPart, Shee
     direction = operation.cut.direction
     rings = [tuple(_ring(path, part) for path in level) for level in paths.levels]
     levels = [Level(distance, level) for distance, level in zip(paths.distances, rings, strict=True)]
-    if isinstance(operation, ContourOperation):
+    if operation.FOLLOWS_WALLS:
         emit(setting, paths.index, sheet, contour_strokes(levels[0].rings, direction), progress)
         return
     strokes = link_by_proof(levels, part.squares, direction, max(part.frame.pitch, setting.job.tool(operation.cut.tool).radius / 4))

@@ -17,7 +17,7 @@ from ...core.progress import Progress
 from ...geometry.primitives import Rows
 from ...model.job import Job
 from ...model.moves import Area, Program
-from ...model.operation import ContourOperation, DrillOperation, PocketOperation, Side
+from ...model.operation import Side
 from ...model.part import Region
 from ...model.tool import ToolKind
 from .areas import united
@@ -52,12 +52,12 @@ def one_floor(program: Program, job: Job) -> Area | None:
         return None
     operation, first = works[0]
     for each, area in works:
-        cut, outside = each.cut, isinstance(each, ContourOperation) and each.side is not Side.INSIDE
+        cut, outside = each.cut, each.wall_side is not Side.INSIDE
         elsewhere = area.regions is not first.regions or area.lines or area.bare or abs(cut.floor - operation.cut.floor) >= _SAME
-        other = isinstance(each, DrillOperation) or job.tool(cut.tool).kind is not ToolKind.FLAT
+        other = job.tool(cut.tool).kind is not ToolKind.FLAT
         if elsewhere or outside or other or cut.stock_to_leave:
             return None
-    return first if any(isinstance(each, PocketOperation) for each, _ in works) else None
+    return first if any(each.COARSE for each, _ in works) else None
 
 
 def settled(program: Program, job: Job, paths: Sequence[tuple[Rows, float]], progress: Progress) -> Floor | None:

@@ -8,6 +8,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QWidget
 
+from ...model.operation import Operation
 from .theme import LIGHT, Theme
 
 
@@ -39,6 +40,15 @@ def sample_pen(sample: Sample, theme: Theme) -> QPen:
     elif sample is Sample.RAPID:
         pen.setDashPattern([1.2, 2.4])
     return pen
+
+
+def sample_of(operation: Operation) -> Sample:
+    """Return the line that an operation's paths are drawn with, by what it does."""
+    if operation.DRILLS:
+        return Sample.PLUNGE
+    if operation.FOLLOWS_WALLS:
+        return Sample.CONTOUR
+    return Sample.POCKET if operation.COARSE else Sample.REST
 
 
 class LineSample(QWidget):

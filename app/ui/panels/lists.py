@@ -7,25 +7,16 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QLabel, QMenu
 
 from ...model.job import Job
-from ...model.operation import OPERATION_KINDS, ContourOperation, DrillOperation, Operation, RestOperation
+from ...model.operation import OPERATION_KINDS, Operation
 from ...model.tool import Tool
 from ..framework.figures import TIMES, clock, grouped
 from ..framework.icons import IconButton, IconLabel
 from ..framework.labels import Elided, muted
-from ..framework.samples import LineSample, Sample, Switch
+from ..framework.samples import LineSample, Switch, sample_of
 from ..framework.section import Row, Section, theme_children
 from ..framework.theme import Theme
 from .changes import Subject, SubjectKind, operation_name, refusal
 from .tool_kinds import KINDS, icon_of
-
-
-def sample_of(operation: Operation) -> Sample:
-    """Return the line that an operation's paths are drawn with."""
-    if isinstance(operation, DrillOperation):
-        return Sample.PLUNGE
-    if isinstance(operation, RestOperation):
-        return Sample.REST
-    return Sample.CONTOUR if isinstance(operation, ContourOperation) else Sample.POCKET
 
 
 def _bold(text: str) -> QLabel:

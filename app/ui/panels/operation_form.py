@@ -55,9 +55,9 @@ class OperationForm(Form):
         self._add_main()
         self.hand: QPushButton
         self.groups: list[OperationGroup] = []
-        for title in dict.fromkeys(placed.parameter.group for placed, _ in parameters().values()):
-            if title:
-                self.groups.append(OperationGroup(self, title, EXTRAS.get(title, nothing_beside)))
+        titles = {placed.parameter.group for placed, _ in parameters().values()} - {""}
+        for title in (*(title for title in EXTRAS if title in titles), *sorted(titles - EXTRAS.keys())):
+            self.groups.append(OperationGroup(self, title, EXTRAS.get(title, nothing_beside)))
 
     @property
     def index(self) -> int:

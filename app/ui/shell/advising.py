@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from ...core.progress import Progress
 from ...drafting.document import Change
 from ...model.job import Job
-from ...model.operation import ContourOperation, Operation, PocketOperation, RestOperation
+from ...model.operation import Operation
 from ...model.tool import Tool, ToolKind
 from ..framework.worker import Answer, Worker
 from ..panels.changes import with_library_tool
@@ -38,15 +39,15 @@ def advice_of(job: Job, progress: Progress) -> Advice:
     return advise(regions_of(job)[0], tools, plan, progress)
 
 
-def with_tool_for(job: Job, tool: Tool, kinds: tuple[type[Operation], ...]) -> Job:
-    """Return the job with a tool for all operations of some kinds: one of its own that is as wide, else a new one."""
+def with_tool_for(job: Job, tool: Tool, concerned: Callable[[Operation], bool]) -> Job:
+    """Return the job with a tool for some operations: one of its own that is as wide, else a new one."""
     own = next((each for each in job.tools if each.kind is ToolKind.FLAT and each.diameter == tool.diameter), None)
     if own is None:
-        like = next((job.tool(each.cut.tool) for each in job.operations if isinstance(each, kinds)), tool)
+        like = next((job.tool(each.cut.tool) for each in job.operations if concerned(each)), tool)
         job, number = with_library_tool(job, replace(like, diameter=tool.diameter, name="", kind=ToolKind.FLAT, feeds=()))
     else:
         number = own.number
-    operations = tuple(replace(each, cut=replace(each.cut, tool=number)) if isinstance(each, kinds) else each for each in job.operations)
+    operations = tuple(replace(each, cut=replace(each.cut, tool=number)) if concerned(each) else each for each in job.operations)
     used = {each.cut.tool for each in operations}
     before = {each.cut.tool for each in job.operations}
     return replace(job, operations=operations, tools=tuple(each for each in job.tools if each.number in used or each.number not in before))
@@ -75,8 +76,8 @@ class Advising(QObject):
         window.status.cancelled.connect(self.worker.cancel)
         window.closed.connect(self.worker.finish)
         self._panel.advice_shown.connect(self._refresh)
-        sheet.for_pocket.connect(lambda tool: self._use(tool, (PocketOperation,), "Tool for pockets"))
-        sheet.for_contour.connect(lambda tool: self._use(tool, (ContourOperation, RestOperation), "Tool for contours"))
+        sheet.for_pocket.connect(lambda tool: self._use(tool, lambda each: each.COARSE, "Tool for pockets"))
+        sheet.for_contour.connect(lambda tool: self._use(tool, lambda each: not each.COARSE and not each.DRILLS, "Tool for contours"))
         sheet.place_wanted.connect(lambda x, y: window.canvas.go_to(x, y, closely=True))
         self._unsubscribe = self._document.subscribe(self._on_change)
 
@@ -106,5 +107,5 @@ class Advising(QObject):
     def _on_failed(self, answer: Answer) -> None:
         self._panel.advice.show_advice(None, answer.error or "")
 
-    def _use(self, tool: Tool, kinds: tuple[type[Operation], ...], name: str) -> None:
-        self._panel.change(name, lambda job: with_tool_for(job, tool, kinds))
+    def _use(self, tool: Tool, concerned: Callable[[Operation], bool], name: str) -> None:
+        self._panel.change(name, lambda job: with_tool_for(job, tool, concerned))

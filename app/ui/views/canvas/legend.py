@@ -7,11 +7,11 @@ from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from ....model.job import Job
-from ....model.operation import ContourOperation, Operation, PocketOperation, RestOperation
+from ....model.operation import Operation
 from ...framework.fields import ChoiceField
 from ...framework.icons import IconButton
 from ...framework.labels import muted
-from ...framework.samples import LineSample, Sample
+from ...framework.samples import LineSample, Sample, sample_of
 from ...framework.section import hairline, heading
 from ...framework.theme import LIGHT, Theme
 from .engaged import STEPS, colours
@@ -181,9 +181,9 @@ class Legend(QFrame):
 
     def show_job(self, job: Job) -> None:
         """Name the tools of the paths, and have entries for rest machining and keep-out areas only when there are any."""
-        for sample, kind in ((Sample.POCKET, PocketOperation), (Sample.REST, RestOperation), (Sample.CONTOUR, ContourOperation)):
-            self.rows[sample].label.setText(f"{sample.value} {_tools(job.operations, kind)}".strip())
-        self.rows[Sample.REST].setVisible(bool(_tools(job.operations, RestOperation)))
+        for sample in (Sample.POCKET, Sample.REST, Sample.CONTOUR):
+            self.rows[sample].label.setText(f"{sample.value} {_tools(job.operations, sample)}".strip())
+        self.rows[Sample.REST].setVisible(bool(_tools(job.operations, Sample.REST)))
         self.rows[Sample.CLAMP].setVisible(bool(job.keep_out_layers))
         self._fit()
 
@@ -198,6 +198,6 @@ class Legend(QFrame):
         QPainter(self).fillRect(self.rect(), ground)
 
 
-def _tools(operations: tuple[Operation, ...], kind: type) -> str:
-    numbers = dict.fromkeys(op.cut.tool for op in operations if isinstance(op, kind) and op.cut.enabled)
+def _tools(operations: tuple[Operation, ...], sample: Sample) -> str:
+    numbers = dict.fromkeys(op.cut.tool for op in operations if sample_of(op) is sample and op.cut.enabled)
     return " ".join(f"T{number}" for number in numbers)
