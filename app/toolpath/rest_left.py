@@ -156,7 +156,7 @@ def _sifted(ground: Ground, reach: Reach, whole: DistanceField, progress: Progre
             waiting += [(centres[first : first + most], half) for first in reversed(range(0, len(centres), most))]
             continue
         progress.step(0.0, "Looking for what is left")
-        kept = _sieved(ground, reach, whole, (centres, half))
+        kept = _sieved(ground, reach, whole, centres, half)
         if half <= last:
             found += len(kept)
             reach.ask_memory(CELL_BYTES * found)
@@ -167,9 +167,14 @@ def _sifted(ground: Ground, reach: Reach, whole: DistanceField, progress: Progre
             waiting.append(((kept[:, None, :2] + around).reshape(-1, 2), half))
 
 
-def _sieved(ground: Ground, reach: Reach, whole: DistanceField, squares: tuple[Floats, float]) -> Floats:
-    """Return the squares (centres (n, 2), half side) that may hold metal that is left: their centres, and how far from the walls."""
-    centres, half = squares
+def _sieved(ground: Ground, reach: Reach, whole: DistanceField, centres: Floats, half: float) -> Floats:
+    """Return the squares that may hold metal that is left: their centres (m, 2), and how far from the walls.
+
+    Args:
+        ground, reach: what is left, and where the cutter's centre may be.
+        whole: edges of the area.
+        centres, half: (n, 2) of the squares, and half their side, mm.
+    """
     q = half * math.sqrt(2)
     centres = centres[~ground.holds(centres, q)]
     walls = reach.sheet.distances.nearest(centres)[0]

@@ -160,7 +160,7 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: 
     skins: list[Place] = []
     for k, (each, deeper) in enumerate(zip(found, inner, strict=True)):
         share = progress.part(k / len(found), (k + 1) / len(found))
-        metal = _left(each.wanted, program.moves, (job, each.depth - miss), share.part(0.0, 0.6))
+        metal = _left(each.wanted, _paths(program.moves, job, each.depth - miss), share.part(0.0, 0.6))
         if program.allowance_mm:
             skin = _skin(metal, each, deeper.reach, program.allowance_mm)
             metal = _solid(without(metal, skin))
@@ -214,9 +214,8 @@ def _paths(moves: Moves, job: Job, depth: float, of: NDArray[np.bool_] | None = 
     return [_Path.of(np.flatnonzero(chosen & (moves.tool == number)), moves, job.tool(number).radius) for number in numbers]
 
 
-def _left(wanted: Shape, moves: Moves, where: tuple[Job, float], progress: Progress) -> Shape:
-    """Return what of a wanted area no move has cut that is as deep as the floor, or deeper."""
-    paths = _paths(moves, *where)
+def _left(wanted: Shape, paths: list[_Path], progress: Progress) -> Shape:
+    """Return what of a wanted area is not cut by paths as deep as its floor, or deeper."""
     tiles = uncertain(wanted, [(path.rows, path.radius) for path in paths], progress.part(0.0, 0.5))
     left, done = [], 0
     for part in _Doubt(wanted, tiles, shapely.bounds(tiles), paths).parts():

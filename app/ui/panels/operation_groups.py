@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -129,8 +130,8 @@ def _entry(form: GroupHost) -> Show:
     form.add_picture(picture, muted("What does not fit falls back, and is told."))
 
     def show(shown: Shown) -> None:
-        angle = parameters()["entry_angle"][0]
-        picture.show_values(list(EntryKind).index(shown.operation.cut.entry.kind), angle.parameter.shown(angle.of(shown.operation)))
+        entry = shown.operation.cut.entry
+        picture.show_values(list(EntryKind).index(entry.kind), math.degrees(entry.angle))
 
     return show
 
